@@ -1,5 +1,7 @@
 # Flags that every target of ours shares, and sgm_module(): one CMake target a folder.
 
+set(SGM_RUNTIME ${CMAKE_CURRENT_LIST_DIR})
+
 set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
   # g++ 12 sees overlaps (GCC bug 105651) and null pointers in its own std::string and std::vector, once inlined.
@@ -25,25 +27,56 @@ function(sgm_target_flags target)
   endif()
 endfunction()
 
-# sgm_module(NAME [AS path] [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours
-# include ...]) makes the static library sgm_NAME from the caller's folder. Headers are included as "NAME/file.h", or
-# "path/file.h". BATCH: so many files are one unit of a unity build, where most of a unit's time goes to headers that they
-# share; names in their unnamed namespaces differ then. mesh does without: more functions in a unit change what is inlined.
-function(sgm_module name)
-  cmake_parse_arguments(ARG "" "AS;BATCH" "SOURCES;LINK;PUBLIC" ${ARGN})
-  if(NOT ARG_AS)
-    set(ARG_AS ${name})
+# sgm_source_properties(FILES... PROPERTIES ...): set_source_files_properties, but a file that is not there is an error: the
+# property would be set for nothing.
+function(sgm_source_properties)
+  cmake_parse_arguments(ARG "" "" "PROPERTIES" ${ARGN})
+  foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
+    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+      message(FATAL_ERROR "sgm_source_properties: ${CMAKE_CURRENT_SOURCE_DIR} has no ${file}")
+    endif()
+    set_property(SOURCE ${file} DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} APPEND PROPERTY ${ARG_PROPERTIES})
+  endforeach()
+endfunction()
+
+# sgm_include_root(TARGET): what includes the caller's folder by its path below runtime/ (the folder cuda by its name).
+# Folders in it with a CMakeLists.txt are modules of their own, and stay out of sight.
+function(sgm_include_root target)
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${SGM_RUNTIME} OUTPUT_VARIABLE path)
+  if(path MATCHES "^\\.\\./")
+    cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME path)
   endif()
+  set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include_root)
+  file(GLOB modules ${CMAKE_CURRENT_SOURCE_DIR}/*/CMakeLists.txt)
+  if(modules)
+    file(MAKE_DIRECTORY ${include_root}/${path})
+    file(GLOB entries CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_CURRENT_SOURCE_DIR}/*)
+    foreach(entry IN LISTS entries)
+      cmake_path(GET entry FILENAME name)
+      if(NOT EXISTS ${entry}/CMakeLists.txt AND (IS_DIRECTORY ${entry} OR name MATCHES "\\.(h|inl|def|inc)$"))
+        file(CREATE_LINK ${entry} ${include_root}/${path}/${name} SYMBOLIC)
+      endif()
+    endforeach()
+  else()
+    cmake_path(GET path PARENT_PATH parent)
+    file(MAKE_DIRECTORY ${include_root}/${parent})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/${path} SYMBOLIC)
+  endif()
+  target_include_directories(${target} PUBLIC ${include_root})
+endfunction()
+
+# sgm_module(NAME [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include ...])
+# makes the static library sgm_NAME from the caller's folder. Headers are included by their path below runtime/. A folder
+# sees its own headers and those of the modules it names, nothing else. BATCH: so many files are one unit of a unity
+# build, where most of a unit's time goes to headers that they share; names in their unnamed namespaces differ then. mesh
+# does without: more functions in a unit change what is inlined.
+function(sgm_module name)
+  cmake_parse_arguments(ARG "" "BATCH" "SOURCES;LINK;PUBLIC" ${ARGN})
   add_library(sgm_${name} STATIC ${ARG_SOURCES})
   if(ARG_BATCH)
     set_target_properties(sgm_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARG_BATCH})
   endif()
-  # A folder sees its own headers and those of the modules it names, nothing else.
-  set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include_root)
-  cmake_path(GET ARG_AS PARENT_PATH parent)
-  file(MAKE_DIRECTORY ${include_root}/${parent})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/${ARG_AS} SYMBOLIC)
-  target_include_directories(sgm_${name} PUBLIC ${include_root})
+  sgm_include_root(sgm_${name})
   target_link_libraries(sgm_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_LINK})
   sgm_target_flags(sgm_${name})
 endfunction()

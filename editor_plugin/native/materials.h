@@ -1,9 +1,9 @@
 #pragma once
 // The materials that a world's surfaces are drawn with. Main thread.
 
-#include "materials/material.h"
 #include "morph_ranges.h"
 #include "settings.h"
+#include "tools/materials/material.h"
 
 namespace sgm_godot {
 

@@ -1,11 +1,11 @@
 #pragma once
 // How materials look that a game has given no material of its own: as in the table that the sgm command draws from
-// (runtime/materials).
+// (runtime/tools/materials).
 
 #include <string_view>
 
 #include "godot/variant.h"
-#include "materials/material.h"
+#include "tools/materials/material.h"
 
 namespace sgm_godot {
 

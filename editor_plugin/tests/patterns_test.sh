@@ -13,7 +13,7 @@ make() { cmake -DSHADERS="$1" -DOUTPUT="$work/out" -P "$root/editor_plugin/patte
 
 make "$root/shaders" || wrong "the patterns are not made: $(cat "$work/log")"
 # Each pattern of the enum has its place.
-count=$(sed -n '/^enum class SurfacePattern/,/^};/p' "$root/runtime/materials/material.h" | grep -cE '^  [a-z_]+,')
+count=$(sed -n '/^enum class SurfacePattern/,/^};/p' "$root/runtime/tools/materials/material.h" | grep -cE '^  [a-z_]+,')
 ((count > 20)) || wrong "only $count patterns are found in material.h"
 for ((i = 0; i < count; ++i)); do
   grep -q "defined(SGM_PATTERN_$i)$" "$out" || wrong "pattern $i is not there"

@@ -6,6 +6,7 @@
 #include "api/backend_request.h"
 #include "api/barrier.h"
 #include "api/runtime.h"
+#include "backend/open/open_backend.h"
 
 namespace sgm::api {
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "backend/backend.h"
+#include "backend/open/open_backend.h"
 #include "sgm/sgm.h"
 
 namespace sgm::api {

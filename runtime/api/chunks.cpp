@@ -6,8 +6,8 @@
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/mesh.h"
-#include "stream/chunk_surface.h"
-#include "stream/surface_shapes.h"
+#include "chunk/chunk_surface.h"
+#include "chunk/surface_shapes.h"
 
 using namespace sgm::api;
 

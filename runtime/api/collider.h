@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "api/runtime.h"
-#include "stream/collider.h"
+#include "stream/make/collider.h"
 
 struct sgm_collider {
   sgm_collider(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Collider> collider_in)

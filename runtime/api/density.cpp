@@ -1,4 +1,4 @@
-#include "stream/density_grid.h"
+#include "query/density_grid.h"
 
 #include "api/barrier.h"
 #include "api/field.h"

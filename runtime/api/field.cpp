@@ -5,7 +5,8 @@
 #include "api/backend_request.h"
 #include "api/barrier.h"
 #include "api/host_field.h"
-#include "stream/mesh_chunks.h"
+#include "backend/open/open_backend.h"
+#include "chunk/mesh_chunks.h"
 
 using namespace sgm::api;
 

@@ -6,7 +6,7 @@
 #include "api/grammar.h"
 #include "api/runtime.h"
 #include "backend/backend.h"
-#include "stream/world_field.h"
+#include "world/world_field.h"
 
 namespace sgm::api {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "field/host_field.h"
-#include "grammar/program.h"
+#include "grammar/syntax/program.h"
 #include "sgm/sgm.h"
 
 namespace sgm::api {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "api/runtime.h"
-#include "stream/chunk_surface.h"
+#include "chunk/chunk_surface.h"
 
 struct sgm_mesh {
   sgm_mesh(sgm_runtime& runtime_in, std::shared_ptr<const sgm::ChunkSurface> surface_in);

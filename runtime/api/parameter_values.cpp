@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <string>
 
-#include "grammar/lexer.h"
-#include "grammar/sink.h"
+#include "grammar/syntax/lexer.h"
+#include "grammar/text/sink.h"
 
 namespace sgm::api {
 

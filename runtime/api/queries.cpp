@@ -1,4 +1,4 @@
-#include "stream/queries.h"
+#include "query/queries.h"
 
 #include "api/barrier.h"
 #include "api/field.h"

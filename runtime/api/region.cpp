@@ -2,18 +2,18 @@
 
 #include "api/barrier.h"
 #include "api/field.h"
-#include "api/region_mesh.h"
-#include "api/region_texture.h"
 #include "api/surface.h"
+#include "chunk/surface_shapes.h"
 #include "mesh/split_creases.h"
 #include "mesh/vertex.h"
-#include "stream/surface_shapes.h"
+#include "region/region_mesh.h"
+#include "region/region_texture.h"
 
 using namespace sgm::api;
 
 namespace {
 
-void fillSurface(const RegionMesh& region, sgm_surface& surface) {
+void fillSurface(const sgm::RegionMesh& region, sgm_surface& surface) {
   const sgm::WorldMesh& mesh = region.mesh;
   const size_t count = mesh.positions.size();
   surface.positions.allocate(3 * count);
@@ -63,9 +63,9 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       };
     const bool sharp = (desc->flags & SGM_MESHING_SHARP) != 0;
     const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kRegion);
-    sgm::Result<RegionMesh> region =
-        meshRegion(field->content->world, *field->content->backend, *field->runtime.jobs, box, desc->level,
-                   desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, sharp, progress);
+    sgm::Result<sgm::RegionMesh> region =
+        sgm::meshRegion(field->content->world, *field->content->backend, *field->runtime.jobs, box, desc->level,
+                        desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, sharp, progress);
     if (!region) return fail(error, region.error());
     if (sharp) region->mesh = sgm::splitCreases(region->mesh, field->content->world.memory());
     struct End {
@@ -80,9 +80,9 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     surface->hash = region->hash.value();
     fillSurface(*region, *surface);
     if ((desc->flags & SGM_MESHING_TEXTURE) != 0) {
-      sgm::Result<TexturedRegion> textured =
-          unwrapRegion(field->content->world, *field->runtime.jobs, region->mesh,
-                       chunksOfLevel(field->content->world, desc->level), sgm::kTile);
+      sgm::Result<sgm::TexturedRegion> textured =
+          sgm::unwrapRegion(field->content->world, *field->runtime.jobs, region->mesh,
+                            sgm::chunksOfLevel(field->content->world, desc->level), sgm::kTile);
       if (!textured) return fail(error, textured.error());
       surface->texture = std::move(textured->unwrapped);
     }

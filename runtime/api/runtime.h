@@ -18,7 +18,11 @@
 #include "base/jobs.h"
 #include "base/profile.h"
 #include "sgm/sgm.h"
-#include "stream/plan_turns.h"
+#include "stream/plan/plan_turns.h"
+
+namespace sgm::vulkan {
+struct BorrowedDevice;
+}
 
 namespace sgm::api {
 

@@ -3,7 +3,7 @@
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/world.h"
-#include "stream/void_path.h"
+#include "query/void_path.h"
 
 using namespace sgm::api;
 

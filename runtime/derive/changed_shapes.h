@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "derive/shape.h"
-#include "grammar/program.h"
+#include "grammar/syntax/program.h"
 
 namespace sgm {
 

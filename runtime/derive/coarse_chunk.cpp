@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "derive/draft.h"
-#include "grammar/builtins.h"
+#include "grammar/syntax/builtins.h"
 
 namespace sgm {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "derive/shape.h"
-#include "grammar/diagnostics.h"
+#include "grammar/text/diagnostics.h"
 
 namespace sgm {
 

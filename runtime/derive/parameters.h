@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "grammar/program.h"
+#include "grammar/syntax/program.h"
 
 namespace sgm {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "grammar/builtins.h"
+#include "grammar/syntax/builtins.h"
 
 namespace sgm {
 

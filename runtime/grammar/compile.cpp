@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "base/hash.h"
-#include "grammar/check.h"
+#include "grammar/check/check.h"
+#include "grammar/check/warnings.h"
 #include "grammar/check_file.h"
-#include "grammar/codes.h"
-#include "grammar/imports.h"
-#include "grammar/printer.h"
-#include "grammar/warnings.h"
+#include "grammar/parse/imports.h"
+#include "grammar/print/printer.h"
+#include "grammar/text/codes.h"
 
 namespace sgm {
 
@@ -135,32 +135,6 @@ std::string renderDiagnostics(const CompileResult& result) {
     out += renderDiagnostic(diagnostic, source);
   }
   return out;
-}
-
-StmtId Program::innermost(StmtId id) const {
-  for (;;) {
-    const StmtNode& s = stmt(id);
-    if (!placesBody(s.kind)) return id;
-    id = s.body;
-  }
-}
-
-uint32_t Program::findParam(std::string_view name) const {
-  for (uint32_t i = 0; i < params.size(); ++i)
-    if (text(params[i].name) == name) return i;
-  return kNoId;
-}
-
-uint32_t Program::findRule(std::string_view name) const {
-  for (uint32_t i = 0; i < rules.size(); ++i)
-    if (text(rules[i].name) == name) return i;
-  return kNoId;
-}
-
-uint32_t Program::findLayer(std::string_view name) const {
-  for (uint32_t i = 0; i < layers.size(); ++i)
-    if (text(layers[i].name) == name) return i;
-  return kNoId;
 }
 
 }  // namespace sgm

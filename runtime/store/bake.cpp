@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "base/bytes.h"
-#include "stream/mesh_chunks.h"
-#include "stream/reachability.h"
+#include "chunk/mesh_chunks.h"
 
 namespace sgm::store {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "base/file_writer.h"
+#include "chunk/world_measures.h"
 #include "store/folder.h"
-#include "stream/world_measures.h"
 
 namespace sgm::store {
 

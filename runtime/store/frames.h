@@ -12,7 +12,7 @@
 
 #include "base/bytes.h"
 #include "base/result.h"
-#include "stream/disk_cache.h"
+#include "store/cache/disk_cache.h"
 
 namespace sgm::store {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/bytes.h"
+#include "chunk/mesh_chunks.h"
 #include "field/prune.h"
-#include "stream/mesh_chunks.h"
 
 namespace sgm::store {
 namespace {

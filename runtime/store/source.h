@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "store/cache/baked_parts.h"
 #include "store/store_files.h"
-#include "stream/baked_parts.h"
 
 namespace sgm::store {
 

@@ -9,7 +9,7 @@
 
 #include "base/bytes.h"
 #include "base/result.h"
-#include "stream/chunk_key.h"
+#include "world/chunk_key.h"
 
 namespace sgm::store {
 

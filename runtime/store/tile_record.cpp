@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/bytes.h"
-#include "stream/disk_entry.h"
+#include "store/cache/disk_entry.h"
 
 namespace sgm::store {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 // What a store knows of a tile: where each part of its chunks lies, and what was measured.
 
+#include "chunk/chunk_part.h"
 #include "measure/chunk_measures.h"
 #include "store/frames.h"
 #include "store/tile.h"
-#include "stream/chunk_part.h"
 
 namespace sgm::store {
 

@@ -7,8 +7,8 @@
 
 #include "base/hash.h"
 #include "base/plain_text.h"
+#include "chunk/chunk_codec.h"
 #include "store/closure.h"
-#include "stream/chunk_codec.h"
 
 namespace sgm::store {
 namespace fs = std::filesystem;

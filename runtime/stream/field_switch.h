@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "base/jobs.h"
-#include "stream/drawn_frame.h"
-#include "stream/field_change.h"
-#include "stream/world_edits.h"
+#include "stream/edits/field_change.h"
+#include "stream/edits/world_edits.h"
+#include "stream/plan/drawn_frame.h"
 
 namespace sgm {
 

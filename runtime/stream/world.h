@@ -17,19 +17,19 @@
 #include <vector>
 
 #include "backend/backend.h"
-#include "stream/baked_parts.h"
+#include "chunk/world_measures.h"
+#include "query/queries.h"
+#include "store/cache/baked_parts.h"
+#include "store/cache/disk_cache.h"
 #include "stream/byte_credit.h"
-#include "stream/collider.h"
-#include "stream/disk_cache.h"
+#include "stream/edits/world_edits.h"
 #include "stream/field_switch.h"
-#include "stream/plan_turns.h"
-#include "stream/planner.h"
-#include "stream/queries.h"
-#include "stream/world_edits.h"
-#include "stream/world_field.h"
-#include "stream/world_measures.h"
+#include "stream/make/collider.h"
+#include "stream/plan/plan_turns.h"
+#include "stream/plan/planner.h"
 #include "stream/world_settings.h"
 #include "stream/world_times.h"
+#include "world/world_field.h"
 
 namespace sgm {
 

@@ -16,18 +16,18 @@
 #include <vector>
 
 #include "backend/backend.h"
-#include "stream/chunk_cache.h"
-#include "stream/collider.h"
+#include "chunk/world_measures.h"
+#include "stream/edits/world_edits.h"
 #include "stream/field_switch.h"
-#include "stream/plan_turns.h"
-#include "stream/planner.h"
-#include "stream/surface_pool.h"
-#include "stream/work_queue.h"
-#include "stream/world_edits.h"
-#include "stream/world_field.h"
-#include "stream/world_measures.h"
+#include "stream/make/chunk_cache.h"
+#include "stream/make/collider.h"
+#include "stream/make/surface_pool.h"
+#include "stream/plan/plan_turns.h"
+#include "stream/plan/planner.h"
+#include "stream/plan/work_queue.h"
 #include "stream/world_settings.h"
 #include "stream/world_times.h"
+#include "world/world_field.h"
 
 namespace sgm {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/share_priority.h"
-#include "stream/surface_shapes.h"
+#include "chunk/surface_shapes.h"
 #include "stream/world_core.h"
 
 namespace sgm {

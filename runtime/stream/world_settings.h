@@ -8,10 +8,10 @@
 #include <memory>
 #include <string>
 
-#include "stream/baked_parts.h"
-#include "stream/edit_journal.h"
-#include "stream/edits.h"
-#include "stream/lod_target.h"
+#include "store/cache/baked_parts.h"
+#include "stream/edits/edit_journal.h"
+#include "stream/plan/lod_target.h"
+#include "world/edits.h"
 
 namespace sgm {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "stream/chunk_key.h"
+#include "world/chunk_key.h"
 
 namespace sgm {
 

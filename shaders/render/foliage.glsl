@@ -1,4 +1,4 @@
-// What the drawing of blades and leaves is told: runtime/cli/render/foliage.h lays it out.
+// What the drawing of blades and leaves is told: runtime/tools/render/foliage.h lays it out.
 layout(push_constant) uniform Foliage {
   mat4 view_projection;
   vec4 eye;     // metres from the scene's origin; w: a sample's width at distance 1

@@ -7,7 +7,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
-layout(location = 3) in vec2 grown;  // as Foliage::ground tells, runtime/cli/render/foliage.h
+layout(location = 3) in vec2 grown;  // as Foliage::ground tells, runtime/tools/render/foliage.h
 layout(location = 4) in uint second;
 layout(location = 5) in float share;
 layout(location = 0) out vec3 out_position;

@@ -1,4 +1,4 @@
-// What the shading pass knows. Laid out as Frame in runtime/cli/render/frame.h.
+// What the shading pass knows. Laid out as Frame in runtime/tools/render/frame.h.
 const uint kMaxLamps = 8u;  // the headlamp first
 
 layout(std140, binding = 3) uniform Frame {
@@ -23,6 +23,6 @@ bool isBare() { return frame.land.z > 0.5; }
 
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits
 layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
-layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/cli/render/lens.h
+layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/tools/render/lens.h
 layout(binding = 0) uniform sampler2D position_plane;
 layout(binding = 1) uniform sampler2D normal_plane;

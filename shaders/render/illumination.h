@@ -1,5 +1,5 @@
 // Light that the sky, the sun and lamps send, in the subset of GLSL that C++ reads too: shaders light what is seen, and
-// runtime/cli/render/light_tracer.cpp what light reaches it by way of other surfaces.
+// runtime/tools/render/light_tracer.cpp what light reaches it by way of other surfaces.
 
 // Light from the sky in a direction, without the sun's disc: deep blue overhead, paler through more air, and nearly
 // white where the haze of a whole horizon lies; brighter around the sun. Below the horizon lies ground without an end.

@@ -1,4 +1,4 @@
-// What each pattern looks like. Numbers as SurfacePattern has them, runtime/materials/material.h.
+// What each pattern looks like. Numbers as SurfacePattern has them, runtime/tools/materials/material.h.
 #include "render/material/surface.glsl"
 #include "render/material/stone.glsl"
 #include "render/material/masonry.glsl"

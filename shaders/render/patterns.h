@@ -1,5 +1,5 @@
 // The numbers of patterns that shaders ask for by name, in the subset of GLSL that C++ reads too:
-// runtime/cli/render/materials.cpp checks them against SurfacePattern.
+// runtime/tools/render/materials.cpp checks them against SurfacePattern.
 const uint kRock = 0u;
 const uint kBrick = 4u;
 const uint kAshlar = 5u;
@@ -19,7 +19,7 @@ const uint kGlowing = 26u;
 const uint kLying = 27u;
 const uint kLava = 28u;
 const uint kLeaded = 29u;
-// What lies behind a pane of glass: runtime/materials/material.h.
+// What lies behind a pane of glass: runtime/tools/materials/material.h.
 const uint kClearPane = 1u;
 const uint kShopBehind = 2u;
 const uint kOfficeBehind = 3u;

@@ -19,7 +19,7 @@ vec3 toneMap(vec3 c) {
   return mix(film, 1.0 - exp(-1.35 * c), 0.4);
 }
 
-// A pixel as ExposedPixel of runtime/cli/render/lens.h has it.
+// A pixel as ExposedPixel of runtime/tools/render/lens.h has it.
 uvec3 exposedPixel(vec3 film, vec3 light) {
   return uvec3(packHalf2x16(film.rg), packHalf2x16(vec2(film.b, light.r)), packHalf2x16(light.gb));
 }

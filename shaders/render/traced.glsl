@@ -1,4 +1,4 @@
-// Light that rays have found, for the pixels and, softly, for squares of them: runtime/cli/render/light_planes.h. Each
+// Light that rays have found, for the pixels and, softly, for squares of them: runtime/tools/render/light_planes.h. Each
 // sample takes it from neighbours that lie on its own surface.
 struct DirectLight { uvec2 open; uvec2 mirror; };
 struct SoftLight { vec4 light; vec4 lean; vec4 lie; };

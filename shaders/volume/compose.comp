@@ -6,7 +6,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 5) readonly buffer Light { vec4 light[]; };
-layout(std430, binding = 6) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/cli/render/lens.h
+layout(std430, binding = 6) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/tools/render/lens.h
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;

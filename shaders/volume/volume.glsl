@@ -1,6 +1,6 @@
 // A volume of density: where it lies, what it is made of, and how a ray goes through it.
 
-// Laid out as VolumeFrame in runtime/cli/render/volume_pass.cpp. Lengths in metres.
+// Laid out as VolumeFrame in runtime/tools/render/volume_pass.cpp. Lengths in metres.
 layout(std140, binding = 0) uniform Frame {
   vec4 eye;         // w: exposure
   vec4 forward;     // w: distance after which about two thirds of the light is lost to haze

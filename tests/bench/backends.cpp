@@ -9,9 +9,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "backend/open/open_backend.h"
 #include "cave.h"
+#include "chunk/mesh_chunks.h"
 #include "measure.h"
-#include "stream/mesh_chunks.h"
 
 using namespace sgm;
 using bench::must, bench::now;

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "chunk/mesh_chunks.h"
 #include "grammar/compile.h"
-#include "stream/frame.h"
-#include "stream/lod_target.h"
-#include "stream/mesh_chunks.h"
+#include "stream/plan/frame.h"
+#include "stream/plan/lod_target.h"
 
 namespace bench {
 

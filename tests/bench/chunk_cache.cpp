@@ -6,13 +6,14 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "backend/open/open_backend.h"
 #include "base/hash.h"
 #include "cave.h"
+#include "chunk/chunk_codec.h"
+#include "chunk/chunk_surface.h"
 #include "measure.h"
-#include "stream/chunk_cache.h"
-#include "stream/chunk_codec.h"
-#include "stream/chunk_surface.h"
-#include "stream/disk_entry.h"
+#include "store/cache/disk_entry.h"
+#include "stream/make/chunk_cache.h"
 
 using namespace sgm;
 using bench::must, bench::now;

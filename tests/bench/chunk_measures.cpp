@@ -12,10 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "backend/open/open_backend.h"
+#include "chunk/mesh_chunks.h"
 #include "grammar/compile.h"
 #include "measure.h"
 #include "measure/measure_chunk.h"
-#include "stream/mesh_chunks.h"
 
 namespace {
 

@@ -11,8 +11,9 @@
 #include <random>
 #include <string>
 
+#include "backend/open/open_backend.h"
 #include "base/hash.h"
-#include "masters/build.h"
+#include "tools/classify/build.h"
 
 namespace {
 

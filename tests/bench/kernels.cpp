@@ -16,11 +16,11 @@
 
 #include "backend/cpu/mesh_chunk.h"
 #include "cave.h"
+#include "chunk/mesh_chunks.h"
 #include "cuda/driver_device.h"
 #include "cuda/mesher.h"
 #include "float_operations.h"
 #include "measure.h"
-#include "stream/mesh_chunks.h"
 
 using namespace sgm;
 using bench::jobOf, bench::must, bench::now;

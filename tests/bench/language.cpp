@@ -13,7 +13,7 @@
 
 #include "grammar/compile.h"
 #include "measure.h"
-#include "stream/world_field.h"
+#include "world/world_field.h"
 
 namespace {
 

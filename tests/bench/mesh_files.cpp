@@ -17,9 +17,9 @@
 #include <new>
 #include <string>
 
-#include "asset/mesh_file.h"
+#include "asset/read/mesh_file.h"
 #include "measure.h"
-#include "mesh/export.h"
+#include "mesh/export/export.h"
 
 namespace {
 

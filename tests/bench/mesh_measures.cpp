@@ -18,7 +18,7 @@
 #include "measure.h"
 #include "measure/mesh_measures.h"
 #include "measure/weld_points.h"
-#include "mesh/export.h"
+#include "mesh/export/export.h"
 
 namespace {
 

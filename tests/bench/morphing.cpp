@@ -16,7 +16,7 @@
 #include "float_operations.h"
 #include "grammar/compile.h"
 #include "measure.h"
-#include "stream/world_field.h"
+#include "world/world_field.h"
 
 namespace {
 

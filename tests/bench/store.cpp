@@ -11,12 +11,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "backend/open/open_backend.h"
+#include "chunk/chunk_part.h"
 #include "grammar/compile.h"
 #include "measure.h"
 #include "store/merge.h"
 #include "store/source.h"
-#include "stream/chunk_cache.h"
-#include "stream/chunk_part.h"
+#include "stream/make/chunk_cache.h"
 
 namespace {
 

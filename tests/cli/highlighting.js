@@ -66,7 +66,7 @@ function check(holds, what) {
   }
   check(tokens > 5000, `only ${tokens} tokens in the samples`);
 
-  const source = fs.readFileSync(path.join(project, 'runtime/grammar/keywords.cpp'), 'utf8');
+  const source = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/keywords.cpp'), 'utf8');
   for (const word of table(source, 'kKeywords')) {
     const scope = scopeOf(`${word} ;`, word);
     check(/^(keyword|constant\.language)/.test(scope), `the keyword ${word} has the scope ${scope}`);
@@ -76,7 +76,7 @@ function check(holds, what) {
     const scope = scopeOf(`${word} ;`, word);
     check(/^(keyword|support|variable\.language)/.test(scope), `the word ${word} has the scope ${scope}`);
   }
-  const builtins = fs.readFileSync(path.join(project, 'runtime/grammar/builtins.cpp'), 'utf8');
+  const builtins = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/builtins.cpp'), 'utf8');
   for (const [, word] of builtins.matchAll(/\{"(\w+)", (?:Primitive|Builtin)::/g)) {
     const scope = scopeOf(`  ${word}(1m);`, word);
     check(/^support\.function/.test(scope), `${word} has the scope ${scope}`);

@@ -24,8 +24,8 @@ sed -i 's/^  cylinder(1m, 2m);/  cylinder(1m, 3m);/' copy/samples/grammars/READM
 run bash copy/samples/manual.sh changed
 [[ $status == 1 && $out == first ]] || failed 'a changed example is not seen'
 
-words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
-names() { grep -o "{\"[a-z0-9]*\", $1::" "$SOURCE/runtime/grammar/builtins.cpp" | grep -o '"[a-z0-9]*"' | tr -d '"' | sort -u; }
+words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/syntax/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
+names() { grep -o "{\"[a-z0-9]*\", $1::" "$SOURCE/runtime/grammar/syntax/builtins.cpp" | grep -o '"[a-z0-9]*"' | tr -d '"' | sort -u; }
 text=$(sed 's#//.*##' examples/*.sgm)
 for word in $(words kKeywords) $(words kMeasures) $(words kBoxParts) $(names Primitive) $(names Builtin); do
   grep -qw "$word" <<<"$text" || failed "no example has the word $word"
@@ -41,7 +41,7 @@ same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr '
 same shapes "$(section Shapes | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -o '`[a-z]*(' | tr -d '`(')" "$(names Primitive)"
 same functions "$(section Values | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -oE '`(c\.)?[a-z0-9]+\(' | sed 's/[`(]//g; s/^c\.//')" "$(names Builtin)"
 same materials "$(section Rules | tr '\n' ' ' | sed 's/.*know these looks://; s/; each with a tint.*//' | grep -o '`[a-z_]*`' | tr -d '`')" \
-  "$(grep -o '^    {"[a-z_]*", {' "$SOURCE/runtime/materials/material.cpp" | grep -o '[a-z_]*')"
+  "$(grep -o '^    {"[a-z_]*", {' "$SOURCE/runtime/tools/materials/material.cpp" | grep -o '[a-z_]*')"
 # The library's page is what the library says of itself, and all of it.
 bash "$SOURCE/samples/library.sh" | cmp -s - "$SOURCE/samples/grammars/library.md" ||
   failed 'samples/grammars/library.md is of another library: samples/library.sh write'

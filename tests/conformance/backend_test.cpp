@@ -8,10 +8,10 @@
 #include <iostream>
 
 #include "catch.h"
+#include "chunk/mesh_chunks.h"
 #include "compare_meshes.h"
 #include "mesh_jobs.h"
 #include "rounds.h"
-#include "stream/mesh_chunks.h"
 #include "unit/stream/world_support.h"
 
 #include SGM_TEST_MACHINE

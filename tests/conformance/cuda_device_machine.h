@@ -7,6 +7,7 @@
 
 #include "backend/backend.h"
 #include "backend/cpu/cpu_backend.h"
+#include "backend/open/open_backend.h"
 #include "catch.h"
 #include "mesh_jobs.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/result.h"
-#include "render/vulkan_device.h"
-#include "render/vulkan_scope.h"
+#include "tools/render/vulkan_device.h"
+#include "tools/render/vulkan_scope.h"
 
 namespace sgm {
 

@@ -10,6 +10,6 @@ execute_process(COMMAND ${CMAKE_COMMAND} --preset release -B ${BINARY} -D SGM_TO
   WORKING_DIRECTORY ${SOURCE} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${BINARY} --target help OUTPUT_VARIABLE targets COMMAND_ERROR_IS_FATAL ANY)
 if(NOT targets MATCHES "\nsgm_cli: " OR NOT targets MATCHES "\nsgm: "
-    OR targets MATCHES "\n(sgm_service[a-z_]*|sgm_http|sgm_masters|sgm_paper|sgm_preview|sgm_language|minimal_c|test_[a-z]+): ")
+    OR targets MATCHES "\n(sgm_service[a-z_]*|sgm_http|sgm_classify|sgm_paper|sgm_preview|sgm_language|minimal_c|test_[a-z]+): ")
   message(FATAL_ERROR "the core commands and the library alone are not what is built:\n${targets}")
 endif()

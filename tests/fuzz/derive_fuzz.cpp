@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "derive/derive.h"
+#include "derive/interpret/derive.h"
 #include "grammar/compile.h"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "asset/convex_cover.h"
 #include "asset/fit.h"
-#include "asset/glb_reader.h"
+#include "asset/read/glb_reader.h"
 
 using namespace sgm;
 using namespace sgm::asset;

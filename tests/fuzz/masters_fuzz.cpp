@@ -5,7 +5,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "masters/set_json.h"
+#include "tools/classify/set_json.h"
 
 using namespace sgm;
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "asset/mesh_file.h"
+#include "asset/read/mesh_file.h"
 
 using namespace sgm;
 using namespace sgm::asset;

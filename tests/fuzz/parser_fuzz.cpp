@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "grammar/compile.h"
-#include "grammar/declarations.h"
+#include "grammar/help/declarations.h"
 
 namespace {
 
@@ -57,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SameText::require(error == (result.program == nullptr), "a program in spite of errors, or none without");
   sgm::renderDiagnostics(result);
   for (const sgm::DeclaredName& name : sgm::declarationsOf(text).names)
-    SameText::require(name.at.end <= size && name.whole.end <= size && name.known.end <= size, "a name beyond the text");
+    SameText::require(name.at.end <= size && name.whole.end <= size && name.known.end <= size,
+                      "a name beyond the text");
   for (size_t offset = 0; offset <= size; offset += 1 + size / 8)
     if (const auto word = sgm::wordAt(text, static_cast<uint32_t>(offset)))
       SameText::require(word->at.end <= size, "a word beyond the text");

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "chunk/chunk_codec.h"
 #include "store/closure.h"
 #include "store/folder.h"
 #include "store/index.h"
-#include "stream/chunk_codec.h"
 
 using namespace sgm;
 

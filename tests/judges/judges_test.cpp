@@ -7,7 +7,7 @@
 #include "../unit/catch.h"
 #include "../unit/measure/defects.h"
 #include "../unit/rounds.h"
-#include "asset/mesh_file.h"
+#include "asset/read/mesh_file.h"
 #include "measure/hausdorff.h"
 #include "measure/self_intersection.h"
 #include "measure/weld_points.h"
@@ -27,7 +27,8 @@ std::vector<CgalVerdict> cgalOf(JudgedMeshes& meshes) {
   return meshes.judge<CgalVerdict>("'" + setting("SGM_JUDGE_CGAL") + "'");
 }
 std::vector<ManifoldVerdict> manifoldOf(JudgedMeshes& meshes) {
-  return meshes.judge<ManifoldVerdict>("node '" + setting("SGM_JUDGE_MANIFOLD") + "' '" + setting("SGM_NODE_MODULES") + "'");
+  return meshes.judge<ManifoldVerdict>("node '" + setting("SGM_JUDGE_MANIFOLD") + "' '" + setting("SGM_NODE_MODULES") +
+                                       "'");
 }
 
 MeshMeasures measured(const Triangles& mesh) {

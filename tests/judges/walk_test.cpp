@@ -13,8 +13,8 @@
 
 #include "../unit/validity/measured_surface.h"
 #include "backend/cpu/instruction_sets.h"
-#include "metrics/places.h"
 #include "navmesh.h"
+#include "region/places.h"
 
 using namespace sgm;
 using namespace sgm::test;
@@ -202,8 +202,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
       CAPTURE(walk.grammar, seed);
       const auto begun = std::chrono::steady_clock::now();
       const WorldField world(worldOf(program, kCell, seed), std::pmr::get_default_resource());
-      const Result<api::RegionMesh> region =
-          api::meshRegion(world, *shop.backend, *shop.jobs, box, 0, uint64_t{1} << 20, false);
+      const Result<RegionMesh> region = meshRegion(world, *shop.backend, *shop.jobs, box, 0, uint64_t{1} << 20, false);
       REQUIRE(region);
       const Navmesh floor(region->mesh, {}, static_cast<float>(kCell));
 

@@ -14,9 +14,12 @@ complain() {  # complain WHAT MATCHES
   failed=1
 }
 tracked() { git ls-files -co --exclude-standard -- "$@" ':!tests/scripts/style.sh'; }
-search() {  # search PATTERN PATHS...: tracked text files only
-  local pattern=$1
+search() {  # search PATTERN PATHS...: tracked text files only; a path without any is an error, or it would forbid nothing
+  local pattern=$1 path
   shift
+  for path in "$@"; do
+    [[ $path == ':!'* || $path == '*'* || -n $(tracked "$path" | head -n 1) ]] || echo "$path: there is no such file"
+  done
   tracked "$@" | xargs -r -d '\n' grep -nIE -- "$pattern" 2>/dev/null || true
 }
 code=('*.cpp' '*.h' '*.hpp' '*.c' '*.comp' '*.vert' '*.frag' '*.glsl' '*.cu' '*.cuh' '*.inc' '*.def')
@@ -37,7 +40,7 @@ complain "package hosts: packages come by name from the machine's own clients" \
 # The C interface is one header, which is its manual; the built-in masters are numbers that a command has written.
 complain "files over 1,000 lines" \
   "$(tracked "${code[@]}" '*.sh' '*.py' ':!runtime/include/sgm/sgm.h' \
-    ':!runtime/masters/built_in_masters.inc' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
+    ':!runtime/tools/classify/built_in_masters.inc' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
 complain "a test begins from testSeed() (tests/unit/seed.h), which is the same in every run but the long one" \
   "$(search 'random_device' 'tests/**' ':!tests/unit/seed.h')"
 # field/reference.* only judges what the kernels compute.
@@ -45,6 +48,17 @@ complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floo
   "$(search '\bstd::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|pow|cbrt|hypot|fma)f?\(' \
     'runtime/base/*' 'runtime/asset/*' 'runtime/grammar/*' 'runtime/derive/*' 'runtime/field/*' 'runtime/mesh/*' 'runtime/backend/*' \
     ':!runtime/field/reference*')"
+
+# broken_links: links of pages to files of the tree that are not there.
+broken_links() {
+  local page target
+  while IFS= read -r page; do
+    while IFS= read -r target; do
+      [[ $target == *:* || -z ${target%%#*} || -e $(dirname "$page")/${target%%#*} ]] || echo "$page: $target"
+    done < <(grep -oE '\]\([^)[:space:]]+\)' "$page" | sed 's/^](//; s/)$//')
+  done < <(tracked '*.md')
+}
+complain "links to files that are not there" "$(broken_links)"
 
 # The program in the README is the one that is built and run as a sample.
 if [[ -e samples/minimal_c/main.c ]]; then

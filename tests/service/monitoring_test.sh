@@ -26,7 +26,7 @@ checked "what is asked for is there" \
   node "$tests/dashboard.mjs" check metrics "$samples/dashboard.json" "$samples/alerts.yml"
 # Where a device is, its metrics have the names that the dashboard has.
 for name in sgm_gpu_memory_bytes sgm_device_lost_total; do
-  grep -q "\"$name\"" "$SOURCE/runtime/service/metrics_text.cpp" || failed "the service has no $name"
+  grep -q "\"$name\"" "$SOURCE/runtime/tools/service/watch/metrics_text.cpp" || failed "the service has no $name"
 done
 stop_service
 

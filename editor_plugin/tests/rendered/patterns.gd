@@ -2,7 +2,7 @@ extends SceneTree
 ## Every pattern of the plugin's shaders, all in one world: they compile at once, each is drawn, and each in its own way.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## A material for each SurfacePattern, in its order (runtime/materials/material.h).
+## A material for each SurfacePattern, in its order (runtime/tools/materials/material.h).
 const NAMES := ["rock", "granite", "marble", "flowstone", "brick", "ashlar", "rubble", "paving", "cobble", "roof_tile",
 		"slate", "plaster", "concrete", "wood", "iron", "asphalt", "glass", "sand", "gravel", "grass", "leaf", "bark",
 		"moss", "water", "cloud", "boards", "glow", "joist",

@@ -131,7 +131,7 @@ Surface asphalt(Spot at) {
   return s;
 }
 
-// The colour of glass in the table of materials (runtime/materials/material.cpp).
+// The colour of glass in the table of materials (runtime/tools/materials/material.cpp).
 const vec3 kClearGlass = vec3(0.22, 0.30, 0.33);
 
 // What a ray meets in a room behind a pane: the room is drawn without its shapes being there (van Dongen, "Interior

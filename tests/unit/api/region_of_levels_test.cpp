@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "api/region_mesh.h"
-#include "api/region_texture.h"
+#include "backend/open/open_backend.h"
+#include "chunk/surface_shapes.h"
 #include "mesh/check.h"
 #include "mesh/chunk.h"
-#include "stream/surface_shapes.h"
-#include "stream/view_target.h"
+#include "region/region_mesh.h"
+#include "region/region_texture.h"
+#include "stream/plan/view_target.h"
 #include "stream/world_support.h"
 
 using namespace sgm;
@@ -58,7 +59,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     view.cell_angle = 0.012 + 0.003 * round;
     const Octree tree = viewTarget(view, hall, kTop, world.cellAt(0));
     const bool sharp = round % 2 == 1;
-    Result<api::RegionMesh> region = api::meshRegion(world, **backend, *jobs, hall, tree, 100'000, sharp);
+    Result<RegionMesh> region = meshRegion(world, **backend, *jobs, hall, tree, 100'000, sharp);
     REQUIRE(region);
     REQUIRE(region->mesh.indices.size() > 3000);
     CHECK(holesIn(region->mesh, region->extent) == 0);
@@ -68,7 +69,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
 
     // Each vertex has the materials of its own level: those that the chunk alone would have.
     std::vector<bool> levels(kTop + 1);
-    const Result<api::TexturedRegion> textured = api::unwrapRegion(
+    const Result<TexturedRegion> textured = unwrapRegion(
         world, *jobs, region->mesh,
         [&](Int3 place) {
           const ChunkKey leaf = tree.leafAt(place);
@@ -80,7 +81,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     CHECK(textured->unwrapped.corners.size() == region->mesh.indices.size());
     CHECK(std::count(levels.begin(), levels.end(), true) >= 2);
 
-    const Result<api::RegionMesh> few = api::meshRegion(world, **backend, *jobs, hall, tree, region->chunks - 1, sharp);
+    const Result<RegionMesh> few = meshRegion(world, **backend, *jobs, hall, tree, region->chunks - 1, sharp);
     REQUIRE_FALSE(few);
     CHECK(few.error().code == Code::limit);
   }

@@ -1,6 +1,6 @@
 // Polygons become triangles that do not overlap, whatever their shape.
 
-#include "asset/ear_clipping.h"
+#include "asset/read/ear_clipping.h"
 
 #include <algorithm>
 #include <cmath>

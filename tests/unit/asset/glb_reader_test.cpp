@@ -1,6 +1,6 @@
 // GLB files as tools write them, and files that lie about themselves.
 
-#include "asset/glb_reader.h"
+#include "asset/read/glb_reader.h"
 
 #include <cstring>
 #include <random>

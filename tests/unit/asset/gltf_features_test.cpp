@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "asset/glb_reader.h"
+#include "asset/read/glb_reader.h"
 #include "catch.h"
 #include "gltf_builder.h"
 

@@ -1,6 +1,6 @@
 // JSON as it is written, and as it is not.
 
-#include "asset/json_reader.h"
+#include "base/json_reader.h"
 #include "catch.h"
 
 using namespace sgm;

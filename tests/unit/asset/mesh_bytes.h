@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "asset/mesh_file.h"
+#include "asset/read/mesh_file.h"
 #include "catch.h"
 
 namespace sgm::asset {

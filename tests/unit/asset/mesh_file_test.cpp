@@ -1,13 +1,13 @@
 // What we export reads back as it was, in every format, and no damage to it does any harm.
 
-#include "asset/mesh_file.h"
+#include "asset/read/mesh_file.h"
 
 #include <algorithm>
 #include <random>
 
-#include "asset/glb_reader.h"
+#include "asset/read/glb_reader.h"
 #include "catch.h"
-#include "mesh/export.h"
+#include "mesh/export/export.h"
 #include "mesh/vertex.h"
 #include "mesh_bytes.h"
 #include "rounds.h"

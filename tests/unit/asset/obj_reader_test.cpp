@@ -1,6 +1,6 @@
 // OBJ files as tools write them, and files that are wrong.
 
-#include "asset/obj_reader.h"
+#include "asset/read/obj_reader.h"
 
 #include <clocale>
 
@@ -189,7 +189,7 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   CHECK(without.coordinates.empty());
   CHECK(without.notes ==
         NoteTexts{"3 corners of faces name texture coordinates that the file does not have, such as number "
-              "3 at line 5: read without"});
+                  "3 at line 5: read without"});
   const TriangleMesh some = objOf(kSquare + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\nf 1//-2 2//9 3//1\n");
   CHECK(some.coordinatesAt(0, 0) == TextureCoordinates{1, 1});
   CHECK(some.coordinatesAt(0, 1) == TextureCoordinates{});
@@ -197,13 +197,13 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   CHECK(some.normalAt(1, 1) == Normal{});
   CHECK(some.notes ==
         NoteTexts{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
-              "read without",
-              "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
-              "at line 7: read without"});
+                  "read without",
+                  "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
+                  "at line 7: read without"});
   const TriangleMesh never = objOf(kSquare + "vn 0 0 1\nf 1//1 2//0 3//1\n");
   CHECK(never.notes ==
         NoteTexts{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
-              "without"});
+                  "without"});
 }
 
 TEST_CASE("what an OBJ file has beside faces is left out with a note", "[asset][obj]") {

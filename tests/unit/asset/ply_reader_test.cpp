@@ -1,6 +1,6 @@
 // PLY files as tools write them, and files that are wrong.
 
-#include "asset/ply_reader.h"
+#include "asset/read/ply_reader.h"
 
 #include <limits>
 
@@ -202,7 +202,8 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   // Records over several lines, and several on one.
   CHECK(volumeOf(read("0\n0 0\n3 0\n0\n0 3 0\n0 0 3\n3\n0 2 1 7\n3 0 1 3\n7\n3 1 2 3 7\n3 2 0 3 7")) == 4.5);
   CHECK(volumeOf(read("0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7")) == 4.5);
-  CHECK(read(points + faces + "# the end\n").notes == NoteTexts{"text behind its last element is left out, at line 19"});
+  CHECK(read(points + faces + "# the end\n").notes ==
+        NoteTexts{"text behind its last element is left out, at line 19"});
   // Where it cannot be told whose a value is, there is an error.
   CHECK(
       plyRefusal(header + "0 0\n3 0 0\n0 3 0\n0 0 3\n" + faces) ==

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "asset/polygon_cutter.h"
+#include "asset/read/polygon_cutter.h"
 #include "catch.h"
 #include "gltf_builder.h"
 #include "mesh_bytes.h"

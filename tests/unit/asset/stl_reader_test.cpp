@@ -1,6 +1,6 @@
 // STL files as tools write them, and files that are wrong.
 
-#include "asset/stl_reader.h"
+#include "asset/read/stl_reader.h"
 
 #include <limits>
 

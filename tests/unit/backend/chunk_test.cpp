@@ -14,6 +14,7 @@
 #include "backend/backend.h"
 #include "backend/cpu/instruction_sets.h"
 #include "backend/cpu/mesh_chunk.h"
+#include "backend/open/open_backend.h"
 #include "catch.h"
 #include "field/builder.h"
 #include "mesh/body.h"

@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "backend/cpu/cpu_backend.h"
 #include "mesh_jobs.h"
 #include "unit/vulkan/counted_heap.h"
 #include "vulkan_machine.h"

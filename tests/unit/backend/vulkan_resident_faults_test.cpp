@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "backend/cpu/cpu_backend.h"
+#include "backend/open/open_backend.h"
 #include "faulty.h"
 #include "on_device.h"
 #include "rounds.h"

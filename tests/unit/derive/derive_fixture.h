@@ -7,7 +7,7 @@
 
 #include "catch.h"
 #include "derive/chunk_ops.h"
-#include "derive/derive.h"
+#include "derive/interpret/derive.h"
 #include "grammar/compile.h"
 
 namespace sgm {

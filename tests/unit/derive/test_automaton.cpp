@@ -1,4 +1,4 @@
-#include "derive/automaton.h"
+#include "derive/layout/automaton.h"
 
 #include <random>
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/math.h"
-#include "derive/plan.h"
+#include "derive/layout/plan.h"
 #include "derive_fixture.h"
 #include "rounds.h"
 #include "seed.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "catch.h"
-#include "derive/scatter.h"
+#include "derive/layout/scatter.h"
 
 using namespace sgm;
 

@@ -1,6 +1,6 @@
 // Branching skeletons: what the turtle may do, and that no part of a tree depends on how the rest of it grows.
 
-#include "derive/skeleton.h"
+#include "derive/layout/skeleton.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "base/math.h"
 #include "derive/frame.h"
-#include "derive/split_layout.h"
+#include "derive/layout/split_layout.h"
 #include "derive_fixture.h"
 #include "rounds.h"
 #include "seed.h"

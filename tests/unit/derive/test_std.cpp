@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "derive_fixture.h"
-#include "grammar/std_library.h"
+#include "grammar/std/std_library.h"
 
 using namespace sgm;
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "derive/floor_plan.h"
+#include "derive/layout/floor_plan.h"
 #include "derive_fixture.h"
 #include "rounds.h"
 #include "seed.h"

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "catch.h"
-#include "derive/wave_collapse.h"
+#include "derive/layout/wave_collapse.h"
 #include "rounds.h"
 #include "seed.h"
 

@@ -1,6 +1,6 @@
 // Sun or lamp: worlds of which one can say what a photographer would do.
 
-#include "cli/daylight.h"
+#include "tools/flight/daylight.h"
 
 #include <algorithm>
 #include <cmath>

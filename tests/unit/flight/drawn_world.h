@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "cli/frame_checker.h"
 #include "fixture.h"
-#include "stream/frame.h"
+#include "stream/plan/frame.h"
+#include "tools/flight/frame_checker.h"
 
 namespace sgm {
 

@@ -1,6 +1,6 @@
 // Flights keep to the void, go on for ever, and are the same every time.
 
-#include "cli/flight_path.h"
+#include "tools/flight/flight_path.h"
 
 #include <cmath>
 #include <cstdio>

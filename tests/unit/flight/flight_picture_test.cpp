@@ -1,6 +1,6 @@
 // Pictures of drawn chunks: what the camera sees, where it is, in the colours asked for.
 
-#include "cli/flight_picture.h"
+#include "tools/flight/flight_picture.h"
 
 #include <array>
 

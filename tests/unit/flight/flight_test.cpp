@@ -1,6 +1,6 @@
 // Flights through streamed worlds: what they dig and what they report of it.
 
-#include "cli/flight.h"
+#include "tools/flight/flight.h"
 
 #include "drawn_world.h"
 #include "fixture.h"

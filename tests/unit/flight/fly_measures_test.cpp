@@ -1,6 +1,6 @@
 // What `sgm fly --measure` makes of measures.
 
-#include "cli/fly_measures.h"
+#include "tools/flight/fly_measures.h"
 #include "catch.h"
 
 using namespace sgm::cli;

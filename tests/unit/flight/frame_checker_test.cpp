@@ -1,6 +1,6 @@
 // The checker sees what is wrong with a frame, sees nothing wrong with a right one, and loses count of nothing.
 
-#include "cli/frame_checker.h"
+#include "tools/flight/frame_checker.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Ranges of what rules, lets and fields take: what a caller is told, word for word and at its own line.
 
 #include "grammar/check_file.h"
-#include "grammar/declarations.h"
+#include "grammar/help/declarations.h"
 #include "messages.h"
 
 using namespace sgm;
@@ -270,10 +270,9 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
             .starts_with("3:63 argument-range: `karst.Canyon` is given `deep` = 900m, which is not within 0.5m..200m"));
   // What the library makes of a scope.
   const std::string facade = "import \"std/facade.sgm\" as facade;\nrule A { ";
-  CHECK(
-      rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
-      "3:30 argument-range: `facade.Shop` gives `Frame` `w` = 0m here, which is not within 0.1m..20m | give it other "
-      "arguments, or a scope of another size | note: the call is at std/facade.sgm:389:3");
+  CHECK(rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
+        "3:30 argument-range: `facade.Shop` gives `Frame` `w` = 0m here, which is not within 0.1m..20m | give it other "
+        "arguments, or a scope of another size | note: the call is at std/facade.sgm:389:3");
 }
 
 TEST_CASE("a range is printed as it is written, and changes no world", "[grammar][ranges]") {

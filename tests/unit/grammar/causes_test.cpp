@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "grammar/interval.h"
-#include "grammar/reach_values.h"
+#include "grammar/range/interval.h"
+#include "grammar/range/reach_values.h"
 #include "messages.h"
 
 using namespace sgm;

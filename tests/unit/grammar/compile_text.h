@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "grammar/codes.h"
 #include "grammar/compile.h"
+#include "grammar/text/codes.h"
 
 namespace sgm::test {
 

@@ -7,10 +7,10 @@
 
 #include "catch.h"
 #include "compile_text.h"
-#include "grammar/builtins.h"
-#include "grammar/declarations.h"
-#include "grammar/keywords.h"
-#include "grammar/word_help.h"
+#include "grammar/help/declarations.h"
+#include "grammar/help/word_help.h"
+#include "grammar/syntax/builtins.h"
+#include "grammar/syntax/keywords.h"
 #include "rounds.h"
 #include "seed.h"
 

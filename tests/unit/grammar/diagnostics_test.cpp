@@ -413,7 +413,7 @@ TEST_CASE("caps and imports are reported in place", "[grammar][diagnostics]") {
 }
 
 TEST_CASE("no diagnostic code is without a test", "[grammar][diagnostics]") {
-  std::ifstream file(SGM_SOURCE_DIR "/runtime/grammar/codes.h");
+  std::ifstream file(SGM_SOURCE_DIR "/runtime/grammar/text/codes.h");
   std::stringstream text;
   text << file.rdbuf();
   std::string tested;

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "catch.h"
-#include "grammar/keywords.h"
+#include "grammar/syntax/keywords.h"
 
 using namespace sgm;
 

@@ -1,8 +1,8 @@
 // One run tells all that is wrong: what was parsed is checked, whatever else was not, and nothing is told that only
 // follows from what is missing.
 
-#include "grammar/std_library.h"
 #include "grammar/check_file.h"
+#include "grammar/std/std_library.h"
 #include "messages.h"
 
 using namespace sgm;

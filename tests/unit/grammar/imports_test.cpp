@@ -1,8 +1,8 @@
-#include "grammar/imports.h"
+#include "grammar/parse/imports.h"
 
 #include "catch.h"
 #include "compile_text.h"
-#include "grammar/std_library.h"
+#include "grammar/std/std_library.h"
 
 using namespace sgm;
 using namespace sgm::test;

@@ -1,9 +1,9 @@
-#include "grammar/lexer.h"
+#include "grammar/syntax/lexer.h"
 
 #include <memory_resource>
 
 #include "catch.h"
-#include "grammar/keywords.h"
+#include "grammar/syntax/keywords.h"
 
 using namespace sgm;
 

@@ -76,7 +76,7 @@ std::string textOf(const std::filesystem::path& path) {
 
 std::vector<std::filesystem::path> filesIn(const std::string& folder, std::initializer_list<const char*> endings) {
   std::vector<std::filesystem::path> out;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SGM_SOURCE_DIR "/") + folder))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(SGM_SOURCE_DIR "/") + folder))
     if (std::find(endings.begin(), endings.end(), entry.path().extension()) != endings.end())
       out.push_back(entry.path());
   std::sort(out.begin(), out.end());

@@ -2,7 +2,7 @@
 
 #include "catch.h"
 #include "compile_text.h"
-#include "grammar/interval.h"
+#include "grammar/range/interval.h"
 
 using namespace sgm;
 using namespace sgm::test;

@@ -7,7 +7,7 @@
 
 #include "catch.h"
 #include "compile_text.h"
-#include "grammar/std_library.h"
+#include "grammar/std/std_library.h"
 #include "random_program.h"
 
 using namespace sgm;

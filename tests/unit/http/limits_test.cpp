@@ -11,8 +11,8 @@
 #include "catch.h"
 #include "client.h"
 #include "served.h"
-#include "service/http/server.h"
 #include "test_handler.h"
+#include "tools/service/http/server.h"
 
 using namespace sgm;
 using namespace sgm::service::http;

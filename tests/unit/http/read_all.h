@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "service/http/request_reader.h"
+#include "tools/service/http/request_reader.h"
 
 namespace sgm::service::http {
 

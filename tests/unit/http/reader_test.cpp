@@ -8,7 +8,7 @@
 #include "catch.h"
 #include "read_all.h"
 #include "rounds.h"
-#include "service/http/target.h"
+#include "tools/service/http/target.h"
 
 using namespace sgm;
 using namespace sgm::service::http;

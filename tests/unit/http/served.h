@@ -10,8 +10,8 @@
 
 #include "catch.h"
 #include "client.h"
-#include "service/http/server.h"
 #include "test_handler.h"
+#include "tools/service/http/server.h"
 
 namespace sgm::service::http {
 

@@ -1,6 +1,6 @@
 // Servers on loopback sockets.
 
-#include "service/http/server.h"
+#include "tools/service/http/server.h"
 
 #include <chrono>
 #include <csignal>

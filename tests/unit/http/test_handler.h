@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "service/http/handler.h"
+#include "tools/service/http/handler.h"
 
 namespace sgm::service::http {
 

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "catch.h"
-#include "cli/lsp_server.h"
 #include "rounds.h"
 #include "seed.h"
+#include "tools/language/lsp_server.h"
 
 using namespace sgm::cli;
 using Json = nlohmann::json;

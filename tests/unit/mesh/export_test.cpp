@@ -1,6 +1,6 @@
 // Files that are written read back as the same mesh, and failures leave nothing behind.
 
-#include "mesh/export.h"
+#include "mesh/export/export.h"
 
 #include <algorithm>
 #include <bit>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "catch.h"
-#include "cli/paper/chart.h"
 #include "rounds.h"
+#include "tools/paper/chart.h"
 
 using namespace sgm::cli;
 using sgm::rounds;

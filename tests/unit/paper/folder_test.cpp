@@ -12,11 +12,11 @@
 #include <thread>
 
 #include "catch.h"
-#include "cli/ending_signals.h"
-#include "cli/paper/bundle.h"
-#include "cli/paper/folder.h"
 #include "rounds.h"
 #include "temporary_folder.h"
+#include "tools/paper/bundle.h"
+#include "tools/paper/folder.h"
+#include "tools/support/ending_signals.h"
 
 using namespace sgm;
 using namespace sgm::cli;

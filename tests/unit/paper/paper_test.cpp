@@ -5,9 +5,9 @@
 
 #include "backend/cpu/cpu_backend.h"
 #include "catch.h"
-#include "cli/paper/printed.h"
-#include "cli/paper/stage.h"
 #include "rounds.h"
+#include "tools/paper/printed.h"
+#include "tools/paper/stage.h"
 
 using namespace sgm;
 using namespace sgm::cli;

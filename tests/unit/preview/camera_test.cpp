@@ -5,8 +5,8 @@
 #include <random>
 
 #include "catch.h"
-#include "cli/preview/free_camera.h"
 #include "rounds.h"
+#include "tools/preview/free_camera.h"
 
 using namespace sgm;
 using namespace sgm::preview;

@@ -1,6 +1,6 @@
 // Whether files have been saved.
 
-#include "cli/preview/file_watch.h"
+#include "tools/preview/file_watch.h"
 
 #include <chrono>
 

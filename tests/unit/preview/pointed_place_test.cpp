@@ -1,6 +1,6 @@
 // The place that a pointer shows.
 
-#include "cli/preview/pointed_place.h"
+#include "tools/preview/pointed_place.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,11 +1,11 @@
 // Blades of lawns and leaves of crowns.
 
-#include "render/foliage.h"
+#include "tools/render/foliage.h"
 
 #include <algorithm>
 
-#include "render/light_planes.h"
 #include "scenes.h"
+#include "tools/render/light_planes.h"
 
 using namespace sgm;
 

@@ -1,6 +1,6 @@
 // The sky over everything, and the land where the world ends.
 
-#include "render/land.h"
+#include "tools/render/land.h"
 
 #include <algorithm>
 

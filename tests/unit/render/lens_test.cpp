@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "render/lens.h"
+#include "tools/render/lens.h"
 
 using namespace sgm;
 

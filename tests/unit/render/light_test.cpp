@@ -6,8 +6,8 @@
 #include <glm/packing.hpp>
 #include <random>
 
-#include "render/light_filter.h"
 #include "scenes.h"
+#include "tools/render/light_filter.h"
 
 using namespace sgm;
 

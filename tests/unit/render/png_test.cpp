@@ -4,7 +4,7 @@
 #include <random>
 
 #include "catch.h"
-#include "render/image.h"
+#include "tools/render/image.h"
 
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION

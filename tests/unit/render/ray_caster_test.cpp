@@ -1,4 +1,4 @@
-#include "render/ray_caster.h"
+#include "tools/render/ray_caster.h"
 
 #include <random>
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "render/renderer.h"
+#include "tools/render/renderer.h"
 
 namespace sgm {
 

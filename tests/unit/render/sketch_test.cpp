@@ -1,6 +1,6 @@
 // A picture within a fraction of a second.
 
-#include "render/sketch.h"
+#include "tools/render/sketch.h"
 
 #include <atomic>
 

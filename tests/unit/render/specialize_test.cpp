@@ -1,4 +1,4 @@
-#include "render/specialize.h"
+#include "tools/render/specialize.h"
 #include "seed.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Fog drawn by its density, against what is known in closed form.
 
-#include "render/volume.h"
+#include "tools/render/volume.h"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,7 +1,7 @@
 // How places lie to rain and dirt.
 
-#include "render/light_planes.h"
 #include "scenes.h"
+#include "tools/render/light_planes.h"
 
 using namespace sgm;
 

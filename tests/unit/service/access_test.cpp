@@ -1,6 +1,6 @@
 // Who may ask: names of this server, pages of other sites, the token.
 
-#include "service/access.h"
+#include "tools/service/ports/access.h"
 
 #include "../catch.h"
 

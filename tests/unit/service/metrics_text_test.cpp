@@ -1,6 +1,6 @@
 // What Prometheus reads is exactly its format, whatever is told of worlds.
 
-#include "service/metrics_text.h"
+#include "tools/service/watch/metrics_text.h"
 
 #include <unistd.h>
 

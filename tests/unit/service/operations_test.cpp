@@ -1,6 +1,6 @@
 // The port for operators, without a socket.
 
-#include "service/operations.h"
+#include "tools/service/ports/operations.h"
 
 #include <nlohmann/json.hpp>
 

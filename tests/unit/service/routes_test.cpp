@@ -1,6 +1,6 @@
 // Paths and methods lead to their endpoints, or to 404 and 405.
 
-#include "service/routes.h"
+#include "tools/service/ports/routes.h"
 
 #include "../catch.h"
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "catch.h"
-#include "service/service_state.h"
-#include "service/watched_worlds.h"
+#include "tools/service/watch/service_state.h"
+#include "tools/service/watch/watched_worlds.h"
 
 namespace sgm::service {
 

@@ -1,6 +1,6 @@
 // The summary and the map have exactly the members that their description has, whatever is told of worlds.
 
-#include "service/summary_text.h"
+#include "tools/service/watch/summary_text.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,8 +9,8 @@
 
 #include "rounds.h"
 #include "seed.h"
-#include "service/time_quantile.h"
 #include "service_samples.h"
+#include "tools/service/watch/time_quantile.h"
 
 namespace sgm::service {
 namespace {

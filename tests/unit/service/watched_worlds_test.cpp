@@ -1,6 +1,6 @@
 // Worlds that are watched while an engine streams them, and are forgotten while they are looked at.
 
-#include "service/watched_worlds.h"
+#include "tools/service/watch/watched_worlds.h"
 
 #include <algorithm>
 #include <chrono>

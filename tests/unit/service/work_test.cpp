@@ -1,12 +1,12 @@
 // The port for people and programs, without a socket: what is let in, and what is answered.
 
-#include "service/work.h"
+#include "tools/service/ports/work.h"
 
 #include <deque>
 #include <nlohmann/json.hpp>
 
 #include "../catch.h"
-#include "service/request_bodies.h"
+#include "tools/service/judge/request_bodies.h"
 
 namespace sgm::service {
 namespace {

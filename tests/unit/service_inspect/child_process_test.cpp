@@ -1,4 +1,4 @@
-#include "service/child_process.h"
+#include "tools/service/judge/child_process.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>

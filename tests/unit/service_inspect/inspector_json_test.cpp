@@ -1,4 +1,4 @@
-#include "service/inspector_json.h"
+#include "tools/service/judge/inspector_json.h"
 #include "seed.h"
 
 #include <nlohmann/json.hpp>

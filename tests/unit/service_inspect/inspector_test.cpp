@@ -1,4 +1,4 @@
-#include "service/inspector.h"
+#include "tools/service/judge/inspector.h"
 
 #include <unistd.h>
 

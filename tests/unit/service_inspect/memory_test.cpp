@@ -8,8 +8,8 @@
 
 #include "../http/failing_heap.h"
 #include "scripts.h"
-#include "service/inspector.h"
-#include "service/reports.h"
+#include "tools/service/judge/inspector.h"
+#include "tools/service/judge/reports.h"
 
 using namespace sgm;
 using namespace sgm::service;

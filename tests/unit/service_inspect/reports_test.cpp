@@ -1,4 +1,4 @@
-#include "service/reports.h"
+#include "tools/service/judge/reports.h"
 
 #include <algorithm>
 #include <atomic>

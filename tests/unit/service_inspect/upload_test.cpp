@@ -1,4 +1,4 @@
-#include "service/upload.h"
+#include "tools/service/judge/upload.h"
 #include "seed.h"
 
 #include <fcntl.h>

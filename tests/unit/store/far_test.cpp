@@ -6,7 +6,7 @@
 
 #include "rounds.h"
 #include "store_support.h"
-#include "stream/work_queue.h"
+#include "stream/plan/work_queue.h"
 #include "streaming_support.h"
 
 using namespace sgm;

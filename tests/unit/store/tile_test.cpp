@@ -3,10 +3,10 @@
 #include <set>
 
 #include "catch.h"
+#include "chunk/mesh_chunks.h"
 #include "mesh/chunk.h"
 #include "rounds.h"
 #include "store/plan.h"
-#include "stream/mesh_chunks.h"
 
 using namespace sgm;
 

@@ -1,6 +1,6 @@
 // The cache of derived cells: each is derived once, and those that nobody asks for go first.
 
-#include "stream/cell_cache.h"
+#include "world/cell_cache.h"
 #include "seed.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What is kept and is not what was meshed is missed, and made again.
 
+#include "chunk/chunk_codec.h"
 #include "chunk_cache_support.h"
-#include "stream/chunk_codec.h"
 
 using namespace sgm;
 

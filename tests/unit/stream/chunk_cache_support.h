@@ -1,10 +1,11 @@
 #pragma once
 // Chunks of the sample grammars that are meshed, and kept in a cache.
 
+#include "backend/open/open_backend.h"
+#include "chunk/chunk_part.h"
 #include "disk_cache_support.h"
 #include "edits_support.h"
-#include "stream/chunk_cache.h"
-#include "stream/chunk_part.h"
+#include "stream/make/chunk_cache.h"
 #include "world_support.h"
 
 namespace sgm {

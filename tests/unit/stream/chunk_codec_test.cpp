@@ -1,17 +1,17 @@
 // A chunk's bytes give back that chunk, and no bytes give anything that cannot be drawn.
 
-#include "stream/chunk_codec.h"
+#include "chunk/chunk_codec.h"
 
 #include <algorithm>
 #include <cstring>
 #include <random>
 
+#include "chunk/chunk_surface.h"
 #include "mesh/feature_kind.h"
 #include "mesh/hash.h"
 #include "rounds.h"
-#include "stream/chunk_surface.h"
-#include "stream/frame.h"
-#include "stream/lod_target.h"
+#include "stream/plan/frame.h"
+#include "stream/plan/lod_target.h"
 #include "world_support.h"
 
 using namespace sgm;

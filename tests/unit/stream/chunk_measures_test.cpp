@@ -6,6 +6,7 @@
 #include <random>
 
 #include "asset/triangle_mesh.h"
+#include "backend/open/open_backend.h"
 #include "edits_support.h"
 #include "measure/measure_chunk.h"
 #include "measure/mesh_measures.h"

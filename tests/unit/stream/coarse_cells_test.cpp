@@ -5,14 +5,15 @@
 #include <cstring>
 #include <random>
 
+#include "backend/open/open_backend.h"
 #include "catch.h"
-#include "derive/derive.h"
+#include "chunk/mesh_chunks.h"
+#include "derive/interpret/derive.h"
 #include "derive/random_rules.h"
 #include "field/compile.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/layers_below.h"
-#include "stream/mesh_chunks.h"
+#include "world/layers_below.h"
 #include "world_support.h"
 
 using namespace sgm;

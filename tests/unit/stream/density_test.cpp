@@ -6,10 +6,10 @@
 
 #include "backend/cpu/instruction_sets.h"
 #include "field/density.h"
-#include "mesh/export.h"
+#include "mesh/export/export.h"
 #include "mesh/vertex.h"
+#include "query/density_grid.h"
 #include "rounds.h"
-#include "stream/density_grid.h"
 #include "world_support.h"
 
 using namespace sgm;

@@ -1,7 +1,7 @@
 // Without zstd there is no disk cache, and it says so.
 
 #include "catch.h"
-#include "stream/disk_cache.h"
+#include "store/cache/disk_cache.h"
 
 TEST_CASE("a build without a disk cache says so", "[stream][disk]") {
   const auto cache = sgm::DiskCache::open("folder", 1, {});

@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "catch.h"
 #include "rounds.h"
-#include "stream/disk_cache.h"
+#include "store/cache/disk_cache.h"
 
 namespace sgm {
 

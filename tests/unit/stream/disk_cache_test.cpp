@@ -1,6 +1,6 @@
 // The disk cache gives back what was put or nothing, keeps to its limit, and never minds what it finds in its folder.
 
-#include "stream/disk_cache.h"
+#include "store/cache/disk_cache.h"
 
 #include <sys/stat.h>
 
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "disk_cache_support.h"
-#include "stream/disk_entry.h"
+#include "store/cache/disk_entry.h"
 
 using namespace sgm;
 using namespace std::chrono_literals;

@@ -1,6 +1,6 @@
 // A journal of edits loses nothing that was flushed, whatever is cut, flipped, killed or full.
 
-#include "stream/edit_journal.h"
+#include "stream/edits/edit_journal.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "backend/open/open_backend.h"
 #include "catch.h"
 #include "edits_support.h"
 #include "field/prune.h"
 #include "field/reference.h"
 #include "mesh/check.h"
 #include "rounds.h"
-#include "stream/frame.h"
+#include "stream/plan/frame.h"
 #include "world_support.h"
 
 using namespace sgm;

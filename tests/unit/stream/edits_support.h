@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "stream/edits.h"
+#include "world/edits.h"
 
 namespace sgm {
 

@@ -1,6 +1,6 @@
 // Worlds that exchange their edits agree, whatever the order; what shows is found by place; damage changes nothing.
 
-#include "stream/edits.h"
+#include "world/edits.h"
 
 #include <algorithm>
 #include <atomic>

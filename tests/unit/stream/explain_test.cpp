@@ -6,10 +6,10 @@
 
 #include "derive/chunk_ops.h"
 #include "derive/random_rules.h"
+#include "query/explain.h"
+#include "query/queries.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/explain.h"
-#include "stream/queries.h"
 #include "world_support.h"
 
 using namespace sgm;

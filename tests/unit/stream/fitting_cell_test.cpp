@@ -1,6 +1,6 @@
 // The cells that are advised for a region of too many chunks: they fit, and smaller round ones do not.
 
-#include "stream/fitting_cell.h"
+#include "world/fitting_cell.h"
 #include "seed.h"
 
 #include <cmath>

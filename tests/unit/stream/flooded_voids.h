@@ -11,7 +11,7 @@
 
 #include "backend/cpu/instruction_sets.h"
 #include "field/prune.h"
-#include "stream/void_path.h"
+#include "query/void_path.h"
 #include "world_support.h"
 
 namespace sgm {

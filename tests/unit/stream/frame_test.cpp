@@ -6,8 +6,8 @@
 #include "catch.h"
 #include "mesh/check.h"
 #include "rounds.h"
-#include "stream/frame.h"
-#include "stream/lod_target.h"
+#include "stream/plan/frame.h"
+#include "stream/plan/lod_target.h"
 #include "world_support.h"
 
 using namespace sgm;
@@ -95,7 +95,8 @@ TEST_CASE("what viewers want of an endless world is closed, near the origin and 
   for (const int32_t far : {0, 1'500'000 * 1024}) {
     CAPTURE(far);
     // Without the drips, whose small cells a coarse chunk would have by the hundred thousand.
-    const std::string text = replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+    const std::string text =
+        replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
     const WorldField world(settingsOf(text, 256, 3), std::pmr::get_default_resource());
     LodSettings lod;
     lod.top = 6;

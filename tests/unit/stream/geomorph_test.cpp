@@ -5,9 +5,9 @@
 
 #include "backend/cpu/instruction_sets.h"
 #include "catch.h"
+#include "chunk/chunk_surface.h"
+#include "chunk/geomorph.h"
 #include "mesh/vertex.h"
-#include "stream/chunk_surface.h"
-#include "stream/geomorph.h"
 #include "world_support.h"
 
 using namespace sgm;

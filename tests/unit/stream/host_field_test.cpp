@@ -7,8 +7,8 @@
 #include "backend/cpu/instruction_sets.h"
 #include "edits_support.h"
 #include "field/evaluate.h"
+#include "query/queries.h"
 #include "rounds.h"
-#include "stream/queries.h"
 #include "streaming_support.h"
 
 namespace sgm {

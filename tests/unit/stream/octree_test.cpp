@@ -8,8 +8,8 @@
 #include "catch.h"
 #include "mesh/chunk.h"
 #include "rounds.h"
-#include "stream/commit_plan.h"
-#include "stream/lod_target.h"
+#include "stream/plan/commit_plan.h"
+#include "stream/plan/lod_target.h"
 
 using namespace sgm;
 

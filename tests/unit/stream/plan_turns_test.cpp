@@ -9,7 +9,7 @@
 
 #include "catch.h"
 #include "rounds.h"
-#include "stream/plan_turns.h"
+#include "stream/plan/plan_turns.h"
 
 using namespace sgm;
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "catch.h"
-#include "stream/plan_turns.h"
+#include "stream/plan/plan_turns.h"
 #include "streaming_support.h"
 
 using namespace sgm;

@@ -7,7 +7,7 @@
 
 #include "catch.h"
 #include "rounds.h"
-#include "stream/planner.h"
+#include "stream/plan/planner.h"
 
 using namespace sgm;
 

@@ -10,7 +10,7 @@
 #include "field/compile.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/world_field.h"
+#include "world/world_field.h"
 #include "world_support.h"
 
 using namespace sgm;

@@ -1,6 +1,6 @@
 // Questions to the field, against analytic answers and dense sampling; far from the origin as near it.
 
-#include "stream/queries.h"
+#include "query/queries.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "derive/random_rules.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/layers_below.h"
+#include "world/layers_below.h"
 #include "world_support.h"
 
 using namespace sgm;

@@ -1,6 +1,6 @@
 // What can be reached through the void: never less than there is, and not much more.
 
-#include "stream/reachability.h"
+#include "stream/plan/reachability.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "rounds.h"
-#include "stream/lod_target.h"
+#include "stream/plan/lod_target.h"
 #include "world_support.h"
 
 using namespace sgm;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "backend/open/open_backend.h"
 #include "edits_support.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex_keys.h"

@@ -9,9 +9,10 @@
 #include <random>
 #include <thread>
 
+#include "backend/open/open_backend.h"
 #include "mesh/check.h"
 #include "mesh/vertex.h"
-#include "stream/frame.h"
+#include "stream/plan/frame.h"
 #include "stream/world.h"
 #include "world_support.h"
 

@@ -7,10 +7,10 @@
 
 #include "base/hash.h"
 #include "catch.h"
+#include "chunk/surface_materials.h"
+#include "chunk/surface_shapes.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
-#include "stream/surface_materials.h"
-#include "stream/surface_shapes.h"
 #include "streaming_support.h"
 
 using namespace sgm;

@@ -1,13 +1,13 @@
 // What the row Cabral of the paper's Table 4 claims, of the sample that stands for it: assets in many sizes whose
-// angles and textures stay. How they are stretched: tests/unit/asset; that they are closed: tests/unit/metrics and the
+// angles and textures stay. How they are stretched: tests/unit/asset; that they are closed: tests/unit/region and the
 // sample's own words (expect).
 
 #include <set>
 
 #include "../grammar/compile_text.h"
+#include "chunk/surface_shapes.h"
 #include "mesh/vertex.h"
 #include "rounds.h"
-#include "stream/surface_shapes.h"
 #include "world_support.h"
 
 using namespace sgm;
@@ -80,8 +80,8 @@ TEST_CASE("Cabral: textures keep their scale in every size", "[table4]") {
     const std::string asset = std::string(how).find("house") != std::string::npos ? "house" : "arcade";
     const TexelDensity density = densityOf(worldOf(
         "sgm 1; import \"assets/" + asset + ".glb\" as " + asset + "; start A; rule A { " + how + "; }", 64, 1));
-    // One tile a metre on every face; what marching cubes cuts off at edges and corners leans by a little, and surrounds
-    // of windows, which are as thin as a cell, have many of these.
+    // One tile a metre on every face; what marching cubes cuts off at edges and corners leans by a little, and
+    // surrounds of windows, which are as thin as a cell, have many of these.
     CHECK(density.middle == Approx(1).margin(0.002));
     CHECK(density.high == Approx(1).margin(0.01));
     CHECK(density.low > 0.87);

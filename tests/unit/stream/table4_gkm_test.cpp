@@ -7,13 +7,13 @@
 #include <random>
 #include <set>
 
+#include "chunk/surface_shapes.h"
 #include "field/evaluate.h"
 #include "mesh/check.h"
 #include "mesh/vertex.h"
 #include "mesh/weld.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/surface_shapes.h"
 #include "world_support.h"
 
 using namespace sgm;

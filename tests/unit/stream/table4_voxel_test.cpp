@@ -10,7 +10,7 @@
 #include "mesh/check.h"
 #include "rounds.h"
 #include "seed.h"
-#include "stream/frame.h"
+#include "stream/plan/frame.h"
 #include "world_support.h"
 
 using namespace sgm;

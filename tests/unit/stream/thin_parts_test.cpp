@@ -1,6 +1,6 @@
 // What is told of parts that a mesh may miss, and what is not.
 
-#include "stream/thin_parts.h"
+#include "chunk/thin_parts.h"
 #include "world_support.h"
 
 using namespace sgm;

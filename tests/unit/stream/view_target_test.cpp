@@ -1,13 +1,13 @@
 // The octree of a single picture: closed under its rules, and as fine as the camera asks.
 
-#include "stream/view_target.h"
+#include "stream/plan/view_target.h"
 
 #include <cmath>
 #include <random>
 
 #include "catch.h"
 #include "mesh/chunk.h"
-#include "stream/lod_target.h"
+#include "stream/plan/lod_target.h"
 
 using namespace sgm;
 

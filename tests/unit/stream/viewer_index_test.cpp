@@ -8,7 +8,7 @@
 #include "catch.h"
 #include "mesh/chunk.h"
 #include "rounds.h"
-#include "stream/viewer_index.h"
+#include "stream/plan/viewer_index.h"
 
 using namespace sgm;
 

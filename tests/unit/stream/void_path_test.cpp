@@ -1,6 +1,6 @@
 // Voids and ways, against a flood of all samples at one time.
 
-#include "stream/void_path.h"
+#include "query/void_path.h"
 
 #include <atomic>
 #include <limits>
@@ -280,9 +280,9 @@ TEST_CASE("random caves: voids and verdicts are those of a flood of all samples,
 
 TEST_CASE("caves of grammars: voids and verdicts are those of a flood of all samples, and ways hold") {
   const std::string halls = yardstick("cave.sgm"), holes =
-                                                    "sgm 1; domain infinite solid; layer main cell 32m reach 8m { "
-                                                    "start Holes; } rule Holes { cut { scatter poisson(4.5m) { "
-                                                    "sphere(3m); } } }";
+                                                       "sgm 1; domain infinite solid; layer main cell 32m reach 8m { "
+                                                       "start Holes; } rule Holes { cut { scatter poisson(4.5m) { "
+                                                       "sphere(3m); } } }";
   Seen seen;
   for (uint32_t seed = 1; seed <= rounds(200); ++seed) {
     CAPTURE(seed);

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "backend/open/open_backend.h"
 #include "catch.h"
+#include "chunk/mesh_chunks.h"
 #include "grammar/compile.h"
-#include "stream/mesh_chunks.h"
 
 namespace sgm {
 

@@ -7,11 +7,12 @@
 #include <random>
 #include <stdexcept>
 
+#include "backend/open/open_backend.h"
 #include "catch.h"
+#include "chunk/mesh_chunks.h"
 #include "mesh/check.h"
 #include "mesh/weld.h"
-#include "stream/layers_below.h"
-#include "stream/mesh_chunks.h"
+#include "world/layers_below.h"
 #include "world_support.h"
 
 using namespace sgm;

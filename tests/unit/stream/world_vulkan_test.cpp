@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "backend/open/open_backend.h"
 #include "streaming_support.h"
 
 using namespace sgm;

@@ -1,6 +1,6 @@
 // What is sampled of a cave of which one knows the measures.
 
-#include "cli/survey/sheet.h"
+#include "tools/survey/sheet.h"
 #include "world_support.h"
 
 using namespace sgm;

@@ -1,4 +1,4 @@
-#include "cli/survey/contour.h"
+#include "tools/survey/contour.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "catch.h"
-#include "cli/survey/lettering.h"
-#include "cli/survey/raster.h"
-#include "cli/survey/svg.h"
+#include "tools/survey/lettering.h"
+#include "tools/survey/raster.h"
+#include "tools/survey/svg.h"
 
 using namespace sgm;
 using namespace sgm::survey;

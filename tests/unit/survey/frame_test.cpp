@@ -1,11 +1,11 @@
 // Uses of a rule, and the camera that shows one.
 
-#include "cli/frame_camera.h"
+#include "tools/framing/frame_camera.h"
 
 #include <glm/trigonometric.hpp>
 
-#include "cli/rule_frame.h"
 #include "scenes.h"
+#include "tools/framing/rule_frame.h"
 #include "world_support.h"
 
 using namespace sgm;

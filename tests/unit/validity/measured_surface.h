@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "api/import.h"
-#include "api/region_mesh.h"
+#include "backend/open/open_backend.h"
 #include "catch.h"
+#include "chunk/mesh_chunks.h"
 #include "measure/exact_sign.h"
 #include "measure/mesh_measures.h"
 #include "measure/triangle_pair.h"
 #include "measure/weld_points.h"
 #include "measure/world_triangles.h"
-#include "stream/mesh_chunks.h"
+#include "region/region_mesh.h"
 
 namespace sgm::test {
 
@@ -114,7 +115,7 @@ struct MeshedRegion {
 
 /// The chunks of one level that meet lo <= p < hi.
 inline MeshedRegion meshedRegion(const WorldField& world, const Workshop& shop, const IntBox& box, bool sharp) {
-  const Result<api::RegionMesh> region = api::meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
+  const Result<RegionMesh> region = meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
   INFO((region ? "" : region.error().message));
   REQUIRE(region);
   MeshedRegion result{measure::trianglesOf(region->mesh), {}, region->chunks};

@@ -8,7 +8,7 @@
 #include "mesh/triangle_faults.h"
 #include "random_solids.h"
 #include "rounds.h"
-#include "stream/frame.h"
+#include "stream/plan/frame.h"
 
 using namespace sgm;
 using namespace sgm::test;

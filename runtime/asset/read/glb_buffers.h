@@ -1,0 +1,57 @@
+#pragma once
+// The bytes of a glTF file's buffers, and the views into them.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/read/glb_container.h"
+#include "base/json_reader.h"
+#include "base/result.h"
+
+namespace sgm::asset {
+
+class GlbBuffers {
+ public:
+  /// Buffers are the file's binary part or `data:` URIs within its JSON; other files are not opened.
+  GlbBuffers(const JsonValue& root, const GlbContainer& file);
+
+  struct View {
+    std::span<const std::byte> bytes;
+    std::optional<size_t> stride;
+    size_t buffer = 0;
+  };
+
+  size_t viewCount() const { return views_.size(); }
+  /// Bytes of all buffers.
+  size_t bytes() const { return bytes_; }
+  /// Of one of the views. Error: bad_input, if its bytes are not there.
+  Result<View> view(size_t number) const;
+  /// "byte 12", or "byte 12 of buffer 1" if the buffer is no part of the file as it is.
+  std::string placeOf(size_t buffer, const std::byte* at) const;
+
+ private:
+  /// As the file says.
+  struct Said {
+    std::optional<size_t> buffer;
+    size_t offset = 0, length = 0;
+    std::optional<size_t> stride;
+    std::string compression;  ///< the extension that packs it
+  };
+  struct Buffer {
+    std::span<const std::byte> bytes;
+    std::optional<size_t> file_at;
+    std::string problem;  ///< why there are no bytes
+  };
+
+  void addBuffer(const JsonValue& value, size_t number, const GlbContainer& file);
+
+  std::vector<Said> views_;
+  std::vector<Buffer> buffers_;
+  std::vector<std::vector<std::byte>> decoded_;
+  size_t bytes_ = 0;
+};
+
+}  // namespace sgm::asset

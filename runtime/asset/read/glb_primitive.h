@@ -1,0 +1,89 @@
+#pragma once
+// Primitives of a glTF file's meshes: their points, moved and morphed, and their triangles.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/read/glb_accessor.h"
+#include "asset/read/glb_material.h"
+#include "asset/read/glb_skin.h"
+#include "asset/read/glb_transform.h"
+#include "asset/read/mesh_limits.h"
+#include "asset/read/mesh_notes.h"
+#include "asset/triangle_mesh.h"
+#include "base/json_reader.h"
+#include "base/result.h"
+
+namespace sgm::asset {
+
+/// How a node shows a mesh.
+struct GlbShown {
+  size_t mesh = 0;
+  GlbTransform place;  ///< unless it has a skin
+  std::optional<size_t> skin;
+  std::vector<double> weights;  ///< of morph targets; fewer than there are: the others' are 0
+};
+
+class GlbMeshes {
+ public:
+  GlbMeshes(const JsonValue& root, const GlbAccessors& accessors, std::vector<GlbMaterial> materials,
+            const MeshLimits& limits);
+
+  size_t size() const { return meshes_.size(); }
+  /// The weights that a mesh has by itself.
+  const std::vector<double>& weightsOf(size_t mesh) const { return meshes_[mesh].weights; }
+  /// Adds a mesh's triangles. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  Result<void> show(const GlbShown& shown);
+  /// All that has been shown. Once. Error: bad_input, if there is no triangle.
+  Result<TriangleMesh> finish();
+
+  TriangleMesh& mesh() { return mesh_; }
+
+ private:
+  /// A primitive as the file says: numbers of accessors.
+  struct Attributes {
+    size_t position, normal, coordinates;
+  };
+  struct Primitive {
+    size_t mode, material, indices;
+    Attributes own;
+    std::vector<Attributes> targets;
+    GlbBinding binding;
+    size_t coordinates_set = 0;
+    bool compressed = false;
+  };
+  struct Mesh {
+    std::vector<Primitive> primitives;
+    std::vector<double> weights;
+  };
+  /// Of the primitive that is being read.
+  struct Here {
+    size_t mesh, number;
+    const Primitive& primitive;
+  };
+
+  static Attributes attributesIn(const JsonValue* of, size_t set);
+  Primitive primitiveIn(const JsonValue& value) const;
+  void makeRoom();
+  Error wrong(const Here& here, std::string_view what, std::string_view member) const;
+  std::string pointerOf(const Here& here) const;
+  Result<void> areThere(const Here& here) const;
+  Result<void> primitive(const Here& here, const GlbShown& shown);
+  Result<void> addPoints(const Here& here, const GlbShown& shown, std::vector<GlbTransform>& pose);
+  Result<void> morph(const Here& here, const GlbShown& shown, size_t first);
+  void moveNormals(size_t first, const GlbShown& shown, const std::vector<GlbTransform>& pose);
+  Result<void> addTriangles(const Here& here, const GlbCorners& corners);
+  Result<void> addStripOrFan(const Here& here, const GlbCorners& corners);
+
+  const GlbAccessors& accessors_;
+  std::vector<GlbMaterial> materials_;
+  const MeshLimits& limits_;
+  GlbSkins skins_;
+  std::vector<Mesh> meshes_;
+  TriangleMesh mesh_;
+  NotedPlaces lines_, placeless_, unruly_, zero_, uncharted_, unbound_;
+};
+
+}  // namespace sgm::asset

@@ -1,0 +1,52 @@
+#pragma once
+// The scene of a glTF file: which nodes show which meshes, and where.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asset/read/glb_accessor.h"
+#include "asset/read/glb_primitive.h"
+#include "asset/read/glb_transform.h"
+#include "asset/read/mesh_limits.h"
+#include "asset/read/mesh_notes.h"
+#include "base/json_reader.h"
+#include "base/result.h"
+
+namespace sgm::asset {
+
+/// Walks the nodes of the scene that the file names, of its first one, or of all nodes if it has none, and shows their
+/// meshes. Does what KHR_node_visibility and EXT_mesh_gpu_instancing say.
+class GlbScene {
+ public:
+  GlbScene(const JsonValue& root, const GlbAccessors& accessors, GlbMeshes& meshes, const MeshLimits& limits)
+      : root_(root), nodes_(root.list("nodes")), accessors_(accessors), meshes_(meshes), limits_(limits) {}
+
+  /// Once. Notes go into the mesh. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  Result<void> show();
+
+ private:
+  struct Open {
+    size_t node;
+    GlbTransform place;
+    size_t parent;  ///< a node, or as many as there are: the scene
+  };
+
+  Result<void> openRoots();
+  Result<void> visit(const Open& at);
+  Result<void> showMesh(size_t node, const GlbTransform& place);
+  Result<std::vector<GlbTransform>> instances(const JsonValue& attributes, size_t node) const;
+
+  const JsonValue& root_;
+  std::span<const JsonValue> nodes_;
+  const GlbAccessors& accessors_;
+  GlbMeshes& meshes_;
+  const MeshLimits& limits_;
+  std::string scene_ = "/nodes";
+  std::vector<bool> seen_;
+  std::vector<Open> open_;
+  NotedPlaces hidden_;
+};
+
+}  // namespace sgm::asset

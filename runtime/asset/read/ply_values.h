@@ -1,0 +1,84 @@
+#pragma once
+// The numbers of a PLY file's body that is text, one after another.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asset/read/mesh_limits.h"
+#include "asset/read/mesh_notes.h"
+#include "asset/read/ply_header.h"
+#include "asset/read/text_reader.h"
+#include "base/result.h"
+
+namespace sgm::asset {
+
+/// The numbers of a text. A line is a record, as most programs write it: values on it that the header does not declare
+/// are passed over. If there are fewer lines than records, values follow each other whatever the lines.
+class PlyTextValues {
+ public:
+  static constexpr std::string_view kUnit = "line";
+
+  PlyTextValues(std::string_view file, const PlyHeader& header)
+      : text_(file.substr(header.bytes)), all_(text_), header_(header) {}
+
+  void beginRecord() {
+    begun_ = wrapped_ = false;
+    place_ = 0;
+  }
+  bool take(PlyType, double& out) {
+    std::string_view word = text_.word();
+    if (word.empty()) {
+      if (begun_ && !mayWrap()) return false;
+      word = text_.wordOfAnyLine();
+    }
+    if (!begun_) {
+      begun_ = true;
+      place_ = header_.lines + text_.line();
+    }
+    const std::optional<double> value = numberIn(word);
+    if (!value) problem_ = word.empty() ? "it ends" : "it has " + shown(word) + ", which is not a number,";
+    out = value.value_or(0);
+    return value.has_value();
+  }
+  /// False if the line goes on where it cannot be told what its values are.
+  bool endRecord() { return text_.isLineDone() || passSurplus(); }
+  /// Each number takes a digit and a blank.
+  size_t most(const PlyElement& element) const { return (text_.bytesLeft() + 1) / (2 * element.properties.size()); }
+  const std::string& problem() const { return problem_; }
+  Error wrong(std::string_view what) const { return wrongAtLine(what, header_.lines + text_.line()); }
+  /// The line on which the record began.
+  size_t place() const { return place_; }
+  /// Whether only the count of all values shows that they are as declared.
+  bool mustReadAll() const { return layout_ == Layout::words; }
+  /// Whether the file has more lines than the header declares records.
+  bool hasSpareLines() const;
+  /// Adds notes. whole: all elements have been read. Error: bad_input, if values are left that may be anyone's.
+  Result<void> end(bool whole, std::vector<std::string>& notes);
+
+ private:
+  enum class Layout { unknown, lines, words };
+
+  struct Counts {
+    uint64_t records = 0, lines = 0;
+  };
+  Counts counts() const;
+  bool mayWrap();
+  bool passSurplus();
+  void findLayout();
+
+  TextReader text_;
+  const TextReader all_;
+  const PlyHeader& header_;
+  Layout layout_ = Layout::unknown;
+  bool line_a_record_ = false;  ///< as many lines as records
+  bool begun_ = false, wrapped_ = false;
+  size_t place_ = 0;
+  std::string problem_;
+  NotedPlaces surplus_;
+};
+
+}  // namespace sgm::asset

@@ -1,0 +1,76 @@
+#pragma once
+// The polygons of a file, which its reader has put into a mesh as fans: those whose fan is wrong are cut anew.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asset/read/ear_clipping.h"
+#include "asset/read/mesh_notes.h"
+#include "asset/triangle_mesh.h"
+#include "base/result.h"
+
+namespace sgm::asset {
+
+/// A corner that stands twice in a row is one, unless fewer than three would be left.
+template <class Corner, class Same>
+void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
+  size_t different = corners.empty() || same(corners.front(), corners.back()) ? 0 : 1;
+  for (size_t k = 1; k < corners.size(); ++k) different += size_t{!same(corners[k], corners[k - 1])};
+  if (different < 3 || different == corners.size()) return;
+  corners.erase(std::unique(corners.begin(), corners.end(), same), corners.end());
+  if (same(corners.front(), corners.back())) corners.pop_back();
+}
+
+/// Triangles stay in their place in the mesh, as many as a fan has; corners of normals and texture coordinates go
+/// along.
+class PolygonCutter {
+ public:
+  /// unit: of places, such as "line".
+  PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t most_steps = EarClipping::kMostSteps)
+      : mesh_(mesh), unit_(unit), clipping_(most_steps) {}
+
+  /// The mesh's last triangles are the fan of a polygon with this many corners, at least four. One whose points are not
+  /// all there yet is kept for finish(). Error: limit, where polygons are too intricate.
+  Result<void> add(size_t corners, size_t place) {
+    const size_t first = mesh_.triangles.size() - (corners - 2);
+    if (corners == 4 && isPlainQuad(first)) return {};
+    return addOther(first, corners, place);
+  }
+  /// Cuts what was kept, and notes the polygons that cross themselves. Once, when all points are there.
+  Result<void> finish();
+
+ private:
+  struct Polygon {
+    size_t first, corners, place;
+  };
+
+  /// The two triangles of a quadrangle look the same way, as most do: for those no more than this is spent.
+  bool isPlainQuad(size_t first) const {
+    const auto& [a, b, c] = mesh_.triangles[first];
+    const uint32_t d = mesh_.triangles[first + 1][2];
+    const std::vector<Point>& points = mesh_.points;
+    const size_t there = points.size();
+    if (a >= there || b >= there || c >= there || d >= there) return false;
+    const Point ac = points[c] - points[a];
+    const Point one = cross(points[b] - points[a], ac), other = cross(ac, points[d] - points[a]);
+    const double both = dot(one, other);
+    return both > 0 && both > 1e-24 * (dot(one, one) + dot(other, other));
+  }
+  Result<void> addOther(size_t first, size_t corners, size_t place);
+  bool isPlainFan(const Polygon& polygon) const;
+  Result<void> cut(const Polygon& polygon);
+
+  TriangleMesh& mesh_;
+  std::string unit_;
+  EarClipping clipping_;
+  std::vector<Polygon> later_;
+  std::vector<Point> corners_;
+  std::vector<std::array<uint32_t, 3>> cut_;
+  NotedPlaces crossed_;
+};
+
+}  // namespace sgm::asset

@@ -1,0 +1,68 @@
+#pragma once
+// What --json prints. A small writer of our own: nearly all of the command only writes, and a large library would take
+// longer to compile than the rest of it.
+
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+/// A value of JSON. Braces make objects where all they hold is pairs that begin with a text, {{"a", 1}, {"b", 2}}, and
+/// arrays otherwise. Objects keep the order in which members came.
+class Json {
+  using Array = std::vector<Json>;
+  using Object = std::vector<std::pair<std::string, Json>>;
+
+ public:
+  Json() = default;
+  Json(std::nullptr_t) {}
+  Json(bool value) : value_(value) {}
+  template <std::signed_integral T>
+  Json(T value) : value_(static_cast<int64_t>(value)) {}
+  template <std::unsigned_integral T>
+  requires(!std::same_as<T, bool>) Json(T value) : value_(static_cast<uint64_t>(value)) {}
+  template <std::floating_point T>
+  Json(T value) : value_(static_cast<double>(value)) {}
+  template <class T>
+  requires std::convertible_to<const T&, std::string_view> Json(const T& text)
+      : value_(std::string(std::string_view(text))) {}
+  template <class T>
+  Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
+  Json(std::initializer_list<Json> values);
+
+  static Json array();
+  static Json object();
+
+  /// A member of an object, added where it is not there. Nothing becomes an object with it.
+  Json& operator[](std::string_view key);
+  /// To an array. Nothing becomes an array with it.
+  void push_back(Json value);
+  /// Adds the other object's members, or replaces them.
+  void update(Json object);
+
+  /// On several lines, indented by two spaces; always UTF-8: U+FFFD stands for what is not. Numbers that JSON does not
+  /// have are null.
+  std::string text() const;
+  /// The same on one line, without spaces.
+  std::string line() const;
+
+ private:
+  /// indent: nothing for all on one line.
+  void write(std::string& out, std::optional<size_t> indent) const;
+
+  std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::string, Array, Object> value_;
+};
+
+/// [x, y, z] in metres.
+Json metresJson(Int3 units);
+
+}  // namespace sgm

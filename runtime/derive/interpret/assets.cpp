@@ -1,0 +1,161 @@
+// Assets in scopes: the statement fit. Its scope's box lies about its origin.
+
+#include <bit>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "asset/convex_cover.h"
+#include "asset/fit.h"
+#include "base/math.h"
+#include "derive/interpret/interpreter.h"
+
+namespace sgm {
+
+/// The convex pieces of an asset in one size, or why there are none.
+struct FittedAsset {
+  std::vector<asset::ConvexPiece> pieces;
+  std::string trouble;
+};
+
+namespace {
+
+/// Of an asset's triangles: what it takes to fit it, against the cell's steps.
+constexpr uint64_t kStepsATriangle = 64;
+/// Units that the box around an asset is larger by: its faces make the surface, never the box's.
+constexpr double kBoxMargin = 2;
+constexpr double kUnitsOfMetre = kUnitsPerMetre;
+
+Vec3 vecOf(asset::Point p) { return {p.x, p.y, p.z}; }
+
+FittedAsset cover(const asset::Polyhedron& body) {
+  FittedAsset out;
+  Result<std::vector<asset::ConvexPiece>> pieces = asset::coverWithPieces(body);
+  if (pieces)
+    out.pieces = std::move(*pieces);
+  else
+    out.trouble = "in this size " + pieces.error().message;
+  return out;
+}
+
+/// At the foot of `from` on the plane, y out of it; x runs level and z down where the plane stands, for textures.
+Placement onPlane(const Placement& scope, const asset::Plane& plane, Vec3 from) {
+  const Vec3 out = vecOf(plane.normal);
+  const double away = dot(out, from) - plane.offset;
+  Placement place = scope.moved(from - away * out);
+  constexpr double kLying = 0.999;
+  const Vec3 level = std::fabs(out.y) > kLying ? across(out, {1, 0, 0}) : normalised(cross({0, 1, 0}, out));
+  const Vec3 columns[3] = {scope.direction(level), scope.direction(out), scope.direction(cross(level, out))};
+  for (int row = 0; row < 3; ++row)
+    for (size_t column = 0; column < 3; ++column)
+      place.axes[3 * static_cast<size_t>(row) + column] = columns[column][row];
+  return place;
+}
+
+/// The frame of a half-space there. Its origin is a whole number of units: of those near it, the one nearest to the
+/// plane.
+Frame frameOn(const Placement& place) {
+  Frame frame = place.frame();
+  const Vec3 out = place.direction({0, 1, 0}), cell = place.toCell({});
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::fabs(out[axis]) == 1) return frame;
+  const Int3 nearest = frame.origin;
+  double least = kInfinity;
+  for (int32_t z = -2; z <= 2; ++z)
+    for (int32_t y = -2; y <= 2; ++y)
+      for (int32_t x = -2; x <= 2; ++x) {
+        const Int3 candidate = saturatingAdd(nearest, {x, y, z});
+        const Int3 from_base = saturatingSub(candidate, place.base);
+        const Vec3 off{from_base.x - kUnitsOfMetre * cell.x, from_base.y - kUnitsOfMetre * cell.y,
+                       from_base.z - kUnitsOfMetre * cell.z};
+        const double away = std::fabs(dot(off, out));
+        // What is no nearer by rounding alone does not count.
+        if (away >= least - 1e-6) continue;
+        least = away;
+        frame.origin = candidate;
+      }
+  return frame;
+}
+
+}  // namespace
+
+const FittedAsset& Interpreter::fittedAsset(const FitNode& node, const Env& env, const Span& span) {
+  const asset::Point size{env.scope.x, env.scope.y, env.scope.z};
+  std::vector<asset::FitZone> zones;
+  std::vector<uint64_t> key{node.asset};
+  for (int axis = 0; axis < 3; ++axis) key.push_back(std::bit_cast<uint64_t>(size[axis]));
+  for (uint32_t i = 0; i < node.zones.count; ++i) {
+    const FitZoneNode& zone = program_.ast.fit_zones[node.zones.first + i];
+    zones.push_back({zone.axis, zone.repeats, real(zone.from, env), real(zone.to, env)});
+    key.push_back(uint64_t{zone.axis} << 1 | (zone.repeats ? 1 : 0));
+    key.push_back(std::bit_cast<uint64_t>(zones.back().from));
+    key.push_back(std::bit_cast<uint64_t>(zones.back().to));
+  }
+  std::shared_ptr<const FittedAsset>& known = fitted_[std::move(key)];
+  if (known == nullptr) {
+    const asset::Polyhedron& solid = *program_.assets[node.asset].solid;
+    FittedAsset fresh;
+    if (step(kStepsATriangle * solid.triangles.size(), span, env.activation)) {
+      const Result<asset::Polyhedron> body = asset::fitInto(solid, size, zones);
+      if (!body)
+        fresh.trouble = body.error().message;
+      else if (step(kStepsATriangle * body->triangles.size(), span, env.activation))
+        fresh = cover(*body);
+    }
+    known = std::make_shared<const FittedAsset>(std::move(fresh));
+  }
+  return *known;
+}
+
+void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
+  const FitNode& node = program_.ast.fits[s.extra];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (env.scope[axis] > 0 && std::isfinite(env.scope[axis])) continue;
+    const std::string letter(1, "xyz"[axis]);
+    return note("this scope has no size along " + letter + ", so nothing fits into it: give it one, such as size(" +
+                    letter + " 3m)",
+                s.span, env.activation);
+  }
+  const FittedAsset& body = fittedAsset(node, env, s.span);
+  if (failed()) return;
+  if (!body.trouble.empty()) return note(body.trouble + "; it is left out", s.span, env.activation);
+  const Asset& from = program_.assets[node.asset];
+  const Vec3 corner = -0.5 * env.scope;
+  // Pieces that lie behind one face share its half-space, and with it the texture.
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
+  ShapeList pieces;
+  for (const asset::ConvexPiece& piece : body.pieces) {
+    if (!step(piece.size(), s.span, env.activation)) return;
+    ShapeList planes;
+    for (const asset::PieceSide& side : piece) {
+      const auto [known, fresh] = sides.try_emplace({side.number, side.material}, 0u);
+      if (fresh) {
+        Shape plane = shapeIn(env, ShapeKind::halfspace);
+        plane.frame = frameOn(onPlane(env.place, side.plane, corner));
+        const uint16_t material = side.material == asset::kNoMaterial ? uint16_t{0} : from.materials[side.material];
+        if (material != 0 && env.forced_material == 0) plane.material = material;
+        known->second = addShape(plane, s.ordinal, s.span, env);
+      }
+      planes.push_back(known->second);
+    }
+    pieces.push_back(planes.size() == 1 ? planes[0]
+                                        : addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, planes));
+    if (failed()) return;
+  }
+  // Planes that lie askew have no bounds of their own.
+  Shape box = shapeIn(env, ShapeKind::box);
+  box.frame = env.place.frame();
+  double inner = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * env.scope[axis] * env.place.scale * kUnitsOfMetre;
+    inner = std::min(inner, half);
+    box.size[static_cast<size_t>(axis)] = static_cast<float>(half + kBoxMargin);
+  }
+  box.inner_radius = static_cast<float>(inner);
+  const uint32_t bound = addShape(box, s.ordinal, s.span, env);
+  const uint32_t whole =
+      pieces.size() == 1 ? pieces[0] : addShape(shapeIn(env, ShapeKind::unite), s.ordinal, s.span, env, pieces);
+  out.push_back(addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, {whole, bound}));
+}
+
+}  // namespace sgm

@@ -1,0 +1,115 @@
+// Morphs: linear, and by the exponent of a superquadric.
+
+#include <algorithm>
+
+#include "derive/interpret/interpreter.h"
+
+namespace sgm {
+namespace {
+
+/// A shape as a superquadric: its radii, and how square it is (0 an ellipsoid, 1 the squarest, taken for a box).
+struct Squared {
+  std::array<double, 3> radii{};
+  double square = 0;
+  bool turns = true;  ///< it has axes
+};
+
+/// Of a sphere, an ellipsoid, a box or a superquadric.
+Squared squaredOf(const Shape& s) {
+  Squared result;
+  const bool ball = s.kind == ShapeKind::sphere;
+  for (size_t i = 0; i < 3; ++i) result.radii[i] = static_cast<double>(s.size[ball ? 0 : i]);
+  result.turns = !ball;
+  if (ball || s.kind == ShapeKind::ellipsoid) return result;
+  result.square = 1;
+  if (s.kind == ShapeKind::box) return result;
+  const double most = 1.0 - 2.0 / static_cast<double>(kMaxPower);
+  result.square = std::clamp((1.0 - 2.0 / static_cast<double>(s.size[3])) / most, 0.0, 1.0);
+  return result;
+}
+
+}  // namespace
+
+double exponentOfSquare(double square) {
+  const double s = std::clamp(square, 0.0, 1.0);
+  return 2.0 / (1.0 - s + s * 2.0 / static_cast<double>(kMaxPower));
+}
+
+void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
+  const StmtId from = program_.idAt(s.children, 0), to = program_.idAt(s.children, 1);
+  // A parameter of the field may run along what is morphed (`u`), so it is evaluated after both ends.
+  const bool sampled = program_.expr(s.expr).type.sample;
+  Num t = sampled ? Num{} : evaluate(s.expr, env).n[0];
+  if (!sampled && !(t.value > 0)) return statement(from, env, out);
+  if (!sampled && t.value >= 1) return statement(to, env, out);
+  ShapeList a, b;
+  statement(from, env, a);
+  statement(to, env, b);
+  if (failed()) return;
+  if (a.empty() || b.empty()) {
+    note("one end of this morph is missing or was left out, so the whole morph is left out: let both give shapes",
+         s.span, env.activation);
+    return;
+  }
+  const uint32_t first = united(a, s, env), second = united(b, s, env);
+  if (sampled) {
+    Env inner = env;
+    const uint32_t swept = draft_.sweepOf(first) != kNone ? draft_.sweepOf(first) : draft_.sweepOf(second);
+    if (swept != kNone) inner.sweep = swept;
+    t = evaluate(s.expr, inner).n[0];
+    if (t.constant() && !(t.value > 0 && t.value < 1)) {
+      const ShapeList& end = t.value >= 1 ? b : a;
+      out.insert(out.end(), end.begin(), end.end());
+      return;
+    }
+  }
+  if (s.power) return morphPower(s, env, first, second, t, out);
+  Shape node = shapeIn(env, ShapeKind::morph);
+  const double ra = static_cast<double>(draft_.shape(first).inner_radius);
+  const double rb = static_cast<double>(draft_.shape(second).inner_radius);
+  if (t.constant()) {
+    node.amount = static_cast<float>(t.value);
+    node.inner_radius = static_cast<float>(ra + (rb - ra) * t.value);
+  } else {
+    node.expr = draft_.expression(t);
+    node.inner_radius = static_cast<float>(std::max(ra, rb));
+  }
+  if (ra == 0 || rb == 0) node.inner_radius = 0;
+  out.push_back(addShape(node, s.ordinal, s.span, env, {first, second}));
+}
+
+void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
+  // The checker has seen to it that both are leaves of the same scope: they have one centre and one set of axes.
+  const Squared from = squaredOf(draft_.shape(a)), to = squaredOf(draft_.shape(b));
+  const auto mixed = [](double low, double high, double at) { return low + (high - low) * at; };
+  Shape node = shapeIn(env, ShapeKind::superquadric);
+  node.frame = draft_.shape(from.turns ? a : b).frame;
+  if (t.constant()) {
+    for (size_t i = 0; i < 3; ++i) node.size[i] = static_cast<float>(mixed(from.radii[i], to.radii[i], t.value));
+    node.size[3] = static_cast<float>(exponentOfSquare(mixed(from.square, to.square, t.value)));
+    node.inner_radius = std::min({node.size[0], node.size[1], node.size[2]});
+    out.push_back(addShape(node, s.ordinal, s.span, env));
+    return;
+  }
+  // The node runs from a square of 0 to 1; ends in between are two points on the way, and the radii go on linearly.
+  node.kind = ShapeKind::morph_power;
+  const double step = to.square - from.square;
+  for (size_t i = 0; i < 3; ++i) {
+    const double slope = step == 0 ? 0 : (to.radii[i] - from.radii[i]) / step;
+    const double at_round = from.radii[i] - slope * from.square;
+    node.size[i] = static_cast<float>(at_round);
+    node.size[3 + i] = static_cast<float>(at_round + slope);
+    if (!(node.size[i] > 0 && node.size[3 + i] > 0) || (step == 0 && to.radii[i] != from.radii[i])) {
+      note("morph by power cannot change the radii so much for so little change of squareness; use lerp here", s.span,
+           env.activation);
+      return;
+    }
+  }
+  node.inner_radius = std::max(draft_.shape(a).inner_radius, draft_.shape(b).inner_radius);
+  const Num along = draft_.clamp(t, {0}, {1});
+  node.expr =
+      draft_.expression(draft_.binary(ExprOp::add, {from.square}, draft_.binary(ExprOp::multiply, {step}, along)));
+  out.push_back(addShape(node, s.ordinal, s.span, env));
+}
+
+}  // namespace sgm

@@ -1,0 +1,216 @@
+// Floors in rooms: the statement treemap. Its scope's box lies about its origin; y is up.
+
+#include <algorithm>
+#include <bit>
+
+#include "base/math.h"
+#include "derive/draws.h"
+#include "derive/interpret/interpreter.h"
+#include "derive/layout/floor_plan.h"
+#include "grammar/syntax/scope_parts.h"
+
+namespace sgm {
+namespace {
+
+constexpr double kWidestFloor = 1 << 20;  ///< units
+constexpr size_t kMostPlansKept = 64;
+constexpr uint64_t kLooksOfStep = 2;
+
+/// Walls, doors and corridors are laid out in steps of four units, so that their halves are whole even numbers.
+int32_t inSteps(double metres) {
+  return std::max(4, 4 * static_cast<int32_t>(detFloor(metres * (kUnitsPerMetre / 4.0) + 0.5)));
+}
+
+Vec3 middleOf(const PlanRect& r, double y) {
+  return {0.5 * (r.x0 + r.x1) / kUnitsPerMetre, y, 0.5 * (r.z0 + r.z1) / kUnitsPerMetre};
+}
+
+Vec3 edgesOf(const PlanRect& r, double y) {
+  return {static_cast<double>(r.width()) / kUnitsPerMetre, y, static_cast<double>(r.depth()) / kUnitsPerMetre};
+}
+
+}  // namespace
+
+/// A number of the treemap's head or of a link; the fallback where it is not written, or outside of its range.
+double Interpreter::floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env) {
+  if (id == kNoId) return fallback;
+  const double value = real(id, env);
+  if (range.holds(value) || failed()) return value;
+  note(std::string(range.rule).append(", ").append(range.example).append("; this one is taken as if left out"),
+       program_.expr(id).span, env.activation);
+  return fallback;
+}
+
+void Interpreter::planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env,
+                          ShapeList& out) {
+  const double scale = env.place.scale * kUnitsPerMetre;
+  const Vec3 half = 0.5 * edgesOf(r, height);
+  Shape shape = shapeIn(env, ShapeKind::box);
+  shape.frame = env.place.frame(middleOf(r, y));
+  for (int axis = 0; axis < 3; ++axis) shape.size[static_cast<size_t>(axis)] = static_cast<float>(half[axis] * scale);
+  shape.inner_radius = static_cast<float>(std::min({half.x, half.y, half.z}) * scale);
+  out.push_back(addShape(shape, s.ordinal, s.span, env));
+}
+
+/// What is open there, and what the part's block adds to it and cuts from it; the scope is the first of the rectangles.
+void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key,
+                         const Env& env, ShapeList& out) {
+  if (!step(1, s.span, env.activation)) return;
+  Env inner = env;
+  inner.key = key;
+  inner.cut_detail = 0;
+  const bool said = index != kNone;
+  const StmtNode* body = said ? &program_.stmt(program_.idAt(s.children, index)) : nullptr;
+  if (said) {
+    const uint16_t tag = program_.ast.parts[s.parts.first + index].tag;
+    if (tag != 0 && inner.forced_tag == 0) inner.tag = tag;
+    if (body->kind == StmtKind::block) label(*body, inner);
+  }
+  ShapeList own;
+  for (const PlanRect& r : clear) planBox(r, 0, env.scope.y, s, inner, own);
+  if (said) {
+    inner.place = env.place.moved(middleOf(clear[0], 0));
+    inner.scope = edgesOf(clear[0], env.scope.y);
+    if (body->kind != StmtKind::block)
+      statement(program_.idAt(s.children, index), inner, own);
+    else if (program_.overridesOf(body->tag).count > 0)
+      tagged(*body, body->tag, inner, own, true);
+    else
+      contents(*body, inner, own);
+  }
+  out.insert(out.end(), own.begin(), own.end());
+}
+
+/// Storeys of a tower are laid out alike: what is known of one is not searched for again.
+FloorPlan Interpreter::floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas,
+                                 std::span<const RoomLink> links, const Span& span, const Env& env) {
+  const auto word = [](int32_t v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
+  std::vector<uint64_t> key{word(sizes.x), word(sizes.z), word(sizes.wall), word(sizes.door), word(sizes.corridor)};
+  for (const double area : areas) key.push_back(std::bit_cast<uint64_t>(area));
+  for (const RoomLink& link : links) key.insert(key.end(), {~uint64_t{0}, link.a, link.b, word(link.width)});
+  if (!step(key.size(), span, env.activation)) return {};
+  if (const auto known = floor_plans_.find(key); known != floor_plans_.end()) return known->second;
+  FloorPlan plan = layOutFloor(sizes, areas, links, kLooksOfStep * (limits_.steps - steps_ + 1));
+  if (step(plan.work / kLooksOfStep, span, env.activation) && floor_plans_.size() < kMostPlansKept)
+    floor_plans_.emplace(std::move(key), plan);
+  return plan;
+}
+
+void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
+  const TreemapNode& node = program_.ast.treemaps[s.extra];
+  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
+  FloorPlanSizes sizes;
+  sizes.wall = inSteps(floorMeasure(node.wall, kTreemapWall, kWallRange, env));
+  sizes.door = inSteps(floorMeasure(node.door, 0.9, kDoorRange, env));
+  sizes.corridor = std::max(sizes.door, inSteps(floorMeasure(node.corridor, 1.2, kCorridorRange, env)));
+  const double height = floorMeasure(node.height, 2.1, kDoorHeightRange, env);
+  const Vec3 edges = env.scope;
+  if (failed()) return;
+  const double longest = std::max({edges.x, edges.y, edges.z}) * std::max(1.0, env.place.scale);
+  if (!(std::min({edges.x, edges.y, edges.z}) > 0 && longest * kUnitsPerMetre < kWidestFloor))
+    return note(
+        "this scope's box has no size, or one of more than 1 km, so it gets no rooms: give it one, such as "
+        "size(12m, 3m, 9m)",
+        s.span, env.activation);
+  sizes.x = static_cast<int32_t>(edges.x * kUnitsPerMetre);
+  sizes.z = static_cast<int32_t>(edges.z * kUnitsPerMetre);
+
+  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // parts, and their place among the rooms
+  std::vector<double> areas;
+  for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
+    if (parts[i].floor != FloorPart::room) continue;
+    const double area = real(parts[i].size, env);
+    if (failed()) return;
+    if (kRoomAreaRange.holds(area)) {
+      number[room] = static_cast<uint32_t>(rooms.size());
+      rooms.push_back(i);
+      areas.push_back(area);
+    } else {
+      note(
+          std::string(kRoomAreaRange.rule).append(", ").append(kRoomAreaRange.example).append("; this one is left out"),
+          parts[i].span, env.activation);
+    }
+    ++room;
+  }
+  std::vector<RoomLink> links;
+  std::vector<double> heights;
+  std::vector<uint32_t> doors;  // parts
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    if (parts[i].floor != FloorPart::link) continue;
+    const LinkNode& link = program_.ast.links[program_.stmt(program_.idAt(s.children, i)).extra];
+    if (number[link.a] == kNone || number[link.b] == kNone) continue;
+    const double width = floorMeasure(link.width, static_cast<double>(sizes.door) / kUnitsPerMetre, kDoorRange, env);
+    links.push_back({number[link.a], number[link.b], inSteps(width)});
+    doors.push_back(i);
+    heights.push_back(floorMeasure(link.height, height, kDoorHeightRange, env));
+  }
+  if (failed()) return;
+  const FloorPlan plan = floorPlan(sizes, areas, links, s.span, env);
+  if (failed()) return;
+  if (!plan.fits)
+    return note(
+        "this floor has no room for these rooms between their walls; the treemap is left out: fewer rooms, "
+        "thinner walls or a larger scope",
+        s.span, env.activation);
+
+  const PathKey key = env.key.child(kLoopSalt + s.ordinal, 0);
+  std::vector<PathKey> keys;
+  for (size_t i = 0; i < plan.rooms.size(); ++i) {
+    const PartNode& part = parts[rooms[i]];
+    // By their names: what the other rooms are like changes nothing in them.
+    keys.push_back(key.child(hashText(program_.text(part.label)), 0));
+    roomAt(s, rooms[i], plan.rooms[i].clear, keys[i], env, out);
+    if (failed()) return;
+  }
+  uint32_t corridor = kNone;
+  for (uint32_t i = 0; i < s.parts.count; ++i)
+    if (parts[i].floor == FloorPart::corridor) corridor = i;
+  for (size_t i = 0; i < plan.corridor.size() && !failed(); ++i)
+    roomAt(s, corridor, {&plan.corridor[i], 1}, key.child(kCorridorSalt, i), env, out);
+  for (const PlanDoor& door : plan.doors) {
+    const double up = std::min(edges.y, door.link == PlanDoor::kNoLink ? height : heights[door.link]);
+    planBox(door.hole, 0.5 * (up - edges.y), up, s, env, out);
+    if (failed()) return;
+  }
+  facades(s, plan, keys, env, out);
+  const auto nameOf = [&](size_t room) { return std::string(program_.text(parts[rooms[room]].label)); };
+  for (const size_t link : plan.unmet)
+    note("`" + nameOf(links[link].a) + "` and `" + nameOf(links[link].b) +
+             "` share no wall wide enough for this door, so it is left out: a narrower door, or other areas of rooms",
+         parts[doors[link]].span, env.activation);
+  if (plan.doors.empty() || plan.doors[0].from != PlanDoor::kOutside)
+    note(
+        "no outer wall of these rooms is wide enough for the entrance, so nothing leads in: a narrower door, or a "
+        "larger scope",
+        s.span, env.activation);
+  for (const size_t room : plan.closed)
+    note("no wall of `" + nameOf(room) +
+             "` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room",
+         parts[rooms[room]].span, env.activation);
+}
+
+/// Like the faces of a box: x along the outer wall, y up it, z out of it, of no depth.
+void Interpreter::facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env,
+                          ShapeList& out) {
+  const Vec3 edges = env.scope;
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    if (program_.ast.parts[s.parts.first + i].floor != FloorPart::facade) continue;
+    std::vector<uint64_t> count(keys.size(), 0);
+    for (const PlanFacade& f : plan.facades) {
+      if (failed() || !step(1, s.span, env.activation)) return;
+      const double middle = 0.5 * (f.low + f.high) / kUnitsPerMetre, sign = f.side < 2 ? 1 : -1;
+      const bool along_x = f.side % 2 == 0;
+      const Vec3 at = along_x ? Vec3{middle, 0, sign * 0.5 * edges.z} : Vec3{sign * 0.5 * edges.x, 0, middle};
+      Env inner = env;
+      inner.cut_detail = 0;
+      inner.key = keys[f.room].child(kFacadeSalt, count[f.room]++);
+      inner.place = env.place.moved(at).turned({0, 1, 0}, f.side * (kPi / 2));
+      inner.scope = {static_cast<double>(f.high - f.low) / kUnitsPerMetre, edges.y, 0};
+      ShapeList own;
+      statement(program_.idAt(s.children, i), inner, own);
+      out.insert(out.end(), own.begin(), own.end());
+    }
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,213 @@
+// Lattices of tiles: the statement wfc. Its scope's box lies about its origin.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "base/math.h"
+#include "derive/draws.h"
+#include "derive/interpret/interpreter.h"
+#include "grammar/syntax/keywords.h"
+#include "grammar/syntax/scope_parts.h"
+
+namespace sgm {
+
+/// Tiles in every way that they may stand, and for each the part of the wfc and the quarters that it is turned about y.
+struct StandingTiles {
+  struct Stand {
+    uint32_t part;
+    int quarters;
+  };
+  std::vector<WaveTile> tiles;
+  std::vector<Stand> stands;
+};
+
+namespace {
+
+/// Of the heaviest tile.
+constexpr double kFullWeight = 1 << 20;
+/// For each place, and for so many more: how often it may be looked at.
+constexpr uint64_t kMostVisits = 128;
+/// The share of a cell's steps that one search may look at places, and how many looks among few tiles are a step.
+constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
+
+/// The part of an edge that a place has, reaching over into its neighbours like the parts of a split.
+struct Stretch {
+  double low, high;
+};
+
+Stretch stretchOf(double edge, uint32_t count, uint32_t at) {
+  const double step = edge / count, from = -0.5 * edge;
+  const double over = std::min(kSeamOverlap, step);
+  return {at == 0 ? from : from + at * step - over, at + 1 == count ? 0.5 * edge : from + (at + 1) * step + over};
+}
+
+/// Whether a side is front, right or top. What meets what is handed to the search as labels that both have: a high side
+/// has its own kind, a low one all that it meets.
+constexpr bool isHigh(size_t side) { return side < 2 || side == 4; }
+
+std::span<const SideKind> sideKinds(const Program& program, const StmtNode& s) {
+  const IdRange kinds = program.ast.waves[s.extra].kinds;
+  return {&program.ast.side_kinds[kinds.first], kinds.count};
+}
+
+WaveLabels kindsThatFit(std::span<const SideKind> kinds, size_t kind) {
+  WaveLabels out = 0;
+  for (size_t k = 0; k < kinds.size(); ++k)
+    if (kinds[k].fits(kinds[kind])) out |= WaveLabels{1} << k;
+  return out;
+}
+
+WaveLabels sideLabels(std::span<const SideKind> kinds, size_t kind, bool high) {
+  return high ? WaveLabels{1} << kind : kindsThatFit(kinds, kind);
+}
+
+}  // namespace
+
+void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
+                              const WaveResult& result, const Env& env) {
+  const auto triple = [](uint32_t x, uint32_t y, uint32_t z) {
+    return "(" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ")";
+  };
+  const auto& n = lattice.size;
+  if (result.place == kNoPlace)
+    return note("to fill the " + triple(n[0], n[1], n[2]) +
+                    " places of this scope takes too long, and it is left empty: larger tiles, or a smaller scope",
+                s.span, env.activation);
+  const WaveNode& node = program_.ast.waves[s.extra];
+  const std::span<const SideKind> kinds = sideKinds(program_, s);
+  std::string met;
+  for (size_t side = 0; side < kWaveSides; ++side) {
+    WaveLabels fit = result.wanted[side];
+    if (!isHigh(side)) {
+      fit = 0;
+      for (size_t k = 0; k < kinds.size(); ++k)
+        if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
+    }
+    // A side that every tile would fit to asks for nothing.
+    if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
+                    [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
+      continue;
+    uint64_t labels = 0;
+    for (size_t k = 0; k < kinds.size(); ++k)
+      if ((fit >> k & 1) != 0 && !kinds[k].any()) labels |= kinds[k].labels;
+    std::string names;
+    for (uint32_t l = 0; l < node.labels.count; ++l)
+      if ((labels >> l & 1) != 0)
+        names += std::string(names.empty() ? "`" : " or `").append(program_.text(program_.idAt(node.labels, l))) + '`';
+    met += std::string(met.empty() ? "" : " and ").append(names).append(" on its ").append(boxPartTable()[side]);
+  }
+  const std::string place = triple(result.place % n[0], result.place / n[0] % n[1], result.place / n[0] / n[1]);
+  note((result.end == WaveEnd::impossible ? "these tiles cannot fill the " : "no way was found to fill the ") +
+           triple(n[0], n[1], n[2]) + " places of this scope, and it is left empty: place " + place +
+           " would need a tile with " + met + "; add one, or join labels of a side with `or`",
+       s.span, env.activation);
+}
+
+bool Interpreter::waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice) {
+  const Vec3 edges = env.scope;
+  const Value size = evaluate(s.expr, env);
+  const Vec3 wanted = size.kind == ValueKind::vector ? size.vec() : Vec3{size.real(), size.real(), size.real()};
+  if (failed()) return false;
+  const auto nothing = [&](const std::string& why) {
+    note(why, s.span, env.activation);
+    return false;
+  };
+  double places = 1;
+  bool sound = std::max({edges.x, edges.y, edges.z}) > 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!kTileRange.holds(wanted[axis]))
+      return nothing(std::string(kTileRange.rule).append(", ").append(kTileRange.example) + "; these are left out");
+    const double count = std::max(1.0, detFloor(edges[axis] / wanted[axis] + 0.5));
+    sound = sound && edges[axis] >= 0 && std::isfinite(edges[axis]);
+    places *= count;
+    if (sound && places <= kMostPlaces) lattice.size[static_cast<size_t>(axis)] = static_cast<uint32_t>(count);
+  }
+  if (!sound)
+    return nothing("this scope's box has no size, so it gets no tiles: give it one, such as size(12m, 3m, 12m)");
+  if (places > kMostPlaces)
+    return nothing(
+        "this scope has room for more than 32768 tiles; they are left out: larger tiles, or a smaller scope");
+  lattice.border.fill(~WaveLabels{0});
+  const std::span<const SideKind> kinds = sideKinds(program_, s);
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    const PartNode& part = program_.ast.parts[s.parts.first + i];
+    // It looks in from outside: beyond the front stands a back.
+    for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
+      lattice.border[side] = sideLabels(kinds, program_.ast.tiles[part.tile].sides[side], !isHigh(side));
+  }
+  return true;
+}
+
+bool Interpreter::waveTiles(const StmtNode& s, const Env& env, StandingTiles& out) {
+  std::vector<double> weights(s.parts.count, 0);
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    const PartNode& part = program_.ast.parts[s.parts.first + i];
+    if (part.label == kNoId) continue;
+    weights[i] = real(part.size, env);
+    if (failed()) return false;
+    if (kTileWeightRange.holds(weights[i])) continue;
+    weights[i] = 0;
+    note(std::string(kTileWeightRange.rule).append(", ").append(kTileWeightRange.example).append("; this one is 0"),
+         part.span, env.activation);
+  }
+  const double heaviest = *std::max_element(weights.begin(), weights.end());
+  if (!(heaviest > 0)) {
+    note("no tile of this wfc has a weight above 0, and its scope is left empty: give one a weight", s.span,
+         env.activation);
+    return false;
+  }
+  const std::span<const SideKind> kinds = sideKinds(program_, s);
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    if (!(weights[i] > 0)) continue;
+    const TileNode& tile = program_.ast.tiles[program_.ast.parts[s.parts.first + i].tile];
+    WaveTile stand;
+    stand.weight = static_cast<uint32_t>(std::max(1.0, detFloor(weights[i] / heaviest * kFullWeight + 0.5)));
+    for (int quarters = 0; quarters < (tile.turns ? 4 : 1); ++quarters) {
+      // Turned by a quarter, what was in front is on the right.
+      for (size_t side = 0; side < kWaveSides; ++side) {
+        const size_t outwards = side < 4 ? (side + static_cast<size_t>(quarters)) % 4 : side;
+        stand.sides[outwards] = sideLabels(kinds, tile.sides[side], isHigh(outwards));
+      }
+      out.tiles.push_back(stand);
+      out.stands.push_back({i, quarters});
+    }
+  }
+  return true;
+}
+
+void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
+  const Vec3 edges = env.scope;
+  WaveLattice lattice;
+  StandingTiles standing;
+  if (!waveLattice(s, env, lattice) || !waveTiles(s, env, standing)) return;
+  // Never from the steps that are left: what else stands in the cell, at which level, must not change these tiles.
+  const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
+  const uint64_t most = std::min(kMostVisits * (places + kMostVisits), limits_.steps / kSearchShare);
+  const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
+  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, limits_.bytes);
+  // Looks are cheap steps: rather no tiles in a hundred scopes than no cell at all.
+  if (!step(result.work / kVisitsOfStep, s.span, env.activation)) return;
+  if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, env);
+  uint64_t number = 0;
+  for (uint32_t z = 0; z < lattice.size[2]; ++z) {
+    const Stretch along_z = stretchOf(edges.z, lattice.size[2], z);
+    for (uint32_t y = 0; y < lattice.size[1]; ++y) {
+      const Stretch along_y = stretchOf(edges.y, lattice.size[1], y);
+      for (uint32_t x = 0; x < lattice.size[0]; ++x) {
+        if (failed()) return;
+        const Stretch along_x = stretchOf(edges.x, lattice.size[0], x);
+        const StandingTiles::Stand& stand = standing.stands[result.tiles[number]];
+        const bool across = stand.quarters % 2 != 0;
+        Vec3 scope{along_x.high - along_x.low, along_y.high - along_y.low, along_z.high - along_z.low};
+        if (across) std::swap(scope.x, scope.z);
+        Placement place = env.place.moved({0.5 * (along_x.low + along_x.high), 0.5 * (along_y.low + along_y.high),
+                                           0.5 * (along_z.low + along_z.high)});
+        if (stand.quarters != 0) place = place.turned({0, 1, 0}, stand.quarters * (kPi / 2));
+        part(s, stand.part, number++, place, scope, env, out);
+      }
+    }
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,78 @@
+// Cellular automata to leaves of voxels, one for each cell of a layer.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+#include "derive/interpret/interpreter.h"
+#include "derive/layout/automaton.h"
+#include "grammar/range/automaton_arguments.h"
+
+namespace sgm {
+namespace {
+
+constexpr uint64_t kUpdatesInStep = 16;  ///< of voxels: none of them costs what an expression does
+
+/// Half extent along an axis without cells: beyond the world.
+constexpr float kEndless = 2147483648.0f;
+
+int32_t solidNeighbours(double threshold, int32_t radius, int axes) {
+  double all = 1;
+  for (int i = 0; i < axes; ++i) all *= 2 * radius + 1;
+  // A share such as 5/9 is not exact.
+  return static_cast<int32_t>(-detFloor(-(threshold * all - 1e-6)));
+}
+
+}  // namespace
+
+void Interpreter::automatonLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out) {
+  const auto argument = [&](uint32_t i) {
+    const uint32_t id = boundAt(node, i);
+    return id == kNoId ? primitiveTable()[node.id].params[i].fallback : real(id, env);
+  };
+  const auto exactly = [](double v) { return Interval{v, v}; };
+  const double voxel = argument(0), fill = argument(1), rounds = detFloor(argument(2) + 0.5), threshold = argument(3),
+               radius = detFloor(argument(4) + 0.5);
+  const PathKey key = keyOf(Value::number(argument(5)));
+  if (failed() || isWhole(layer_)) return;
+  const int32_t cell = std::max({layer_.cell.x, layer_.cell.y, layer_.cell.z});
+  if (const auto fault =
+          faultOf({exactly(voxel), exactly(fill), exactly(rounds), exactly(threshold), exactly(radius)}, cell)) {
+    return note(fault->message + ": " + fault->hint + "; it is left out", node.span, env.activation);
+  }
+
+  Automaton automaton;
+  automaton.seed = key.value;
+  automaton.fill = fill;
+  automaton.rounds = static_cast<int32_t>(rounds);
+  automaton.radius = static_cast<int32_t>(radius);
+  VoxelBlock block;
+  block.edge = toUnits(voxel);
+  Shape shape = shapeIn(env, ShapeKind::voxels);
+  VoxelBox box{{0, 0, 0}, {1, 1, 1}};
+  const IntBox own = cellBox(layer_, cell_);
+  uint64_t updates = static_cast<uint64_t>(automaton.rounds) + 1;
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    automaton.axes[a] = lattice_.hasAxis(axis);
+    shape.size[a] = kEndless;
+    if (!automaton.axes[a]) continue;
+    ++axes;
+    const int64_t first = floorDiv(own.lo[axis], block.edge) - kVoxelMargin;
+    const int64_t last = floorDiv(int64_t{own.hi[axis]} + block.edge, block.edge) + kVoxelMargin;
+    box.first[axis] = block.first[axis] = static_cast<int32_t>(first);
+    box.count[axis] = block.count[axis] = static_cast<int32_t>(last - first + 1);
+    updates *= static_cast<uint64_t>(box.count[axis] + 2 * automaton.halo());
+    // The cell and one voxel around it. Half a unit of an odd edge is rounded up, which the margin has room for.
+    shape.frame.origin[axis] = own.lo[axis] + layer_.cell[axis] / 2;
+    shape.size[a] = static_cast<float>((layer_.cell[axis] + 1) / 2 + block.edge);
+  }
+  automaton.least = solidNeighbours(threshold, automaton.radius, axes);
+  if (!step(updates / kUpdatesInStep, node.span, env.activation)) return;
+  shape.inner_radius = static_cast<float>(block.edge);
+  shape.block = draft_.addVoxels(block, runAutomaton(automaton, box));
+  out.push_back(addShape(shape, ordinal, node.span, env));
+}
+
+}  // namespace sgm

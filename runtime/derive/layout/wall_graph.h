@@ -1,0 +1,47 @@
+#pragma once
+// Where corridors may run: along the walls between the rooms of a plan.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "derive/layout/treemap.h"
+
+namespace sgm {
+
+/// Middles of inner walls. Edges go from the lower corner to the higher and meet at corners alone.
+struct WallGraph {
+  struct Corner {
+    int32_t x = 0, z = 0;
+    friend bool operator==(const Corner&, const Corner&) = default;
+  };
+  struct Edge {
+    size_t from = 0, to = 0;
+    bool along_x = false;
+    int32_t length = 0;
+  };
+  std::vector<Corner> corners;
+  std::vector<Edge> edges;
+};
+
+/// cells: of a treemap of `whole`.
+WallGraph wallGraph(const PlanRect& whole, std::span<const PlanRect> cells);
+
+/// Shortest paths between all corners (Floyd 1962). Edges in `walked` (one flag for each) cost nothing.
+class WallPaths {
+ public:
+  WallPaths(const WallGraph& graph, const std::vector<bool>& walked);
+  /// Adds the edges of the path to `edges`; false where there is none.
+  bool walk(size_t from, size_t to, std::vector<bool>& edges) const;
+  int64_t length(size_t from, size_t to) const { return length_[from * corners_ + to]; }
+  static constexpr int64_t kNone = int64_t{1} << 60;
+
+ private:
+  size_t corners_;
+  std::vector<int64_t> length_;
+  std::vector<size_t> next_;  ///< edge to take from there, kNoEdge where there is none
+  const WallGraph& graph_;
+  static constexpr size_t kNoEdge = SIZE_MAX;
+};
+
+}  // namespace sgm

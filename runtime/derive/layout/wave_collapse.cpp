@@ -1,0 +1,311 @@
+#include "derive/layout/wave_collapse.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <queue>
+#include <tuple>
+
+#include "base/hash.h"
+
+namespace sgm {
+namespace {
+
+/// Wrong choices that the first search may take back.
+constexpr uint64_t kFirstRetreats = 32;
+/// Labels, of up to 64 tiles each, that a look at a place goes through for what it counts.
+constexpr uint64_t kLabelsOfVisit = 8;
+
+constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }
+
+/// Tiles that may still stand somewhere, one a bit.
+template <size_t kWords>
+struct TileSet {
+  std::array<uint64_t, kWords> word{};
+
+  friend bool operator==(const TileSet&, const TileSet&) = default;
+  bool empty() const { return *this == TileSet(); }
+  bool meets(const TileSet& other) const {
+    uint64_t both = 0;
+    for (size_t w = 0; w < kWords; ++w) both |= word[w] & other.word[w];
+    return both != 0;
+  }
+  void keep(const TileSet& other) {
+    for (size_t w = 0; w < kWords; ++w) word[w] &= other.word[w];
+  }
+  void add(const TileSet& other) {
+    for (size_t w = 0; w < kWords; ++w) word[w] |= other.word[w];
+  }
+  void set(size_t tile) { word[tile / 64] |= uint64_t{1} << tile % 64; }
+  void reset(size_t tile) { word[tile / 64] &= ~(uint64_t{1} << tile % 64); }
+  uint32_t count() const {
+    int sum = 0;
+    for (const uint64_t w : word) sum += std::popcount(w);
+    return static_cast<uint32_t>(sum);
+  }
+  template <class Visit>
+  void each(const Visit& visit) const {
+    for (size_t w = 0; w < kWords; ++w)
+      for (uint64_t left = word[w]; left != 0; left &= left - 1)
+        visit(w * 64 + static_cast<size_t>(std::countr_zero(left)));
+  }
+};
+
+template <size_t kWords>
+class TileSearch {
+  using Tiles = TileSet<kWords>;
+
+ public:
+  TileSearch(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
+             size_t most_bytes)
+      : tiles_(tiles), lattice_(lattice), key_(key), most_visits_(most_visits), most_bytes_(most_bytes) {
+    WaveLabels used = 0;
+    for (const WaveTile& tile : tiles)
+      for (const WaveLabels labels : tile.sides) used |= labels;
+    for (; used != 0; used &= used - 1) labels_.push_back(static_cast<uint8_t>(std::countr_zero(used)));
+    Tiles all;
+    for (size_t t = 0; t < tiles.size(); ++t) {
+      all.set(t);
+      for (size_t side = 0; side < kWaveSides; ++side)
+        for (WaveLabels left = tiles[t].sides[side]; left != 0; left &= left - 1)
+          with_[side][static_cast<size_t>(std::countr_zero(left))].set(t);
+    }
+    const auto& n = lattice.size;
+    domains_.assign(size_t{n[0]} * n[1] * n[2], all);
+    failures_.assign(domains_.size(), 0);
+    waits_.assign(domains_.size(), false);
+  }
+
+  WaveResult run() {
+    WaveResult out;
+    uint64_t retreats = 0, most_retreats = kFirstRetreats;
+    bool sound = begin();
+    while (true) {
+      if (spent_) {
+        out.end = WaveEnd::gave_up;
+        break;
+      }
+      if (!sound) {
+        if (choices_.empty()) {
+          out.end = WaveEnd::impossible;
+          break;
+        }
+        if (++retreats > most_retreats) {
+          // What was proven before the first choice stays.
+          undo(choices_[0].changes);
+          choices_.clear();
+          retreats = 0;
+          most_retreats *= 2;
+          ++attempt_;
+          sound = true;
+          continue;
+        }
+        const Choice wrong = choices_.back();
+        choices_.pop_back();
+        undo(wrong.changes);
+        Tiles rest = domains_[wrong.place];
+        rest.reset(wrong.tile);
+        sound = narrow(wrong.place, rest) && propagate();
+        continue;
+      }
+      const uint32_t place = next();
+      if (place == kNoPlace) break;
+      const size_t tile = draw(place);
+      choices_.push_back({changes_.size(), place, static_cast<uint16_t>(tile)});
+      Tiles one;
+      one.set(tile);
+      sound = narrow(place, one) && propagate();
+    }
+    out.visits = visits_;
+    out.work = visits_ * std::max<uint64_t>(1, labels_.size() * kWords / kLabelsOfVisit);
+    if (out.end != WaveEnd::solved) {
+      out.place = hardest_;
+      out.wanted = wanted_;
+      return out;
+    }
+    for (const Tiles& domain : domains_) domain.each([&](size_t t) { out.tiles.push_back(static_cast<uint16_t>(t)); });
+    return out;
+  }
+
+ private:
+  struct Change {
+    uint32_t place;
+    Tiles before;
+  };
+  struct Choice {
+    size_t changes;  ///< before it
+    uint32_t place;
+    uint16_t tile;
+  };
+  /// How few tiles fit for how often none did, a draw for ties, the place; out of date where the first has changed.
+  using Waiting = std::tuple<uint32_t, uint32_t, uint32_t>;
+
+  std::optional<uint32_t> neighbour(uint32_t place, size_t side) const {
+    const auto& n = lattice_.size;
+    const uint32_t x = place % n[0], y = place / n[0] % n[1], z = place / n[0] / n[1];
+    switch (side) {
+      case 0:
+        return z + 1 < n[2] ? std::optional(place + n[0] * n[1]) : std::nullopt;
+      case 1:
+        return x + 1 < n[0] ? std::optional(place + 1) : std::nullopt;
+      case 2:
+        return z > 0 ? std::optional(place - n[0] * n[1]) : std::nullopt;
+      case 3:
+        return x > 0 ? std::optional(place - 1) : std::nullopt;
+      case 4:
+        return y + 1 < n[1] ? std::optional(place + n[0]) : std::nullopt;
+      default:
+        return y > 0 ? std::optional(place - n[0]) : std::nullopt;
+    }
+  }
+
+  /// Fits every place to the border, and then to its neighbours. Each is looked at once at the least.
+  bool begin() {
+    spent_ = most_visits_ < domains_.size();
+    if (spent_) return false;
+    for (uint32_t place = 0; place < domains_.size(); ++place) {
+      Tiles fits = domains_[place];
+      for (size_t side = 0; side < kWaveSides; ++side) {
+        if (neighbour(place, side)) continue;
+        Tiles beside;
+        for (const uint8_t label : labels_)
+          if ((lattice_.border[side] >> label & 1) != 0) beside.add(with_[side][label]);
+        fits.keep(beside);
+      }
+      if (!narrow(place, fits)) return false;
+      ask(place);
+    }
+    return propagate();
+  }
+
+  size_t bytes() const { return changes_.size() * sizeof(Change) + waiting_.size() * sizeof(Waiting); }
+
+  void ask(uint32_t place) {
+    if (waits_[place]) return;
+    waits_[place] = true;
+    asked_.push_back(place);
+  }
+
+  uint32_t urgency(uint32_t place) const { return (domains_[place].count() << 16) / (1 + failures_[place]); }
+
+  void wait(uint32_t place) {
+    if (domains_[place].count() < 2) return;
+    waiting_.emplace(urgency(place), static_cast<uint32_t>(hashCombine(key_ + attempt_, place) >> 32), place);
+  }
+
+  /// False where nothing is left.
+  bool narrow(uint32_t place, const Tiles& to) {
+    if (to == domains_[place]) return true;
+    changes_.push_back({place, domains_[place]});
+    domains_[place] = to;
+    if (to.empty()) {
+      fail(place);
+      return false;
+    }
+    ask(place);
+    return true;
+  }
+
+  void fail(uint32_t place) {
+    for (const uint32_t other : asked_) waits_[other] = false;
+    asked_.clear();
+    failures_[place] = std::min(failures_[place] + 1, 0xFFFFu);
+    if (hardest_ != kNoPlace && failures_[place] < failures_[hardest_]) return;
+    hardest_ = place;
+    for (size_t side = 0; side < kWaveSides; ++side) {
+      const std::optional<uint32_t> other = neighbour(place, side);
+      wanted_[side] = other ? 0 : lattice_.border[side];
+      if (!other) continue;
+      for (const uint8_t label : labels_)
+        if (domains_[*other].meets(with_[facing(side)][label])) wanted_[side] |= WaveLabels{1} << label;
+    }
+  }
+
+  /// Sides share single labels, so it is enough to know which labels a place still offers: no table of pairs of tiles.
+  bool propagate() {
+    for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
+      if (visits_ == most_visits_ || bytes() > most_bytes_) {
+        spent_ = true;
+        return false;
+      }
+      const uint32_t place = asked_[next_asked];
+      waits_[place] = false;
+      ++visits_;
+      for (size_t side = 0; side < kWaveSides; ++side) {
+        const std::optional<uint32_t> other = neighbour(place, side);
+        if (!other) continue;
+        Tiles fits;
+        for (const uint8_t label : labels_)
+          if (domains_[place].meets(with_[side][label])) fits.add(with_[facing(side)][label]);
+        fits.keep(domains_[*other]);
+        if (!narrow(*other, fits)) return false;
+      }
+    }
+    // Those that have changed, once each.
+    for (const uint32_t place : asked_) wait(place);
+    asked_.clear();
+    return true;
+  }
+
+  void undo(size_t changes) {
+    while (changes_.size() > changes) {
+      const Change& last = changes_.back();
+      domains_[last.place] = last.before;
+      wait(last.place);
+      changes_.pop_back();
+    }
+  }
+
+  /// A place with the fewest tiles to choose from.
+  uint32_t next() {
+    while (!waiting_.empty()) {
+      const auto [urgent, tie, place] = waiting_.top();
+      waiting_.pop();
+      if (domains_[place].count() > 1 && urgent == urgency(place)) return place;
+    }
+    return kNoPlace;
+  }
+
+  size_t draw(uint32_t place) const {
+    uint64_t total = 0;
+    domains_[place].each([&](size_t t) { total += tiles_[t].weight; });
+    // In 32 bits: a product with a sum of weights fits 64.
+    uint64_t left = (hashCombine(hashCombine(key_ + attempt_, place), 1) >> 32) * total >> 32;
+    size_t drawn = tiles_.size();
+    domains_[place].each([&](size_t t) {
+      if (drawn < tiles_.size()) return;
+      if (left < tiles_[t].weight) drawn = t;
+      left -= tiles_[t].weight;
+    });
+    return drawn;
+  }
+
+  std::span<const WaveTile> tiles_;
+  const WaveLattice& lattice_;
+  uint64_t key_, most_visits_;
+  size_t most_bytes_;
+  uint64_t attempt_ = 0, visits_ = 0;
+  bool spent_ = false;                                  ///< all visits that it may make
+  std::vector<uint8_t> labels_;                         ///< that tiles have
+  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< for each side and label: the tiles that have it there
+  std::vector<Tiles> domains_;
+  std::vector<uint32_t> failures_;
+  std::vector<uint32_t> asked_;  ///< places whose neighbours are to be looked at
+  std::vector<bool> waits_;      ///< places in asked_
+  std::vector<Change> changes_;
+  std::vector<Choice> choices_;
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting_;
+  uint32_t hardest_ = kNoPlace;
+  std::array<WaveLabels, kWaveSides> wanted_{};
+};
+
+}  // namespace
+
+WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
+                        size_t most_bytes) {
+  // Most sets of tiles fit one word.
+  if (tiles.size() <= 64) return TileSearch<1>(tiles, lattice, key, most_visits, most_bytes).run();
+  return TileSearch<4>(tiles, lattice, key, most_visits, most_bytes).run();
+}
+
+}  // namespace sgm

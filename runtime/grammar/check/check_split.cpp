@@ -1,0 +1,75 @@
+// Scopes in parts: split and comp.
+
+#include <algorithm>
+
+#include "grammar/check/check.h"
+#include "grammar/syntax/scope_parts.h"
+#include "grammar/text/codes.h"
+
+namespace sgm {
+
+void Checker::snapStatement(const StmtNode& s, bool shrunk) {
+  demandRange(s.expr, kLength, "the distance of snap planes", kSnapRange);
+  demand(s.amount, ValueKind::number, kLength, "the place of the first snap plane");
+  statement(s.body, shrunk);
+}
+
+void Checker::splitStatement(const StmtNode& s) {
+  demandRange(s.amount, kLength, "how far the lines of a split snap", kSnapReachRange);
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    PartNode& part = program_.ast.parts[s.parts.first + i];
+    const ExprId size = part.size;
+    const Type type = expression(size);
+    part.relative = !part.flexible && type.kind == ValueKind::number && !type.any_dim && type.dim == kRatio;
+    demandType(size, type, ValueKind::number, part.relative ? kRatio : kLength,
+               part.flexible ? "a flexible size" : "the size of a part");
+    // Most likely a length without its unit.
+    if (part.relative && node(size).kind == ExprKind::number && node(size).value > 1)
+      sink_.error(node(size).span, codes::kValueRange, "a part cannot be more than 100% of the scope",
+                  "write a length, such as 2m, or a share, such as 25%");
+  }
+  partStatements(s);
+}
+
+namespace {
+
+/// The first `box(scope)` of a statement that stands in the scope around it.
+ExprId boxOfScope(const Program& program, StmtId id) {
+  const StmtNode& s = program.stmt(id);
+  if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {
+    ExprId found = s.body == kNoId ? kNoId : boxOfScope(program, s.body);
+    for (uint32_t i = 0; found == kNoId && i < s.children.count; ++i)
+      found = boxOfScope(program, program.idAt(s.children, i));
+    return found;
+  }
+  if (s.kind != StmtKind::call) return kNoId;
+  const ExprNode& call = program.expr(s.expr);
+  if (call.ref != Ref::primitive || static_cast<Primitive>(call.id) != Primitive::box || call.args.count != 1)
+    return kNoId;
+  const ExprNode& edges = program.expr(program.ast.args[call.args.first].value);
+  const bool scope = edges.ref == Ref::value && static_cast<BuiltinValue>(edges.id) == BuiltinValue::scope;
+  return scope ? s.expr : kNoId;
+}
+
+/// The face of a box, or the outer wall of a room.
+bool isFlat(const StmtNode& s, const PartNode& part) {
+  if (s.kind == StmtKind::treemap) return part.floor == FloorPart::facade;
+  return s.kind == StmtKind::comp && part.of != BoxPart::edges && part.of != BoxPart::inside;
+}
+
+}  // namespace
+
+void Checker::partStatements(const StmtNode& s) {
+  for (uint32_t i = 0; i < s.children.count; ++i) {
+    const size_t locals = scope_.locals.size();
+    const StmtId child = program_.idAt(s.children, i);
+    statement(child, true);
+    scope_.locals.resize(std::min(locals, scope_.locals.size()));
+    if (i >= s.parts.count || !isFlat(s, program_.ast.parts[s.parts.first + i])) continue;
+    if (const ExprId box = boxOfScope(program_, child); box != kNoId)
+      sink_.warning(node(box).span, codes::kFlatScope, "the scope of a face has no depth, so this box is left out",
+                    "give it one: `size(z 0.2m) box(scope)`");
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,119 @@
+// How often a rule can derive another: overrides of uses that never come are told of.
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "grammar/check/check.h"
+#include "grammar/text/codes.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr uint32_t kAnyNumber = std::numeric_limits<uint32_t>::max();
+
+uint32_t sum(uint32_t a, uint32_t b) { return a > kAnyNumber - b ? kAnyNumber : a + b; }
+
+/// How often a part of a split, a comp or a treemap may stand there.
+uint32_t timesOf(const StmtNode& s, const PartNode& part) {
+  switch (s.kind) {
+    case StmtKind::split:
+      return part.repeated ? kAnyNumber : 1;
+    case StmtKind::comp:
+      return part.of == BoxPart::side || part.of == BoxPart::edges ? 4 : 1;
+    default:
+      return part.floor == FloorPart::room ? 1 : kAnyNumber;
+  }
+}
+
+/// How often one run of a statement comes to those that count, at most; kAnyNumber where loops or point sets repeat it.
+template <typename Counts>
+uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
+  if (id == kNoId) return 0;
+  const StmtNode& s = program.stmt(id);
+  if (counts(s)) return 1;
+  uint32_t uses = timesIn(program, s.body, counts);
+  for (uint32_t i = 0; i < s.children.count; ++i) {
+    const uint32_t once = timesIn(program, program.idAt(s.children, i), counts);
+    const uint32_t times = once > 0 && i < s.parts.count ? timesOf(s, program.ast.parts[s.parts.first + i]) : 1;
+    uses = sum(uses, once > kAnyNumber / times ? kAnyNumber : once * times);
+  }
+  switch (s.kind) {
+    case StmtKind::block:
+    case StmtKind::unite:
+    case StmtKind::cut:
+    case StmtKind::meet:
+    case StmtKind::sum:
+    case StmtKind::morph:
+    case StmtKind::displace:
+    case StmtKind::warp:
+    case StmtKind::transform:
+    case StmtKind::detail:
+    case StmtKind::snap:
+    case StmtKind::split:
+    case StmtKind::comp:
+    case StmtKind::treemap:
+      return uses;
+    default:
+      return uses > 0 ? kAnyNumber : 0;
+  }
+}
+
+/// The most uses of a rule that one run of a statement derives itself.
+uint32_t usesIn(const Program& program, StmtId id, uint32_t rule) {
+  return timesIn(program, id, [&](const StmtNode& s) {
+    return s.kind == StmtKind::call && program.expr(s.expr).ref == Ref::rule && program.expr(s.expr).id == rule;
+  });
+}
+
+/// Whether the block of an override may derive more than once what was there.
+bool copies(const Program& program, const Override& edit) {
+  return timesIn(program, edit.body, [](const StmtNode& s) { return s.kind == StmtKind::inner; }) > 1;
+}
+
+uint32_t usesInCall(const Program& program, ExprId call, uint32_t rule) {
+  return call != kNoId && program.expr(call).ref == Ref::rule && program.expr(call).id == rule ? 1 : 0;
+}
+
+/// The most uses of a rule below one use of another. One head is taken of those without `lod`, and one of those with
+/// each.
+uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
+  uint32_t plain = 0, by_level = 0;
+  for (const Alternative& head : parent.alternatives) {
+    const uint32_t uses = std::max({usesIn(program, head.body, rule), usesInCall(program, head.depth_call, rule),
+                                    usesInCall(program, head.minsize_call, rule)});
+    if (head.lod == kNoId)
+      plain = std::max(plain, uses);
+    else
+      by_level = sum(by_level, uses);
+  }
+  return sum(plain, by_level);
+}
+
+}  // namespace
+
+void Checker::usesThatNeverCome() {
+  const auto copied = [&](uint32_t rule) {
+    const auto& edits = program_.rules[rule].overrides;
+    return std::any_of(edits.begin(), edits.end(), [&](uint32_t o) { return copies(program_, program_.overrides[o]); });
+  };
+  for (const Override& edit : program_.overrides) {
+    for (uint32_t i = 1; i < edit.steps.count; ++i) {
+      const PathStep& step = program_.path_steps[edit.steps.first + i];
+      const uint32_t parent = program_.path_steps[edit.steps.first + i - 1].rule;
+      if (step.index == kNoId || copied(parent)) continue;
+      const uint32_t most = usesBelow(program_, program_.rules[parent], step.rule);
+      if (most == 0 || step.index < most) continue;
+      const std::string_view name = text(program_.rules[step.rule].name);
+      sink_.warning(edit.address_span, codes::kIdleOverride,
+                    join({"`", text(program_.rules[parent].name), "` derives `", name, "` ",
+                          most == 1 ? "once" : std::to_string(most) + " times", " at most: `", name, "[",
+                          std::to_string(step.index), "]` never comes"}),
+                    join({"the last is `", name, "[", std::to_string(most - 1), "]`"}));
+      break;
+    }
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,147 @@
+// What a layer gives at all: the levels at which it shows, which are those whose cells are not larger than every
+// `detail` around what it derives, and whether it has anchors. Layers that give nothing need not be derived.
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "grammar/check/check.h"
+#include "grammar/range/reach_values.h"
+
+namespace sgm {
+
+namespace {
+
+struct Contents {
+  int32_t coarsest_cell = 0;  ///< as in Layer; 0: shows nothing
+  bool by_level = false;      ///< as in Layer
+  bool anchors = false;
+
+  static Contents shape() { return {std::numeric_limits<int32_t>::max(), false, false}; }
+  void add(const Contents& other) {
+    coarsest_cell = std::max(coarsest_cell, other.coarsest_cell);
+    by_level = by_level || other.by_level;
+    anchors = anchors || other.anchors;
+  }
+  friend bool operator==(const Contents&, const Contents&) = default;
+};
+
+/// Of each rule the least contents that agree with each other, found from below, so that rules may call each other.
+class RuleContents {
+ public:
+  RuleContents(const Program& program, uint32_t steps)
+      : program_(program),
+        steps_(steps),
+        values_(program, steps_),
+        of_rule_(program.rules.size()),
+        ordered_(program.rules.size(), false) {
+    IntervalVector anything;
+    anything.fill(Interval::everything());
+    values_.setCell(anything, false);
+    frame_.scope = frame_.place.offset = frame_.start.offset = anything;
+    frame_.place.scale = frame_.start.scale = Interval::everything();
+    for (const Layer& layer : program.layers) orderFrom(layer.start);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const uint32_t r : order_) {
+        const Contents found = ofRule(program.rules[r]);
+        changed = changed || found != of_rule_[r];
+        of_rule_[r] = found;
+      }
+    }
+  }
+
+  Contents ofCall(ExprId id) {
+    if (id == kNoId) return {};
+    const ExprNode& n = program_.expr(id);
+    if (n.ref == Ref::rule) return of_rule_[n.id];
+    if (n.ref != Ref::primitive || static_cast<Primitive>(n.id) != Primitive::ca) return Contents::shape();
+    return {AutomatonLimits::coarsestCell(mostOf(program_.idAt(n.bound, 0))), true, false};
+  }
+
+ private:
+  /// Rules after those that they call, as far as they do not call each other: then one pass finds all, and one
+  /// confirms.
+  void orderFrom(ExprId start) {
+    if (start == kNoId || program_.expr(start).ref != Ref::rule || ordered_[program_.expr(start).id]) return;
+    std::vector<std::pair<uint32_t, size_t>> path{{program_.expr(start).id, 0}};
+    ordered_[path[0].first] = true;
+    while (!path.empty()) {
+      auto& [rule, next] = path.back();
+      const auto& calls = program_.rules[rule].calls;
+      if (next == calls.size()) {
+        order_.push_back(rule);
+        path.pop_back();
+      } else if (const uint32_t called = calls[next++]; !ordered_[called]) {
+        ordered_[called] = true;
+        path.emplace_back(called, 0);
+      }
+    }
+  }
+
+  Contents ofRule(const Rule& rule) {
+    Contents all;
+    for (const Alternative& a : rule.alternatives) {
+      all.by_level = all.by_level || a.lod != kNoId;
+      frame_.slots.assign(a.slot_count, RangeValue::unknown());
+      all.add(ofStatement(a.body));
+      all.add(ofCall(a.depth_call));
+      all.add(ofCall(a.minsize_call));
+    }
+    for (const uint32_t o : rule.overrides) {
+      frame_.slots.assign(program_.overrides[o].slot_count, RangeValue::unknown());
+      all.add(ofStatement(program_.overrides[o].body));
+    }
+    return all;
+  }
+
+  Contents ofStatement(StmtId id) {
+    if (id == kNoId) return {};
+    if (steps_ == 0) return {std::numeric_limits<int32_t>::max(), true, true};
+    --steps_;
+    const StmtNode& s = program_.stmt(id);
+    if (s.kind == StmtKind::call) return ofCall(s.expr);
+    if (s.kind == StmtKind::anchor) return {0, false, true};
+    Contents all = ofStatement(s.body);
+    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap ||
+        s.kind == StmtKind::fit)
+      all.add(Contents::shape());
+    for (uint32_t i = 0; i < s.children.count; ++i) all.add(ofStatement(program_.idAt(s.children, i)));
+    if (s.kind == StmtKind::detail) {
+      all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
+      all.by_level = true;
+    }
+    return all;
+  }
+
+  /// The most that a length may be, in units, at least 1.
+  int32_t mostOf(ExprId length) {
+    const double most = values_.number(length, frame_).hi * kUnitsPerMetre + 1;
+    constexpr int32_t kLargest = std::numeric_limits<int32_t>::max();
+    if (most < 1) return 1;
+    return most < kLargest ? static_cast<int32_t>(most) : kLargest;
+  }
+
+  const Program& program_;
+  uint32_t steps_;
+  RangeEvaluator values_;
+  RangeFrame frame_;  ///< in which nothing is known of arguments, scopes, places and cells
+  std::vector<Contents> of_rule_;
+  std::vector<bool> ordered_;
+  std::vector<uint32_t> order_;
+};
+
+}  // namespace
+
+void findLayerContents(Program& program, const CompileLimits& limits) {
+  RuleContents rules(program, limits.bound_steps);
+  for (Layer& layer : program.layers) {
+    const Contents contents = rules.ofCall(layer.start);
+    layer.coarsest_cell = std::min(layer.coarsest_cell, contents.coarsest_cell);
+    layer.by_level = contents.by_level;
+    layer.anchors = contents.anchors;
+  }
+}
+
+}  // namespace sgm

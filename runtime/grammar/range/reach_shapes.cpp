@@ -1,0 +1,208 @@
+#include "grammar/range/reach_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/math.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr Interval kHalf{0.5, 0.5};
+constexpr double kLargestSize = 1e5;  ///< metres; what is larger may be left out, scaled
+
+// A size below zero is no size: derivation rejects it.
+Interval positive(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
+
+/// One call of a terminal.
+class Terminal {
+ public:
+  Terminal(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame)
+      : program_(program), call_(call), values_(values), frame_(frame) {}
+
+  Extent extent();
+
+ private:
+  ExprId arg(uint32_t i) const { return i < call_.bound.count ? program_.idAt(call_.bound, i) : kNoId; }
+  Interval in(uint32_t i) { return arg(i) == kNoId ? Interval{} : values_.number(arg(i), frame_); }
+
+  /// Derived for sure where all its sizes are; `inner`: its inner radius.
+  static void sized(Extent& e, std::initializer_list<Interval> sizes, Interval inner) {
+    e.inner = positive(inner).hi;
+    e.inner_low = positive(inner).lo;
+    e.certain = std::all_of(sizes.begin(), sizes.end(), [](Interval v) { return v.lo > 0 && v.hi <= kLargestSize; });
+    e.node();
+  }
+
+  static Extent centred(Interval x, Interval y, Interval z) {
+    const IntervalVector upper{positive(x), positive(y), positive(z)};
+    Extent e = Extent::leaf({-upper[0], -upper[1], -upper[2]}, upper);
+    sized(e, {x, y, z}, minimum(x, minimum(y, z)));
+    return e;
+  }
+
+  /// What part of a local value (a parameter) an expression is: r, 0.6*r, r*n, r/2; nothing where it is none of these.
+  std::optional<std::pair<uint32_t, Interval>> partOf(ExprId id) {
+    const ExprNode& n = program_.expr(id);
+    if (n.ref == Ref::local) return std::pair{n.id, Interval{1, 1}};
+    if (n.kind != ExprKind::binary || (n.binary != BinaryOp::multiply && n.binary != BinaryOp::divide))
+      return std::nullopt;
+    const ExprId left = program_.idAt(n.children, 0), right = program_.idAt(n.children, 1);
+    if (n.binary == BinaryOp::multiply && program_.expr(right).ref == Ref::local)
+      return std::pair{program_.expr(right).id, values_.number(left, frame_)};
+    if (program_.expr(left).ref != Ref::local) return std::nullopt;
+    const Interval by = values_.number(right, frame_);
+    return std::pair{program_.expr(left).id, n.binary == BinaryOp::multiply ? by : Interval{1, 1} / by};
+  }
+
+  /// The ratio of the largest radius to the smallest, at most.
+  double ratio(bool scalar, double most, double least) {
+    const double apart = least > 0 ? most / least : kInfinity;
+    const ExprNode& n = program_.expr(arg(0));
+    const bool vector = n.kind == ExprKind::vector && n.children.count == 3;
+    if (scalar && arg(1) == kNoId) return 1;
+    if (!scalar && !vector) return apart;
+    // Parts of one value rise and fall together.
+    double high = 0, low = kInfinity;
+    uint32_t slot = kNoId;
+    for (uint32_t i = 0; i < 3; ++i) {
+      const ExprId radius = vector ? program_.idAt(n.children, i) : arg(i);
+      const auto part = radius == kNoId ? std::nullopt : partOf(radius);
+      if (!part || (slot != kNoId && part->first != slot) || !(part->second.lo > 0)) return apart;
+      slot = part->first;
+      high = std::max(high, part->second.hi);
+      low = std::min(low, part->second.lo);
+    }
+    return std::min(apart, high / low * (1 + 1e-9));
+  }
+
+  /// Its field grows with the smallest radius, and its levels with the largest.
+  Extent radial(const IntervalVector& v, bool scalar, bool round) {
+    Extent e = centred(v[0], v[1], v[2]);
+    if (round) e.at.core_radius = e.size();  // an ellipsoid does not fill the corners of its box
+    e.spread = ratio(scalar, e.size(), e.inner_low);
+    e.turned_spread = e.spread * (round ? 1 : 1.7320508075688774);
+    // A sum's kernel takes of every radius what it takes of the smallest.
+    e.in_sum = e.at;
+    e.in_sum.scale({1, 1.6});
+    return e;
+  }
+
+  Extent boxLike() {
+    const Primitive kind = static_cast<Primitive>(call_.id);
+    const RangeValue first = values_.evaluate(arg(0), frame_);
+    IntervalVector v = first.v;
+    if (first.kind != ValueKind::vector) {
+      const Interval x = in(0);
+      v = {x, arg(1) == kNoId ? x : in(1), arg(2) == kNoId ? x : in(2)};
+      // A superquadric's second argument is how square it is.
+      if (kind == Primitive::superq) v = {x, x, x};
+    }
+    if (kind == Primitive::box) return centred(v[0] * kHalf, v[1] * kHalf, v[2] * kHalf);
+    return radial(v, first.kind != ValueKind::vector, kind == Primitive::ellipsoid);
+  }
+
+  /// Between two points: a radius, and a ball about the line that holds the shape.
+  Extent around(Interval radius, double ball, bool certain) {
+    const IntervalVector a = values_.vector(arg(0), frame_), b = values_.vector(arg(1), frame_);
+    IntervalVector lower, upper;
+    for (size_t i = 0; i < 3; ++i) {
+      const Interval reach = Interval::exactly(ball);
+      lower[i] = minimum(a[i], b[i]) - reach;
+      upper[i] = maximum(a[i], b[i]) + reach;
+    }
+    Extent e = Extent::leaf(lower, upper, ball);
+    for (size_t i = 0; i < 3; ++i) {
+      e.sure_lo[i] = minimum(a[i], b[i]).hi - radius.lo;
+      e.sure_hi[i] = maximum(a[i], b[i]).lo + radius.lo;
+    }
+    sized(e, {radius}, radius);
+    e.certain = e.certain && certain;
+    return e;
+  }
+
+  Extent prism() {
+    const Interval h = positive(in(0) * kHalf);
+    IntervalVector lower{Interval{kInfinity, kInfinity}, -h, Interval{kInfinity, kInfinity}};
+    IntervalVector upper{Interval{-kInfinity, -kInfinity}, h, Interval{-kInfinity, -kInfinity}};
+    for (uint32_t i = 1; i < call_.bound.count; ++i) {
+      const IntervalVector corner = values_.vector(arg(i), frame_);
+      for (size_t axis : {size_t{0}, size_t{2}}) {
+        lower[axis] = minimum(lower[axis], corner[axis == 0 ? 0 : 1]);
+        upper[axis] = maximum(upper[axis], corner[axis == 0 ? 0 : 1]);
+      }
+    }
+    Extent e = Extent::leaf(lower, upper);
+    e.inner = std::min(h.hi, e.at.core_radius);
+    e.node();
+    return e;  // corners may fall together: not certain
+  }
+
+  const Program& program_;
+  const ExprNode& call_;
+  RangeEvaluator& values_;
+  const RangeFrame& frame_;
+};
+
+Extent Terminal::extent() {
+  switch (static_cast<Primitive>(call_.id)) {
+    case Primitive::sphere:
+    case Primitive::blob: {
+      const Interval r = positive(in(0));
+      Extent e = Extent::leaf({-r, -r, -r}, {r, r, r}, r.hi);
+      sized(e, {in(0)}, r);
+      return e;
+    }
+    case Primitive::box:
+    case Primitive::ellipsoid:
+    case Primitive::superq:
+      return boxLike();
+    case Primitive::cylinder:
+      return centred(in(0), in(1) * kHalf, in(0));
+    case Primitive::truncone: {
+      const Interval top = in(1), bottom = in(2), widest = maximum(positive(top), positive(bottom));
+      Extent e = centred(widest, in(0) * kHalf, widest);
+      // One radius may be 0; one below leaves the cone out.
+      e.certain = e.certain && top.lo >= 0 && bottom.lo >= 0;
+      return e;
+    }
+    case Primitive::torus: {
+      const Interval ring = positive(in(0)) + positive(in(1));
+      Extent e = centred(ring, in(1), ring);
+      sized(e, {in(0), in(1)}, in(1));
+      return e;
+    }
+    case Primitive::capsule:
+      return around(positive(in(2)), positive(in(2)).hi, true);
+    // Ends that fall together leave both out.
+    case Primitive::tube:
+      return around(positive(in(2)), positive(in(2)).hi + positive(in(3)).hi, false);
+    // The corner of a square section at an end: as far along as across.
+    case Primitive::beam:
+      return around(positive(in(2)), positive(in(2)).hi * 1.7320508075688774 + positive(in(3)).hi, false);
+    case Primitive::halfspace: {
+      Extent e = Extent::unbounded();
+      e.count = 1;
+      e.certain = true;
+      if (arg(0) != kNoId) e.at.may[1].hi = in(0).hi;
+      if (arg(1) != kNoId) e.at.may[1].lo = in(1).lo;
+      e.at.core = e.at.may;
+      return e;
+    }
+    case Primitive::prism:
+      return prism();
+    case Primitive::ca:
+      break;  // of a cell, not of a scope: ReachCheck::automaton()
+  }
+  return Extent::unbounded();
+}
+
+}  // namespace
+
+Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame) {
+  return Terminal(program, call, values, frame).extent();
+}
+
+}  // namespace sgm

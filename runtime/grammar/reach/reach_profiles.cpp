@@ -1,0 +1,127 @@
+// Footprints, what is extruded from them, roofs and fitted assets in the proof of reach.
+
+#include <algorithm>
+
+#include "base/math.h"
+#include "grammar/range/reach_shapes.h"
+#include "grammar/reach/reach_check.h"
+#include "grammar/syntax/profile_limits.h"
+#include "grammar/syntax/scope_parts.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr Interval kMiddle{0.5, 0.5};
+/// A roof's peak is cut off a little above it, and heights are rounded (derive/interpret/profiles.cpp).
+constexpr double kRounding = 4.0 / kUnitsPerMetre;
+
+Interval notBelowZero(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
+Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
+
+}  // namespace
+
+Extent solidIn(const IntervalVector& edges) {
+  IntervalVector lower, upper;
+  for (size_t i = 0; i < 3; ++i) {
+    upper[i] = notBelowZero(edges[i] * kMiddle);
+    lower[i] = -upper[i];
+  }
+  Extent e = Extent::leaf(lower, upper);
+  e.inner = e.size();
+  e.uncertain();
+  e.node();
+  return e;
+}
+
+RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& frame) {
+  RangeValue out;
+  out.kind = ValueKind::plan;
+  const auto number = [&](uint32_t i) { return notBelowZero(values_.number(program_.idAt(plan.bound, i), frame)); };
+  out.v[1] = out.at[1] = Interval{};
+  switch (plan.outline) {
+    case Outline::rect:
+      out.v[0] = number(0);
+      out.v[2] = number(1);
+      break;
+    case Outline::regular:
+      // The box of a triangle is the least of all.
+      out.v[0] = out.v[2] = number(1) * Interval{1.5, 2};
+      break;
+    case Outline::polygon: {
+      IntervalVector low = values_.vector(program_.idAt(plan.bound, 0), frame), high = low;
+      for (uint32_t i = 1; i < plan.bound.count; ++i) {
+        const IntervalVector corner = values_.vector(program_.idAt(plan.bound, i), frame);
+        for (size_t k = 0; k < 2; ++k) {
+          low[k] = minimum(low[k], corner[k]);
+          high[k] = maximum(high[k], corner[k]);
+        }
+      }
+      for (size_t k = 0; k < 2; ++k) {
+        out.v[2 * k] = notBelowZero(high[k] - low[k]);
+        out.at[2 * k] = (low[k] + high[k]) * kMiddle;
+      }
+      return out;
+    }
+  }
+  const bool merged = plan.count != kNoId && !(values_.number(plan.count, frame).hi < 1.5);
+  for (size_t axis : {size_t{0}, size_t{2}}) out.at[axis] = merged ? symmetric(out.v[axis] * kMiddle) : Interval{};
+  return out;
+}
+
+Extent ReachCheck::extrude(const StmtNode& s, RangeFrame& frame) {
+  const RangeValue plan = values_.evaluate(s.plan, frame);
+  const Interval height = notBelowZero(values_.number(s.expr, frame));
+  const IntervalVector scope = frame.scope;
+  const PlaceRange place = frame.place;
+  const IntervalVector middle{plan.at[0], height * kMiddle, plan.at[2]};
+  frame.scope = {plan.v[0], height, plan.v[2]};
+  frame.place.move(middle);
+  Extent e = solidIn(frame.scope);
+  if (s.body != kNoId) e = block(program_.stmt(s.body), frame, std::move(e));
+  frame.scope = scope;
+  frame.place = place;
+  e.repeat({0, kMergeRange.high});
+  e.move(middle);
+  e.blame(s.plan);
+  return e;
+}
+
+Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
+  const RoofNode& roof = program_.ast.roofs[s.extra];
+  RangeValue plan = RangeValue::vector(frame.scope);
+  Interval overhang = roof.overhang == kNoId ? Interval{} : notBelowZero(values_.number(roof.overhang, frame));
+  Interval floor = -(frame.scope[1] * kMiddle);
+  if (s.plan != kNoId) {
+    plan = values_.evaluate(s.plan, frame);
+    floor = Interval::exactly(-kSeamOverlap);
+    overhang = overhang * Interval::exactly(kMostMiter);
+  }
+  IntervalVector edges = plan.v;
+  for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = notBelowZero(edges[axis]) + overhang + overhang;
+  const Interval measure = values_.number(roof.measure, frame);
+  if (roof.form == RoofForm::flat) {
+    edges[1] = notBelowZero(measure);
+  } else {
+    const double pitch = std::clamp(measure.hi, kLeastPitch, kMostPitch);
+    const double slope = detSin(pitch) / detCos(pitch) * (1 + 1e-12);
+    edges[1] = {0, boundProduct(slope, std::min(edges[0].hi, edges[2].hi)) / 2 + kRounding};
+  }
+  Extent e = solidIn(edges);
+  e.repeat({0, kMergeRange.high});
+  e.move({plan.at[0], floor + edges[1] * kMiddle, plan.at[2]});
+  if (s.plan != kNoId) e.blame(s.plan);
+  return e;
+}
+
+/// An asset fills the scope's box, and no more, or is left out.
+Extent ReachCheck::fit(const StmtNode& s, RangeFrame& frame) {
+  const FitNode& fit = program_.ast.fits[s.extra];
+  for (uint32_t i = 0; i < fit.zones.count; ++i) {
+    const FitZoneNode& zone = program_.ast.fit_zones[fit.zones.first + i];
+    for (const ExprId end : {zone.from, zone.to}) values_.number(end, frame);  // queries in them
+  }
+  return solidIn(frame.scope);
+}
+
+}  // namespace sgm

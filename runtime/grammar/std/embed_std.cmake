@@ -1,0 +1,23 @@
+# cmake -DOUT=file.cpp -DDIR=std -DFILES=a.sgm;b.sgm -P embed_std.cmake: writes the standard library as C++ text.
+set(body "")
+set(count 0)
+foreach(file IN LISTS FILES)
+  file(READ ${DIR}/${file} text)
+  # Compilers cap the length of one literal; a few kilobytes each stay far below.
+  string(APPEND body "    {\"std/${file}\", R\"sgm(${text})sgm\"},\n")
+  math(EXPR count "${count} + 1")
+endforeach()
+file(WRITE ${OUT} "#include \"grammar/std/std_library.h\"
+
+#include <array>
+
+namespace sgm {
+
+std::span<const StdFile> stdLibrary() {
+  static constexpr std::array<StdFile, ${count}> kFiles = {{
+${body}  }};
+  return kFiles;
+}
+
+}  // namespace sgm
+")

@@ -1,0 +1,20 @@
+#pragma once
+// The standard library: the grammars of this folder, embedded when the library is built.
+
+#include <span>
+#include <string_view>
+
+namespace sgm {
+
+struct StdFile {
+  std::string_view path;  ///< "std/rock.sgm"
+  std::string_view text;
+};
+
+/// All of its files, by path.
+std::span<const StdFile> stdLibrary();
+
+/// The text of the file "std/NAME.sgm", or an empty view if the library has none of that path.
+std::string_view standardModule(std::string_view path);
+
+}  // namespace sgm

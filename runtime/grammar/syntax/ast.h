@@ -1,0 +1,389 @@
+#pragma once
+// The syntax tree of a whole program, all files in one set of arrays. The parser fills the written part; the checker
+// fills what is marked "resolved": after it no name needs to be looked up again. Indices are kNoId where absent.
+// Numbers are in metres, radians and plain ratios.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "grammar/syntax/builtins.h"
+#include "grammar/syntax/units.h"
+#include "grammar/text/diagnostics.h"
+
+namespace sgm {
+
+inline constexpr uint32_t kNoId = 0xFFFFFFFFu;
+using ExprId = uint32_t;  ///< into Ast::exprs
+using StmtId = uint32_t;  ///< into Ast::stmts
+using NameId = uint32_t;  ///< into Ast::names
+
+/// A stretch of one of the Ast's index arrays.
+struct IdRange {
+  uint32_t first = 0, count = 0;
+};
+
+enum class ExprKind : uint8_t {
+  number,       ///< value, type.dim
+  text,         ///< name: its content
+  vector,       ///< (a, b, c) or the pair (a, b): children
+  negate,       ///< children[0]
+  logical_not,  ///< children[0]
+  binary,       ///< children[0] binary children[1]
+  conditional,  ///< if children[0] then children[1] else children[2]
+  range,        ///< children[0] .. children[1], the end left out
+  name,         ///< ref, id
+  member,       ///< children[0] . member; resolved away for `module.name` and for calls of methods
+  call,         ///< ref, id, bound
+  query,        ///< clear or `inside` [children[0]: radius] of name: a layer; ref, id
+};
+
+enum class BinaryOp : uint8_t {
+  add,
+  subtract,
+  multiply,
+  divide,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or
+};
+
+/// What a name or the callee of a call stands for (resolved); `id` is an index into the table named here.
+enum class Ref : uint8_t {
+  none,
+  parameter,  ///< Program::params
+  let,        ///< Program::lets; calls and plain names
+  field,      ///< Program::fields; calls and plain names
+  rule,       ///< Program::rules; calls only
+  primitive,  ///< static_cast<uint32_t>(Primitive); calls only
+  builtin,    ///< static_cast<uint32_t>(Builtin); calls; a method's receiver is bound[0]
+  value,      ///< static_cast<uint32_t>(BuiltinValue): cell, scope, p, q, u
+  layer,      ///< Program::layers; queries only
+  local,      ///< slot of the frame of the rule alternative, let function or field that contains the name
+};
+
+enum class Member : uint8_t { none, x, y, z, other, axis, size, center, faces, from, to, along, depth };
+
+struct ExprNode {
+  ExprKind kind = ExprKind::number;
+  BinaryOp binary = BinaryOp::add;
+  Ref ref = Ref::none;           ///< resolved
+  Member member = Member::none;  ///< resolved
+  bool parenthesised = false;    ///< written in parentheses that the printer keeps
+  bool shape = false;            ///< call of a rule or terminal: needs no () where it has no arguments
+  bool inside = false;           ///< query: whether all is solid, not whether all is void
+  bool circular = false;         ///< resolved, call of a rule: it may lead back to the rule that it stands in
+  Type type;                     ///< resolved; of let functions and fields: as last instantiated
+  double value = 0;              ///< number
+  NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part
+  NameId qualifier = kNoId;      ///< call and name: `rock` of rock.fbm, once resolved to a module
+  uint32_t id = kNoId;           ///< resolved: see Ref
+  uint32_t ordinal = 0;          ///< resolved: rand, chance: number of this draw within its rule, let or field
+  IdRange children;              ///< into Ast::ids; of a call of a method: the receiver
+  IdRange args;                  ///< into Ast::args: as written
+  IdRange bound;                 ///< resolved, into Ast::ids: one ExprId for each parameter of the callee, in its
+                                 ///< order; kNoId: left out (use BuiltinParam::fallback). Defaults of lets, fields
+                                 ///< and rules are already put in. Variadic tails follow
+  Span span;
+};
+
+/// An argument as written: `value` or `name value`.
+struct ArgNode {
+  NameId name = kNoId;
+  ExprId value = kNoId;
+  Span span;
+};
+
+enum class StmtKind : uint8_t {
+  block,      ///< children; material and tag apply to all that is in it, also to what stands before them
+  call,       ///< expr: a call of a rule or a primitive
+  unite,      ///< union [smooth amount] body
+  cut,        ///< cut [smooth amount] body: takes the body away from what precedes in the block. Directly in the body
+              ///< of a layer's start rule (through loops, transforms, detail and plain blocks): from the domain
+  meet,       ///< meet [smooth amount] body: the intersection of the body's own statements, added to the block
+  sum,        ///< sum body: compact-kernel sum of the leaves
+  morph,      ///< children[0], children[1] (call or block), expr: t, power; at t = 0 the first, at t = 1 the second
+  displace,   ///< expr (length), amount: declared bound of |expr|, which clamps it, or kNoId; body
+  warp,       ///< expr (vector of lengths), amount: as in displace, for each component; body
+  transform,  ///< xforms, applied left to right from the outside in; body
+  repeat,     ///< expr: count; xforms: applied i times to copy i; body
+  for_each,   ///< slot: loop variable; expr: a range, faces or segments; body
+  scatter,    ///< extra: Ast::scatters; body
+  let,        ///< slot = expr, from here to the end of the block
+  field,      ///< extra: Program::fields, evaluated in this frame where it is used
+  mat,        ///< extra: Program::materials
+  tag,        ///< extra: Program::tags
+  anchor,     ///< extra: kind, extra2: name; both Program::names
+  split,      ///< extra: axis 0 1 2; parts: along it, each with its child; amount: how far its lines snap, or kNoId
+  snap,       ///< extra: axis 0 1 2; expr: distance of the planes; amount: of the first from the low end, or kNoId
+  comp,       ///< parts: faces and edges of the scope's box, each with its child
+  treemap,    ///< extra: Ast::treemaps; parts: its rooms and what else is derived in it, each with its child
+  link,       ///< of a treemap: name and name2: rooms; extra: Ast::links
+  detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
+  footprint,  ///< slot: a plan, from here to the end of the block; extra: Ast::footprints
+  extrude,    ///< expr: height; plan; body: a block or kNoId
+  roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
+  inner,      ///< in an override's block: what the override takes the place of; extra: its number there
+  fit,        ///< name: an import of an asset; extra: Ast::fits
+  wfc,        ///< expr: a length or a vector, the edges of tiles; extra: Ast::waves; parts: tiles, each with its child
+  border,     ///< of a wfc: extra: Ast::tiles, what its sides have to meet
+};
+
+/// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
+constexpr bool placesBody(StmtKind kind) {
+  return kind == StmtKind::transform || kind == StmtKind::repeat || kind == StmtKind::for_each ||
+         kind == StmtKind::scatter || kind == StmtKind::detail || kind == StmtKind::snap;
+}
+
+struct StmtNode {
+  StmtKind kind = StmtKind::block;
+  bool power = false;        ///< morph: by exponent
+  bool layer_level = false;  ///< resolved, cut and inner: cuts the domain, where its rule runs as a layer's start
+  uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
+  uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
+  uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys
+  ExprId expr = kNoId;
+  ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
+  ExprId plan = kNoId;    ///< extrude, roof: a name
+  StmtId body = kNoId;
+  uint32_t slot = kNoId;  ///< resolved: let, for_each, footprint
+  uint32_t extra = kNoId, extra2 = kNoId;
+  NameId name = kNoId;   ///< as written: loop variable, let, footprint, mat, tag, anchor kind
+  NameId name2 = kNoId;  ///< as written: anchor name
+  IdRange children;      ///< into Ast::ids (StmtId)
+  IdRange xforms;        ///< into Ast::xforms
+  IdRange parts;         ///< into Ast::parts: as many as children
+  Span span;
+};
+
+enum class XformKind : uint8_t {
+  at,      ///< a: a point, or a, b, c: lengths (kNoId is 0): moves the scope
+  rot,     ///< axis 0 1 2, or a: vector (any length but 0) where axis is 3; b: angle, right-handed
+  scale,   ///< a: factor > 0
+  size,    ///< a, b, c: the edges of the scope's box (kNoId keeps one), or a: a vector of all three
+  mirror,  ///< axis 0 1 2: that coordinate changes its sign
+};
+
+struct XformNode {
+  XformKind kind = XformKind::at;
+  uint8_t axis = 3;
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from args
+  IdRange args;                            ///< into Ast::args: as written
+  Span span;
+};
+
+enum class ScatterArea : uint8_t {
+  cell,   ///< the box from the scope's origin to the cell's size; poisson only
+  shell,  ///< a: radius; b: up, the share of the sphere from the top (0..1, default 1)
+  box,    ///< a, b, c: edges, centred (or a: a vector)
+  disc,   ///< a: radius, in the plane y = 0
+};
+
+/// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance,
+/// and is left out where there is none or where it does not start in the open. With gap: the body knows how far it is
+/// from there through the open to the next surface the other way; a point where that is farther than `within` is left
+/// out.
+struct ScatterNode {
+  bool poisson = false;
+  ExprId count = kNoId;  ///< a count, or the least distance with poisson
+  ScatterArea area = ScatterArea::cell;
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from args
+  IdRange args;                            ///< into Ast::args: as written
+  int probe = 0;                           ///< 0 none, 1 up (+y), -1 down
+  ExprId distance = kNoId;
+  NameId layer_name = kNoId;
+  uint32_t layer = kNoId;  ///< resolved: Program::layers
+  NameId gap = kNoId;      ///< the name of that length, or none
+  uint32_t slot = kNoId;   ///< its place among the locals
+  ExprId within = kNoId;
+  ExprId when = kNoId;  ///< each point draws by itself
+  Span span;
+};
+
+/// What `comp` takes of a box; named as seen from the front, which is +z.
+enum class BoxPart : uint8_t {
+  front,   ///< +z
+  right,   ///< +x
+  back,    ///< -z
+  left,    ///< -x
+  top,     ///< +y
+  bottom,  ///< -y
+  side,    ///< those of the first four that have no part of their own
+  edges,   ///< the four that are parallel to y
+  inside,  ///< the box itself
+};
+
+/// What stands in a treemap.
+enum class FloorPart : uint8_t {
+  room,
+  corridor,  ///< what is derived in each stretch of it
+  facade,    ///< at each outer wall of a room
+  link,      ///< a statement of that kind
+};
+
+/// A part of a split, a comp, a treemap or a wfc.
+struct PartNode {
+  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope; of a room or a tile: its weight
+  bool flexible = false;        ///< of a split: the length is a weight in what the others leave
+  bool repeated = false;        ///< of a split: in the group that is repeated, which is one run of parts
+  bool relative = false;        ///< resolved, of a split: size is a share
+  BoxPart of = BoxPart::front;  ///< of a comp
+  FloorPart floor = FloorPart::room;  ///< of a treemap
+  NameId label = kNoId;               ///< of a room or a tile
+  uint32_t tile = kNoId;              ///< of a wfc: Ast::tiles
+  uint16_t tag = 0;                   ///< resolved, of a room: Program::tags
+  Span span;
+  Span group;  ///< repeated: of the whole group
+};
+
+enum class Outline : uint8_t {
+  rect,     ///< bound: edges along x and z
+  regular,  ///< bound: number of corners, radius to them
+  polygon,  ///< bound: corners, pairs of x and z
+};
+
+struct FootprintNode {
+  Outline outline = Outline::rect;
+  ExprId count = kNoId;  ///< merge, or kNoId: one piece
+  IdRange args;          ///< into Ast::args: as written
+  IdRange bound;         ///< resolved, into Ast::ids; drawn for each piece
+  Span span;             ///< of the outline
+};
+
+enum class RoofForm : uint8_t { flat, gable, hip };
+
+struct RoofNode {
+  RoofForm form = RoofForm::flat;
+  ExprId measure = kNoId;   ///< resolved: flat: the height, otherwise the pitch
+  ExprId overhang = kNoId;  ///< resolved, or kNoId: 0
+  IdRange args;             ///< into Ast::args: as written
+};
+
+/// Part of an asset, along an axis from the low end of its box.
+struct FitZoneNode {
+  uint8_t axis = 0;      ///< 0 1 2
+  bool repeats = false;  ///< otherwise it stretches
+  ExprId from = kNoId, to = kNoId;
+  Span span;
+};
+
+struct FitNode {
+  uint32_t asset = kNoId;  ///< resolved: Program::assets
+  IdRange zones;           ///< into Ast::fit_zones
+  Span name_span;
+};
+
+/// Lengths; resolved, or kNoId.
+struct TreemapNode {
+  IdRange args;  ///< into Ast::args: as written
+  ExprId wall = kNoId, door = kNoId, height = kNoId, corridor = kNoId;
+};
+
+struct LinkNode {
+  IdRange args;                          ///< into Ast::args: as written; none where the treemap says how wide doors are
+  uint32_t a = 0, b = 0;                 ///< resolved: rooms, as numbered among those of the treemap
+  ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: as the treemap says
+};
+
+/// One side of a tile or of the border, as written.
+struct SocketNode {
+  BoxPart of = BoxPart::front;  ///< front to bottom, or side
+  IdRange labels;               ///< into Ast::ids (NameId): what it is
+  IdRange meets;                ///< likewise, what it meets; none: what it is
+  Span span;
+};
+
+/// What a side is and what it meets, a bit for each label; all bits of a side that is not written.
+struct SideKind {
+  uint64_t labels = ~uint64_t{0}, meets = ~uint64_t{0};
+
+  friend bool operator==(const SideKind&, const SideKind&) = default;
+  bool any() const { return ~labels == 0; }
+  bool fits(const SideKind& other) const { return (labels & other.meets) != 0 && (other.labels & meets) != 0; }
+};
+
+/// A tile of a wfc, or its border.
+struct TileNode {
+  bool turns = false;              ///< stands turned by any number of quarters about y
+  IdRange sockets;                 ///< into Ast::sockets: as written
+  std::array<uint8_t, 6> sides{};  ///< resolved, in the order of BoxPart: numbers of their kinds
+};
+
+/// Resolved.
+struct WaveNode {
+  IdRange labels;  ///< into Ast::ids (NameId): by their bits
+  IdRange kinds;   ///< into Ast::side_kinds
+};
+
+/// A parameter of a rule, let function or field.
+struct FormalNode {
+  NameId name = kNoId;
+  ExprId fallback = kNoId;                     ///< written default
+  ExprId low_expr = kNoId, high_expr = kNoId;  ///< written range; of a rule's heads that of the first counts
+  Type type;                                   ///< resolved for rules
+  uint32_t slot = kNoId;  ///< resolved: its place in the frame; of rules, lets and global fields: its position
+  bool ranged = false;    ///< resolved: a number of `dim` from `low` to `high`, both allowed
+  Dim dim;
+  double low = 0, high = 0;
+  Span span;
+};
+
+/// A comment, kept for the printer.
+struct Comment {
+  uint32_t begin = 0, end = 0;
+  int line = 0;
+  bool own_line = false;  ///< nothing stands before it on its line
+};
+
+struct Ast {
+  std::pmr::vector<ExprNode> exprs;
+  std::pmr::vector<StmtNode> stmts;
+  std::pmr::vector<XformNode> xforms;
+  std::pmr::vector<ScatterNode> scatters;
+  std::pmr::vector<PartNode> parts;
+  std::pmr::vector<TreemapNode> treemaps;
+  std::pmr::vector<LinkNode> links;
+  std::pmr::vector<SocketNode> sockets;
+  std::pmr::vector<TileNode> tiles;
+  std::pmr::vector<WaveNode> waves;
+  std::pmr::vector<SideKind> side_kinds;
+  std::pmr::vector<FootprintNode> footprints;
+  std::pmr::vector<RoofNode> roofs;
+  std::pmr::vector<FitNode> fits;
+  std::pmr::vector<FitZoneNode> fit_zones;
+  std::pmr::vector<ArgNode> args;
+  std::pmr::vector<FormalNode> formals;
+  std::pmr::vector<uint32_t> ids;
+  std::pmr::deque<std::pmr::string> names;  ///< a deque: views of them outlive later names
+
+  explicit Ast(std::pmr::memory_resource* memory)
+      : exprs(memory),
+        stmts(memory),
+        xforms(memory),
+        scatters(memory),
+        parts(memory),
+        treemaps(memory),
+        links(memory),
+        sockets(memory),
+        tiles(memory),
+        waves(memory),
+        side_kinds(memory),
+        footprints(memory),
+        roofs(memory),
+        fits(memory),
+        fit_zones(memory),
+        args(memory),
+        formals(memory),
+        ids(memory),
+        names(memory) {}
+};
+
+}  // namespace sgm

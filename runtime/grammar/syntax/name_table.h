@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "grammar/syntax/ast.h"
+
+namespace sgm {
+
+/// Names of one program, each stored once.
+class NameTable {
+ public:
+  explicit NameTable(Ast& ast) : ast_(ast) {}
+  NameId intern(std::string_view text);
+
+ private:
+  Ast& ast_;
+  std::map<std::string, NameId, std::less<>> ids_;
+};
+
+}  // namespace sgm

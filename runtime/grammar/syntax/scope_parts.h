@@ -1,0 +1,36 @@
+#pragma once
+// What the parts of scopes and the proof of where they lie agree upon.
+
+#include "base/fixed.h"
+#include "grammar/syntax/builtins.h"
+
+namespace sgm {
+
+/// Metres by which a part reaches beyond where it meets the next one of its split. Solids that share a face alone would
+/// leave a sheet of void where samples lie in that face: this is more than the rounding of their places and than the
+/// step in which cells of up to 2 m are sampled.
+inline constexpr double kSeamOverlap = 2.0 / kUnitsPerMetre;
+
+inline constexpr ValueRange kSnapRange{0.01, 1e5, "snap planes are 1cm or more apart", "such as snap y 3.2m"};
+
+inline constexpr ValueRange kSnapReachRange{0, 1e5, "the lines of a split snap by 0m or more", "such as snap 0.5m"};
+
+/// Metres by which an entrance reaches out of the floor of a treemap, and doors into what they join.
+inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
+
+inline constexpr size_t kMostRooms = 32;
+inline constexpr ValueRange kRoomAreaRange{1e-6, 1e6, "the area of a room is a millionth to a million",
+                                           "such as `living 28`"};
+inline constexpr ValueRange kWallRange{0.01, 5, "the walls of a treemap are 1cm to 5m thick", "such as wall 0.2m"};
+inline constexpr ValueRange kDoorRange{0.1, 100, "a door is 0.1m to 100m wide", "such as door 0.9m"};
+inline constexpr ValueRange kDoorHeightRange{0.1, 100, "a door is 0.1m to 100m high", "such as height 2.1m"};
+inline constexpr ValueRange kCorridorRange{0.1, 100, "a corridor is 0.1m to 100m wide", "such as corridor 1.2m"};
+
+inline constexpr size_t kMostTiles = 64;
+inline constexpr size_t kMostLabels = 63;
+inline constexpr size_t kMostSideKinds = 64;
+inline constexpr double kMostPlaces = 32768;
+inline constexpr ValueRange kTileRange{0.01, 1e5, "a tile is 1cm or more along each axis", "such as wfc 2m"};
+inline constexpr ValueRange kTileWeightRange{0, 1e6, "the weight of a tile is 0 to a million", "such as `wall 3`"};
+
+}  // namespace sgm

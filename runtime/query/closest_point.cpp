@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "query/query_sampler.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr int kNearBrick = 4;         // cells on each axis whose samples are taken together
+constexpr int64_t kFirstSearch = 16;  // cells: what is near is found without compiling what is far
+constexpr int64_t kSearchGrowth = 4;
+constexpr double kNoDistance = std::numeric_limits<double>::infinity();
+constexpr double kNearest = 0.25;  // units: less is no step towards the place
+
+/// Bricks that may hold the surface, or a box that does, and how near it can be.
+struct Candidate {
+  double lower = 0;
+  int rank = 0;  ///< several bricks 0, one brick 1, a box 2
+  IntBox box;    ///< of bricks by their places; a box in units
+  std::shared_ptr<const PrunedProgram> program;
+
+  /// What is nearest comes first. Among equals bricks come before boxes, and each has its place: so the order in which
+  /// boxes are found does not depend on what was proven of the bricks around.
+  friend bool operator<(const Candidate& a, const Candidate& b) {
+    return std::tie(b.lower, b.rank, b.box.lo, b.box.hi) < std::tie(a.lower, a.rank, a.box.lo, a.box.hi);
+  }
+};
+
+/// The nearest sample on the other side of the surface, best first over an octree, and the surface before it.
+class SurfaceSearch {
+ public:
+  SurfaceSearch(const QueryField& field, const SplitPosition& place, double radius)
+      : field_(field),
+        cell_(field.finest_cell),
+        place_(place),
+        radius_(radius),
+        sampler_(field.memory),
+        open_(std::less<Candidate>{}, std::pmr::vector<Candidate>(field.memory)) {}
+
+  Result<std::optional<SurfacePoint>> run() {
+    // Cells whose corners all lie in the world.
+    const int64_t world_first = -(INT64_C(2147483648) / cell_), world_last = INT64_C(2147483647) / cell_ - 1;
+    IntBox bricks;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = place_.base[axis];
+      const auto cellAt = [&](double units) {
+        return std::clamp(static_cast<int64_t>(std::floor(units / cell_)), world_first, world_last);
+      };
+      first_cell_[axis] = static_cast<int32_t>(cellAt(at - radius_ - 1));
+      last_cell_[axis] = static_cast<int32_t>(cellAt(at + radius_ + 1));
+      bricks.lo[axis] = static_cast<int32_t>(floorDiv(first_cell_[axis], kNearBrick));
+      bricks.hi[axis] = static_cast<int32_t>(floorDiv(last_cell_[axis], kNearBrick));
+    }
+    const Int3 home = place_.at({});
+    Result<std::shared_ptr<const FieldProgram>> program = field_.at(unitBox(bricks).joined({home, home}));
+    if (!program) return program.error();
+    inside_ = sampler_.solid((*program)->view(), home);
+    auto whole = std::make_shared<PrunedProgram>(field_.memory);
+    prune((*program)->view(), unitBox(bricks), sampler_.pruning, *whole);
+    if (whole->solid() || whole->empty()) return std::optional<SurfacePoint>{};
+    push({0, 0, bricks, std::move(whole)});
+    while (!open_.empty() && worthALook(open_.top())) {
+      const Candidate next = open_.top();
+      open_.pop();
+      if (next.rank == 2) {
+        halve(next);
+      } else {
+        look(next);
+      }
+    }
+    if (nearest_ == kNoDistance) return std::optional<SurfacePoint>{};
+    return std::optional<SurfacePoint>(foot((*program)->view()));
+  }
+
+ private:
+  bool worthALook(const Candidate& candidate) const {
+    return nearest_ == kNoDistance || candidate.lower < nearest_ - (cell_ / 4.0 + nearest_ / 64);
+  }
+
+  IntBox unitBox(const IntBox& bricks) const {
+    IntBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = cell_ * std::max(bricks.lo[axis] * kNearBrick, first_cell_[axis]);
+      box.hi[axis] = cell_ * (std::min(bricks.hi[axis] * kNearBrick + kNearBrick - 1, last_cell_[axis]) + 1);
+    }
+    return box;
+  }
+
+  double distanceTo(const IntBox& box) const {
+    const Vector3 lo = place_.to(box.lo), hi = place_.to(box.hi);
+    double squares = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double away = std::max({lo[axis], -hi[axis], 0.0});
+      squares += away * away;
+    }
+    return std::sqrt(squares);
+  }
+
+  void push(Candidate candidate) {
+    candidate.lower = distanceTo(candidate.rank == 2 ? candidate.box : unitBox(candidate.box));
+    if (candidate.rank == 0 && candidate.box.lo == candidate.box.hi) candidate.rank = 1;
+    if (candidate.lower <= radius_ && candidate.lower < nearest_) open_.push(std::move(candidate));
+  }
+
+  void look(const Candidate& bricks) {
+    auto program = std::make_shared<PrunedProgram>(field_.memory);
+    const IntBox box = unitBox(bricks.box);
+    prune(bricks.program->view(), box, sampler_.pruning, *program);
+    if (program->solid() || program->empty()) return;
+    if (bricks.rank == 1) return sampleLattice(box, cell_, std::move(program));
+    int longest = 0;
+    const auto edge = [&](int axis) { return bricks.box.hi[axis] - bricks.box.lo[axis]; };
+    for (int axis = 1; axis < 3; ++axis) longest = edge(axis) > edge(longest) ? axis : longest;
+    IntBox low = bricks.box, high = bricks.box;
+    low.hi[longest] = bricks.box.lo[longest] + edge(longest) / 2;
+    high.lo[longest] = low.hi[longest] + 1;
+    push({0, 0, low, program});
+    push({0, 0, high, program});
+  }
+
+  void halve(const Candidate& box) {
+    int32_t longest = 0;
+    for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, box.box.hi[axis] - box.box.lo[axis]);
+    if (longest > 1) sampleLattice(box.box, (longest + 1) / 2, box.program);
+  }
+
+  /// Samples a box `spacing` apart, and at its high faces; keeps the boxes between whose corners differ in sign.
+  void sampleLattice(const IntBox& box, int32_t spacing, std::shared_ptr<const PrunedProgram> program) {
+    std::array<std::vector<int32_t>, 3> at;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<int32_t>& line = at[static_cast<size_t>(axis)];
+      for (int64_t p = box.lo[axis]; p < box.hi[axis]; p += spacing) line.push_back(static_cast<int32_t>(p));
+      line.push_back(box.hi[axis]);
+    }
+    sampler_.clear();
+    for (int32_t z : at[2]) {
+      for (int32_t y : at[1]) {
+        for (int32_t x : at[0]) sampler_.add({x, y, z});
+      }
+    }
+    const std::pmr::vector<int32_t>& q = sampler_.samples(program->view());
+    const size_t row = at[0].size(), plane = row * at[1].size();
+    for (size_t z = 0; z + 1 < at[2].size(); ++z) {
+      for (size_t y = 0; y + 1 < at[1].size(); ++y) {
+        for (size_t x = 0; x + 1 < row; ++x) {
+          unsigned solid = 0;
+          for (size_t c = 0; c < 8; ++c) {
+            const size_t i = x + (c & 1) + row * (y + (c >> 1 & 1)) + plane * (z + (c >> 2));
+            solid |= static_cast<unsigned>(q[i] < 0) << c;
+          }
+          if (solid == 0 || solid == 255) continue;
+          for (size_t c = 0; c < 8; ++c) {
+            if ((solid >> c & 1) == (inside_ ? 1u : 0u)) continue;
+            meet({at[0][x + (c & 1)], at[1][y + (c >> 1 & 1)], at[2][z + (c >> 2)]});
+          }
+          push({0, 2, {{at[0][x], at[1][y], at[2][z]}, {at[0][x + 1], at[1][y + 1], at[2][z + 1]}}, program});
+        }
+      }
+    }
+  }
+
+  /// A sample on the other side: the surface lies before it.
+  void meet(const Int3& sample) {
+    const Vector3 to = place_.to(sample);
+    const double distance = std::sqrt(dot(to, to));
+    if (distance > nearest_ || (distance == nearest_ && sample >= beyond_)) return;
+    nearest_ = distance;
+    beyond_ = sample;
+  }
+
+  /// From the sample to the surface, and along it as long as that leads nearer.
+  SurfacePoint foot(const ProgramView& whole) {
+    IntBox near = IntBox{place_.base, place_.base}.grown(static_cast<int32_t>(nearest_) + 2);
+    PrunedProgram pruned(field_.memory);
+    prune(whole, near, sampler_.pruning, pruned);
+    const bool proven = pruned.solid() || pruned.empty();
+    const ProgramView view = proven ? whole : pruned.view();
+    Vector3 direction = times(place_.to(beyond_), nearest_ > 0 ? 1 / nearest_ : 0);
+    double open = 0, closed = nearest_;
+    cut(view, direction, open, closed);
+    SurfacePoint found = surface(view, direction, open, closed);
+    for (double share = 1; share > 0.01;) {
+      Vector3 turned;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        turned[axis] = (1 - share) * direction[axis] + share * found.normal[axis] * (inside_ ? 1 : -1);
+      }
+      const double size = std::sqrt(dot(turned, turned));
+      double nearer_open = 0, nearer = open - kNearest;
+      if (size > 0.01) turned = times(turned, 1 / size);
+      if (size <= 0.01 || nearer <= 0 || sampler_.solid(view, place_.at(times(turned, nearer))) == inside_) {
+        share /= 2;
+        continue;
+      }
+      cut(view, turned, nearer_open, nearer);
+      direction = turned;
+      open = nearer_open;
+      found = surface(view, direction, open, nearer);
+    }
+    return found;
+  }
+
+  /// Cuts a stretch whose ends differ in sign down to a quarter of a unit.
+  void cut(const ProgramView& view, const Vector3& direction, double& open, double& closed) {
+    while (closed - open > kNearest) {
+      const double middle = open + (closed - open) / 2;
+      (sampler_.solid(view, place_.at(times(direction, middle))) == inside_ ? open : closed) = middle;
+    }
+  }
+
+  SurfacePoint surface(const ProgramView& view, const Vector3& direction, double open, double closed) {
+    SurfacePoint point = sampler_.surface(view, place_.at(times(direction, inside_ ? open : closed)));
+    point.position = place_.position(times(direction, open));
+    point.distance = open;
+    point.inside = inside_;
+    return point;
+  }
+
+  const QueryField& field_;
+  const int32_t cell_;
+  const SplitPosition place_;
+  const double radius_;
+  QuerySampler sampler_;
+  Int3 first_cell_, last_cell_;
+  bool inside_ = false;
+  std::priority_queue<Candidate, std::pmr::vector<Candidate>> open_;
+  double nearest_ = kNoDistance;
+  Int3 beyond_;  ///< the sample at that distance
+};
+
+}  // namespace
+
+int64_t farthestSurface(int32_t finest_cell) {
+  return std::max(int64_t{64} * kUnitsPerMetre, int64_t{256} * finest_cell);
+}
+
+Result<std::optional<SurfacePoint>> closestPoint(const QueryField& field, const Vector3& place, double max_distance) {
+  const Result<SplitPosition> at = splitPosition(place);
+  if (!at) return at.error();
+  if (const Result<void> ok = checkLength(max_distance, farthestSurface(field.finest_cell), "the distance"); !ok)
+    return ok.error();
+  double radius = std::min(max_distance, static_cast<double>(kFirstSearch * field.finest_cell));
+  while (true) {
+    Result<std::optional<SurfacePoint>> found = SurfaceSearch(field, *at, radius).run();
+    if (!found || (*found && (*found)->distance <= radius)) return found;
+    if (radius == max_distance) return std::optional<SurfacePoint>{};
+    radius = std::min(max_distance, radius * kSearchGrowth);
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,159 @@
+#include "region/solid_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "field/evaluate.h"
+
+namespace sgm {
+namespace {
+
+constexpr size_t kChunksTogether = 4096;  ///< whose meshes are there at one time
+
+/// The faces of a chunk in the region's upper border. The flux of x about the region's lowest corner through the lower
+/// border is 0.
+uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
+  uint8_t faces = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (key.at[axis] == last.at[axis]) faces |= static_cast<uint8_t>(1 << (2 * axis + 1));
+  return faces;
+}
+
+/// Whether a sample is solid, as meshing has it.
+Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
+  const auto program = world.compile(IntBox{at, at}, level);
+  if (!program) return program.error();
+  EvalScratch scratch;
+  float value = 0;
+  Attributes wanted;
+  wanted.value = &value;
+  scalarKernels().attributes((*program)->view(), {&at.x, &at.y, &at.z, 1}, scratch, wanted);
+  return std::floor(value * (*program)->q_scale + 0.5f) < 0;
+}
+
+/// The solid in the upper faces of a region, by the boundary of the surface that is open there (Green's theorem).
+class UpperFaces {
+ public:
+  UpperFaces(const IntBox& region, const WorldMesh& mesh) : mesh_(mesh) {
+    for (int k = 0; k < 3; ++k) {
+      size_[index(k)] = static_cast<double>(int64_t{region.hi[k]} - region.lo[k]) / kUnitsPerMetre;
+      low_[index(k)] = static_cast<double>(int64_t{region.lo[k]} - mesh.origin[k]) / kUnitsPerMetre;
+    }
+  }
+
+  /// Of the face across an axis, in square metres. corner_is_solid: whether the region's highest corner is.
+  double solidArea(int axis, bool corner_is_solid) const {
+    const size_t k = index(axis), u = index((axis + 1) % 3), v = index((axis + 2) % 3);
+    double area = 0;
+    for (size_t i = 0; i < mesh_.indices.size(); ++i) {
+      const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
+      const std::array<double, 3> a = place(from), b = place(to);
+      if (a[k] != size_[k] || b[k] != size_[k]) continue;
+      // The face goes along the surface's edges the other way.
+      area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
+    }
+    return area + size_[u] * solidLength(k, u, v, corner_is_solid);
+  }
+
+  double size(int axis) const { return size_[index(axis)]; }
+
+ private:
+  static size_t index(int axis) { return static_cast<size_t>(axis); }
+
+  /// From the region's lowest corner, in metres: exact, as positions and cells are multiples of 1/2^18 m.
+  std::array<double, 3> place(uint32_t vertex) const {
+    const std::array<double, 3>& p = mesh_.positions[vertex];
+    return {p[0] - low_[0], p[1] - low_[1], p[2] - low_[2]};
+  }
+
+  /// On the edge along v of the upper faces across k and u, in metres.
+  double solidLength(size_t k, size_t u, size_t v, bool is_solid) const {
+    std::vector<double> crossings;
+    for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
+      const std::array<double, 3> p = place(i);
+      if (p[k] == size_[k] && p[u] == size_[u]) crossings.push_back(p[v]);
+    }
+    std::sort(crossings.begin(), crossings.end(), std::greater<>());
+    crossings.push_back(0);
+    double length = 0, from = size_[v];
+    for (const double at : crossings) {
+      if (is_solid) length += from - at;
+      from = at;
+      is_solid = !is_solid;
+    }
+    return length;
+  }
+
+  const WorldMesh& mesh_;
+  std::array<double, 3> size_{};  ///< of the region, metres
+  std::array<double, 3> low_{};   ///< its lowest corner from where positions count from
+};
+
+}  // namespace
+
+std::array<double, 3> originFrom(Int3 place, const ChunkGrid& grid) {
+  std::array<double, 3> from{};
+  for (int axis = 0; axis < 3; ++axis)
+    from[static_cast<size_t>(axis)] = static_cast<double>(int64_t{grid.origin[axis]} - place[axis]) / kUnitsPerMetre;
+  return from;
+}
+
+Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& jobs, std::span<const ChunkKey> keys,
+                          bool sharp) {
+  const Result<ChunkGrid> lowest = chunkGrid(world, keys.front());
+  if (!lowest) return lowest.error();
+  std::pmr::vector<ChunkRequest> requests(world.memory());
+  for (const ChunkKey& key : keys) {
+    const uint8_t faces = upperFaces(key, keys.back());
+    if (faces == 0) continue;
+    // The seams to the domain's own state, as a world has them at its end, fill what the border cuts.
+    ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
+    request.outermost = true;
+    request.sharp = sharp;
+    request.body = false;
+    request.keys = sharp;
+    request.sums_only = !sharp;
+  }
+  double flux = 0;
+  for (size_t first = 0; first < requests.size(); first += kChunksTogether) {
+    const auto together = std::span(requests).subspan(first, std::min(kChunksTogether, requests.size() - first));
+    const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, together);
+    if (!chunks) return chunks.error();
+    for (const PlacedChunk& chunk : *chunks) {
+      const std::array<double, 3> origin = originFrom(lowest->origin, chunk.grid);
+      for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) {
+        const MeshPart& seam = chunk.mesh.seams[face];
+        flux +=
+            fluxOf(sharp ? sumsOf(seam.vertices, seam.indices) : chunk.mesh.sums[1 + face], chunk.grid.cell, origin);
+      }
+    }
+  }
+  return flux;
+}
+
+Result<double> borderFlux(const WorldField& world, const IntBox& region, int level, const WorldMesh& mesh) {
+  const Result<bool> corner_is_solid = isSolidAt(world, region.hi, level);
+  if (!corner_is_solid) return corner_is_solid.error();
+  const UpperFaces faces(region, mesh);
+  double flux = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double area = faces.solidArea(axis, *corner_is_solid);
+    // Of a solid domain the surface is that of the void.
+    if (world.isSolidDomain()) area -= faces.size((axis + 1) % 3) * faces.size((axis + 2) % 3);
+    flux += faces.size(axis) * area / 3;
+  }
+  return flux;
+}
+
+double solidVolume(const WorldField& world, const IntBox& region, double flux) {
+  if (!world.isSolidDomain()) return flux;
+  // The surface bounds what is not solid.
+  double volume = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    volume *= static_cast<double>(int64_t{region.hi[axis]} - region.lo[axis]) / kUnitsPerMetre;
+  return volume + flux;
+}
+
+}  // namespace sgm

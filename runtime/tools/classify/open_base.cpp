@@ -1,0 +1,81 @@
+// The base at its own place, and what becomes of one that is damaged.
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/plain_text.h"
+#include "tools/classify/base.h"
+
+namespace sgm::masters {
+namespace {
+
+constexpr int kMostDamaged = 10'000;
+
+bool isThere(const std::string& file) {
+  struct stat about {};
+  return lstat(file.c_str(), &about) == 0;
+}
+
+/// The new name, or an empty one with errno. The log goes first: one that stayed would be played into the next base.
+std::string moveAside(const std::string& file) {
+  for (int i = 1; i <= kMostDamaged; ++i) {
+    const std::string aside = file + ".damaged-" + std::to_string(i);
+    if (isThere(aside) || isThere(aside + "-wal") || isThere(aside + "-shm")) continue;
+    for (const char* part : {"-wal", "-shm", ""}) {
+      if (std::rename((file + part).c_str(), (aside + part).c_str()) != 0 && errno != ENOENT) return {};
+    }
+    return aside;
+  }
+  errno = EEXIST;
+  return {};
+}
+
+}  // namespace
+
+std::filesystem::path defaultBase() {
+  // A path that is not absolute counts as none (XDG Base Directory Specification).
+  const auto absolute = [](const char* variable) {
+    const char* text = std::getenv(variable);
+    return text != nullptr && *text == '/' ? std::string(text) : std::string();
+  };
+  if (const std::string data = absolute("XDG_DATA_HOME"); !data.empty()) return data + "/sgm/masters.db";
+  const std::string home = absolute("HOME");
+  return home.empty() ? home : home + "/.local/share/sgm/masters.db";
+}
+
+Result<OpenedBase> openBase(const std::filesystem::path& file) {
+  if (file.empty() || !isThere(file.string())) return OpenedBase{builtInMasters(), "built in", {}};
+  ReadBase read = readBase(file);
+  const std::string name = file.string();
+  switch (read.damage) {
+    case Damage::none:
+      return OpenedBase{std::move(*read.set), name, {}};
+    case Damage::newer:
+      return Error{Code::unsupported, name + ": " + read.what + ": use that one, or --masters FILE"};
+    case Damage::io:
+      return Error{Code::io, "cannot read " + name + ": " + read.what};
+    case Damage::damaged:
+      break;
+  }
+  OpenedBase opened{builtInMasters(), "built in", {}};
+  const std::string aside = moveAside(name);
+  if (aside.empty()) {
+    opened.notice = name + " is damaged (" + read.what + ") and cannot be moved aside (" + systemMessage(errno) +
+                    "): the masters that are built in are used";
+    return opened;
+  }
+  opened.notice = name + " was damaged (" + read.what + "): it is " + aside + " now";
+  if (const Result<void> written = writeBase(file, opened.set); !written) {
+    opened.notice += ", and the masters that are built in are used: " + written.error().message;
+    return opened;
+  }
+  opened.notice += ", and the masters that are built in have taken its place";
+  opened.from = name;
+  return opened;
+}
+
+}  // namespace sgm::masters

@@ -1,0 +1,113 @@
+#include "tools/cli/bake/bake_slurm.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "base/json.h"
+#include "base/plain_text.h"
+#include "store/folder.h"
+#include "tools/cli/bake/commands.h"
+#include "tools/cli/bake/slurm.h"
+
+namespace sgm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Slurm's controller answers many; once in a while is enough.
+constexpr auto kBetweenLooks = std::chrono::seconds(1);
+
+void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState& state, bool there) {
+  if (options.json) {
+    fmt::print("{}\n",
+               Json{{"jobs", {{"shards", jobs.shards}, {"merge", jobs.merge}, {"verification", jobs.verification}}},
+                    {"shards", jobs.count},
+                    {"waiting", state.waiting},
+                    {"running", state.running},
+                    {"failed", state.failed},
+                    {"merge", state.merge},
+                    {"verification", state.verification},
+                    {"baked", there}}
+                   .text());
+    return;
+  }
+  fmt::print("{}: jobs {}, {} and {}: {} of {} shards wait, {} run, {} failed; merge {}, verification {}\n",
+             options.out, jobs.shards, jobs.merge, jobs.verification, state.waiting, jobs.count, state.running,
+             state.failed, state.merge.empty() ? "not known" : state.merge,
+             state.verification.empty() ? "not known" : state.verification);
+}
+
+Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& name) {
+  const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
+  std::error_code error;
+  const std::string program = fs::read_symlink("/proc/self/exe", error).string();
+  if (error) return Error{Code::io, "where this program lies cannot be told: " + systemMessage(error)};
+  SlurmBake bake;
+  bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
+               options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};
+  for (const std::string& set : options.sets) bake.bake.insert(bake.bake.end(), {"--set", set});
+  if (!options.region.empty()) bake.bake.insert(bake.bake.end(), {"--region", options.region});
+  if (options.cell) bake.bake.insert(bake.bake.end(), {"--cell", fmt::format("{}", *options.cell)});
+  if (options.density) bake.bake.insert(bake.bake.end(), {"--ld", fmt::format("{}", *options.density)});
+  if (options.sharp) bake.bake.push_back("--sharp");
+  bake.verify = {program, "store", "verify", absolute(options.out)};
+  bake.shards = options.slurm;
+  bake.options = options.sbatch;
+  bake.name = "sgm-" + name.substr(0, 8);
+  bake.folder = fs::path(absolute(options.out)) / "slurm" / name;
+  return bake;
+}
+
+/// Of a command of Slurm's; where that is not there, what to do without.
+Error withoutSlurm(const Error& error) {
+  if (error.code != Code::unsupported) return error;
+  return {Code::io, error.message +
+                        ". Where there is no Slurm, --shard bakes a share, and samples/bake has it done by "
+                        "other schedulers"};
+}
+
+}  // namespace
+
+Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere) {
+  const Result<SlurmBake> bake = slurmBakeOf(options, name);
+  if (!bake) return complain(bake.error());
+  if (const Result<void> made = store::makeFolder(bake->folder); !made) return complain(made.error());
+  const Result<std::optional<SlurmJobs>> found = findJobs(*bake);
+  if (!found) return complain(withoutSlurm(found.error()));
+  const bool is_new = !found->has_value();
+  const Result<SlurmJobs> jobs = is_new ? submitJobs(*bake) : Result<SlurmJobs>(**found);
+  if (!jobs) return complain(withoutSlurm(jobs.error()));
+  fmt::print(stderr,
+             "sgm: jobs {} (shards), {} (merge) and {} (verification) of Slurm {}; stopping this ends none of them, "
+             "scancel does\n",
+             jobs->shards, jobs->merge, jobs->verification, is_new ? "are submitted" : "are under way");
+  Result<SlurmState> state = stateOf(*jobs);
+  {
+    ProgressBar bar("baking");
+    while (state && !options.detach && !state->ended) {
+      bar.show(jobs->count - std::min(jobs->count, state->waiting + state->running), jobs->count);
+      std::this_thread::sleep_for(kBetweenLooks);
+      state = stateOf(*jobs);
+    }
+  }
+  if (!state) return complain(withoutSlurm(state.error()));
+  const Result<bool> there = isThere();
+  report(options, *jobs, *state, there && *there);
+  if (options.detach) return Exit::done;
+  if (!there) return complain(there.error());
+  if (*there && state->verification == "COMPLETED") return Exit::done;
+  if (*there && state->verification.empty()) {
+    return complain(Exit::input,
+                    "the world is there, but Slurm does not tell how its verification has ended: sgm store verify says "
+                    "whether it is whole");
+  }
+  return complain(Exit::input,
+                  fmt::format("not all of it has ended well: '{}' has what the jobs have printed; the same command "
+                              "bakes what is missing",
+                              bake->folder.string()));
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,82 @@
+// sgm classify: whether a mesh is a cave, a cloud, a building, or none of these.
+
+#include <fmt/core.h>
+
+#include "region/places.h"
+#include "tools/classify/base.h"
+#include "tools/cli/classify/classification.h"
+#include "tools/cli/classify/commands.h"
+#include "tools/cli/classify/master_key.h"
+#include "tools/support/console.h"
+#include "tools/support/limited_process.h"
+#include "tools/support/measured_mesh.h"
+
+namespace sgm::cli {
+namespace {
+
+/// What is printed of a mesh.
+Result<std::string> reportOf(const asset::TriangleMesh& mesh, const ClassifyOptions& options,
+                             const masters::OpenedBase& base, double density, Json json) {
+  const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
+  if (!jobs) return jobs.error();
+  const Result<Classified> classified = classifyTriangles(mesh, options.mode, density, base, **jobs);
+  if (!classified) return classified.error();
+  if (!options.json) return textOf(*classified, options.file);
+  json.update(toJson(*classified));
+  return json.text() + "\n";
+}
+
+Exit printOrComplain(const Result<std::string>& text) {
+  if (!text) return complain(text.error());
+  fmt::print("{}", *text);
+  return Exit::done;
+}
+
+Exit classifyGrammar(const ClassifyOptions& options, const masters::OpenedBase& base) {
+  RegionPlan plan;
+  plan.choose = [](const WorldField& world) { return blockRegion(*world.settings().program, 1); };
+  const RegionResult made = meshRegion(options, plan);
+  if (!made.region) return made.status;
+  Json json = toJson(options, *made.region);
+  json["file"] = options.file;
+  return printOrComplain(
+      reportOf(trianglesOf(*made.region), options, base, 1 / metres(made.region->cell), std::move(json)));
+}
+
+}  // namespace
+
+Result<masters::OpenedBase> mastersOf(const std::string& file) {
+  if (file.empty()) {
+    Result<masters::OpenedBase> base = masters::openBase(masters::defaultBase());
+    if (base && !base->notice.empty()) fmt::print(stderr, "sgm: warning: {}\n", base->notice);
+    return base;
+  }
+  // A file that is named may be anything: it is not moved out of its place.
+  masters::ReadBase read = masters::readBase(file);
+  if (read.damage == masters::Damage::none) return masters::OpenedBase{std::move(*read.set), file, {}};
+  const bool io = read.damage == masters::Damage::io;
+  return Error{
+      io ? Code::io : Code::bad_input,
+      io ? fmt::format("cannot read {}: {}", file, read.what)
+         : fmt::format("{} is no base of masters: {}; sgm masters build --out FILE makes one", file, read.what)};
+}
+
+Exit classifyMesh(const ClassifyOptions& options) {
+  const bool grammar = isGrammarFile(options.file);
+  const Result<masters::OpenedBase> base = mastersOf(options.masters);
+  if (!base) return complain(base.error());
+  if (grammar) return classifyGrammar(options, *base);
+  ProcessLimits limits;
+  limits.memory = options.memory << 20;
+  limits.seconds = options.seconds;
+  return printOrComplain(runLimited(
+      [&]() -> Result<std::string> {
+        const Result<asset::TriangleMesh> mesh = readMeshFile(options.file);
+        if (!mesh) return mesh.error();
+        return reportOf(*mesh, options, *base, options.density.value_or(0),
+                        {{"file", options.file}, {"notes", mesh->notes}});
+      },
+      limits));
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,49 @@
+#pragma once
+// The commands that tell classes of meshes apart, and the process that inspects an upload.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/support/console.h"
+#include "tools/support/options.h"
+
+namespace sgm::cli {
+
+struct ClassifyOptions : WorldOptions {
+  std::string masters;  ///< a base; empty: the one at its own place, or those that are built in
+  std::string mode = "curvature";
+  uint64_t memory = 4096;  ///< MB
+  double seconds = 300;
+};
+Exit classifyMesh(const ClassifyOptions& options);
+
+struct InspectOptions {
+  std::string kind;        ///< "glb", "obj", "ply", "stl" or "sgm"
+  std::string name;        ///< a client's, for people; may be anything
+  std::string masters;     ///< a base; empty: those that are built in
+  uint64_t memory = 2048;  ///< MB
+  uint64_t seconds = 60;
+  bool list_masters = false, store_masters = false;  ///< instead of all else
+  std::string region, cell, seed;                    ///< of a grammar, as they were sent; empty: not at all
+  std::vector<std::string> sets;
+};
+/// Standard input to standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview.
+Exit inspect(const InspectOptions& options);
+
+struct MastersBuildOptions {
+  std::string out;   ///< empty: its own place, unless `emit` is there
+  std::string emit;  ///< a source file; empty: none
+  uint64_t models = 12;
+  uint64_t seed = 1;
+  unsigned threads = 0;
+};
+Exit buildMasters(const MastersBuildOptions& options);
+
+struct MastersListOptions {
+  std::string file;  ///< as ClassifyOptions::masters
+  bool json = false;
+};
+Exit listMasters(const MastersListOptions& options);
+
+}  // namespace sgm::cli

@@ -1,0 +1,39 @@
+#pragma once
+// `sgm fly`.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tools/support/console.h"
+#include "tools/support/options.h"
+#include "tools/support/serving.h"
+
+namespace sgm::cli {
+
+struct FlyOptions : WorldOptions {
+  std::string path;  ///< a JSON file; empty: the flight finds its own way
+  double speed = 20;
+  uint64_t frames = 600;
+  uint64_t teleports = 0;
+  double edits = 0;                   ///< digs a second of the path
+  bool animate = false;               ///< drive parameters while flying
+  std::vector<std::string> animated;  ///< these; none: all that the grammar declares animated
+  bool check = false, unpaced = false, compare = false;
+  bool measure = false;  ///< every chunk that is meshed
+  int top_level = 6;
+  double finest = 24, finest_margin = 6, view = 600;  ///< metres
+  uint64_t mesh_mb = 256;
+  uint64_t pictures = 0;
+  std::string out = "flight.png";
+  std::string light = "auto";  ///< of pictures, as RenderOptions::light
+  bool levels = false;
+  std::string video;                ///< an .mp4 file; empty: none
+  std::string journal, cache;       ///< a file and a folder of the world's; empty: none
+  std::vector<std::string> stores;  ///< folders of baked worlds
+  bool serve = false, keep_serving = false;
+  ServingOptions serving;  ///< where `serve` is set
+};
+Exit fly(const FlyOptions& options);
+
+}  // namespace sgm::cli

@@ -1,0 +1,311 @@
+// sgm fly: streams a world along a path, and says how well that went.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "tools/cli/fly/commands.h"
+#include "tools/cli/fly/fly_pictures.h"
+#include "tools/cli/fly/fly_report.h"
+#include "tools/flight/flight_animation.h"
+#include "tools/support/awaited_signals.h"
+#include "tools/support/console.h"
+#include "tools/support/region.h"
+#include "tools/support/source.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr int32_t kHashedAround = 32 * SGM_UNITS_PER_METRE;
+
+template <auto End>
+struct EndWith {
+  template <class T>
+  void operator()(T* handle) const {
+    static_cast<void>(End(handle));
+  }
+};
+template <class T, auto End>
+using Owner = std::unique_ptr<T, EndWith<End>>;
+
+struct Scene {
+  /// Warnings of the world go nowhere: what they are about is told as the command's error.
+  std::atomic<bool> quiet = false;
+  Owner<sgm_runtime, sgm_runtime_destroy> runtime;
+  Owner<sgm_grammar, sgm_grammar_destroy> grammar;
+  Owner<sgm_parameters, sgm_parameters_destroy> parameters;
+  Owner<sgm_field, sgm_field_destroy> field;
+  Owner<sgm_world, sgm_world_destroy> world;
+  int32_t cell = 0;
+  sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
+};
+
+Exit reportError(const sgm_error& error) {
+  const Exit status = error.code == SGM_ERR_UNSUPPORTED ? Exit::backend
+                      : error.code == SGM_ERR_IO        ? Exit::file
+                                                        : Exit::input;
+  return complain(status, error.message);
+}
+
+/// What the world has to say, beside a progress bar: a damaged journal, a folder that cannot be written.
+void tellWarning(void* scene, sgm_log_level level, const char* message) {
+  if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
+    std::fprintf(stderr, "sgm: warning: %s\n", message);
+}
+
+/// Has the journal hold all edits. The message of what went wrong is the caller's to tell.
+Result<void> keepEdits(Scene& scene) {
+  scene.quiet = true;
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_flush_edits(scene.world.get(), &error) != SGM_OK) return errorOf(error);
+  scene.quiet = false;
+  return {};
+}
+
+/// What the options say, through the public interface. Messages of the grammar have been printed before.
+Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
+  runtime_desc.threads = options.threads;
+  const sgm_log_sink sink{tellWarning, &scene};
+  runtime_desc.log = &sink;
+  const std::string pipelines = pipelineFolder();
+  if (!pipelines.empty()) runtime_desc.pipeline_folder = pipelines.c_str();
+  sgm_runtime* runtime = nullptr;
+  if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return reportError(error);
+  scene.runtime.reset(runtime);
+
+  const Result<std::string> text = readGrammarText(options.file);
+  if (!text) return complain(text.error());
+  const std::string folder = std::filesystem::path(options.file).parent_path().string();
+  sgm_grammar_desc grammar_desc = SGM_GRAMMAR_DESC_INIT;
+  grammar_desc.text = text->data();
+  grammar_desc.text_size = text->size();
+  grammar_desc.name = options.file.c_str();
+  grammar_desc.import_folder = folder.empty() ? "." : folder.c_str();
+  sgm_grammar* grammar = nullptr;
+  if (sgm_grammar_compile(runtime, &grammar_desc, &grammar, nullptr, &error) != SGM_OK) return reportError(error);
+  scene.grammar.reset(grammar);
+  sgm_parameters* parameters = nullptr;
+  if (sgm_parameters_create(grammar, &parameters, &error) != SGM_OK) return reportError(error);
+  scene.parameters.reset(parameters);
+  for (const std::string& set : options.sets) {
+    const size_t equals = set.find('=');
+    if (sgm_parameters_set_text(parameters, set.substr(0, equals).c_str(), set.substr(equals + 1).c_str(), &error) !=
+        SGM_OK)
+      return reportError(error);
+  }
+
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return complain(cell.error());
+  scene.cell = *cell;
+  sgm_field_desc& field_desc = scene.field_desc;
+  field_desc.grammar = grammar;
+  field_desc.parameters = parameters;
+  field_desc.seed = options.seed;
+  field_desc.cell_units = *cell;
+  field_desc.backend = backendNamed(options.backend);
+  sgm_field* field = nullptr;
+  if (sgm_field_create(runtime, &field_desc, &field, &error) != SGM_OK) return reportError(error);
+  scene.field.reset(field);
+
+  sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
+  world_desc.top_level = options.top_level;
+  // A margin for what is on its way while the viewer moves on.
+  world_desc.finest_distance = options.finest + options.finest_margin;
+  world_desc.view_distance = options.view;
+  world_desc.mesh_bytes = options.mesh_mb << 20;
+  world_desc.collider_distance = kWalkableDistance;
+  if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
+  // A flight to compare with meshes for itself.
+  if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
+  std::vector<const char*> stores;
+  for (const std::string& store : options.stores) stores.push_back(store.c_str());
+  if (!by_distance) {
+    world_desc.stores = stores.data();
+    world_desc.store_count = static_cast<uint32_t>(stores.size());
+  }
+  if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
+  if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
+  // A flight to compare with is not reported.
+  if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
+  sgm_world* world = nullptr;
+  if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportError(error);
+  scene.world.reset(world);
+  return Exit::done;
+}
+
+Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
+  if (!options.path.empty()) return FlightPath::ofFile(options.path);
+  AutoFlight flight;
+  flight.seed = options.seed;
+  return FlightPath::automatic(scene.field.get(), scene.grammar.get(), flight);
+}
+
+/// The hash of level 0 around the flight's end.
+Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
+  // Grown to whole chunks it must not leave the world.
+  const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;
+  int32_t low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t place_units = std::llround(place.position[axis] * SGM_UNITS_PER_METRE);
+    const auto middle = static_cast<int32_t>(std::clamp(place_units, -farthest, farthest));
+    low[axis] = middle - kHashedAround;
+    high[axis] = middle + kHashedAround;
+  }
+  sgm_error error = SGM_ERROR_INIT;
+  uint64_t hash = 0;
+  if (sgm_world_hash(scene.world.get(), low, high, 0, &hash, &error) != SGM_OK) return errorOf(error);
+  return hash;
+}
+
+FlightSettings settingsOf(const FlyOptions& options, const Scene& scene) {
+  FlightSettings settings;
+  settings.cell_units = scene.cell;
+  settings.seed = options.seed;
+  settings.speed = options.speed;
+  settings.frames = options.frames;
+  settings.teleports = options.teleports;
+  settings.edits = options.edits;
+  settings.check = options.check;
+  settings.paced = !options.unpaced;
+  settings.finest_distance = options.finest;
+  return settings;
+}
+
+struct FlightResult {
+  std::optional<Flown> flown;
+  Exit status = Exit::done;
+};
+
+/// Returns the text as a name under which the service can watch a world: other characters become '_'.
+std::string worldName(std::string_view text) {
+  constexpr size_t kLongest = 64;
+  std::string name(text.substr(0, kLongest));
+  for (char& c : name) {
+    const bool fits =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+    if (!fits) c = '_';
+  }
+  return name.empty() ? "world" : name;
+}
+
+/// A service that watches the scene's world, and says on stderr where: standard output is the report's.
+Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
+  Result<Serving> serving = Serving::start(options.serving);
+  if (!serving) return serving;
+  const std::string name = std::filesystem::path(options.file).stem().string();
+  if (Result<void> watched = serving->watch(worldName(name), scene.world.get()); !watched) return watched.error();
+  fmt::print(stderr, "page {}/\nmetrics {}/metrics\n", serving->work(), serving->operations());
+  return serving;
+}
+
+/// pictures: null where the flight is by distance, to compare.
+FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
+  Scene scene;
+  const bool serves = options.serve && pictures != nullptr;
+  std::optional<AwaitedSignals> signals;
+  if (serves && options.keep_serving) signals.emplace();
+  if (const Exit status = makeScene(options, pictures == nullptr, scene); status != Exit::done) return {{}, status};
+  std::optional<Serving> serving;
+  if (serves) {
+    Result<Serving> started = serveWorld(options, scene);
+    if (!started) return {{}, complain(started.error())};
+    serving = std::move(*started);
+  }
+  Result<FlightPath> path = pathOf(options, scene);
+  if (!path) return {{}, complain(path.error())};
+  FlightSettings settings = settingsOf(options, scene);
+  std::optional<FlightAnimation> animation;
+  if (options.animate) {
+    Result<FlightAnimation> made =
+        FlightAnimation::of(scene.runtime.get(), scene.field_desc, scene.parameters.get(), options.animated);
+    if (!made) return {{}, complain(made.error())};
+    animation = std::move(*made);
+    settings.each_frame = [&](double seconds) { return animation->show(scene.world.get(), seconds); };
+  }
+  FlightPlace last;
+  std::optional<ProgressBar> bar(std::in_place, "planning");
+  const FlownScene flown_scene{scene.grammar.get(), scene.world.get()};
+  FlightWatch watch;
+  watch.planned = [&](uint64_t frame) {
+    if (signals && signals->came()) signals->pass();
+    bar->show(frame + 1, options.frames);
+  };
+  watch.flown = [&](uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn) {
+    if (frame == 0) bar.emplace(pictures == nullptr ? "by distance" : "flying");
+    bar->show(frame + 1, options.frames);
+    last = place;
+    if (signals && signals->came()) return false;
+    return pictures == nullptr || pictures->take(flown_scene, frame, place, drawn);
+  };
+  if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
+  Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
+  bar.reset();
+  // Before all that may fail: what was dug is not there again.
+  const Result<void> kept = keepEdits(scene);
+  if (!kept && !report) return {{}, complain(kept.error())};
+  if (signals && signals->came() && !report) {
+    fmt::print(stderr, "ended before the flight was over: there is no report\n");
+    return {{}, Exit::done};
+  }
+  if (!report && report.error().code != Code::cancelled) return {{}, complain(report.error())};
+  if (pictures != nullptr) {
+    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, complain(drawn.error())};
+  }
+  Flown flown;
+  if (pictures != nullptr) flown.lights = pictures->lights();
+  flown.report = std::move(*report);
+  flown.frame_bytes = settings.frame_bytes;
+  if (animation) {
+    flown.fields = animation->fields();
+    flown.fields_drawn = animation->drawn();
+  }
+  const Result<uint64_t> hash = hashAround(scene, last);
+  if (!hash) return {{}, complain(hash.error())};
+  flown.hash = *hash;
+  sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
+  sgm_error error = SGM_ERROR_INIT;
+  if (options.measure && pictures != nullptr) {
+    flown.measures = SGM_WORLD_MEASURES_INIT;
+    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK) return {{}, reportError(error)};
+  }
+  if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
+    return {{}, reportError(error)};
+  if (!kept) flown.edits_lost = kept.error();
+  if (signals) signals->wait();
+  return {std::move(flown), Exit::done};
+}
+
+}  // namespace
+
+Exit fly(const FlyOptions& options) {
+  if (const LoadedGrammar loaded = loadGrammar(options.file); loaded.program == nullptr) return loaded.status;
+  FlyPictures pictures(options);
+  if (Result<void> begun = pictures.begin(); !begun) return complain(begun.error());
+  const FlightResult flight = flyOnce(options, &pictures);
+  if (!flight.flown) return flight.status;
+  std::optional<FlightReport> by_distance;
+  if (options.compare) {
+    const FlightResult other = flyOnce(options, nullptr);
+    if (!other.flown) return other.status;
+    by_distance = other.flown->report;
+  }
+  if (options.json) {
+    fmt::print("{}\n", toJson(options, *flight.flown, by_distance).text());
+  } else {
+    print(options, *flight.flown, by_distance);
+  }
+  const std::optional<std::string> defect = defectOf(*flight.flown);
+  if (defect) complain(Exit::input, *defect);
+  if (flight.flown->edits_lost) return complain(*flight.flown->edits_lost);
+  return defect ? Exit::input : Exit::done;
+}
+
+}  // namespace sgm::cli

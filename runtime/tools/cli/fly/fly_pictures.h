@@ -1,0 +1,62 @@
+#pragma once
+// The sheet and the video of `sgm fly`.
+
+#include <sgm/sgm.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "tools/cli/fly/commands.h"
+#include "tools/flight/daylight.h"
+#include "tools/flight/flight.h"
+#include "tools/render/renderer.h"
+#include "tools/render/video_file.h"
+
+namespace sgm::cli {
+
+/// What is flown through.
+struct FlownScene {
+  const sgm_grammar* grammar = nullptr;
+  sgm_world* world = nullptr;
+};
+
+/// How many pictures were lit by what.
+struct PictureLights {
+  uint64_t sun = 0, lamp = 0, none = 0;
+};
+
+/// Draws evenly spaced frames for the sheet, and every second frame for the video.
+class FlyPictures {
+ public:
+  explicit FlyPictures(const FlyOptions& options) : options_(options) {}
+
+  /// Opens the files, the device and the encoder that are asked for: a flight may take long, and be for nothing.
+  Result<void> begin();
+  /// Whether the sheet or the video has this frame.
+  bool wants(uint64_t frame) const { return inSheet(frame) || inVideo(frame); }
+  /// Told of every frame. False where it cannot be drawn or written; finish() says why.
+  bool take(const FlownScene& scene, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
+  Result<void> finish();
+  const PictureLights& lights() const { return lights_; }
+
+ private:
+  bool inSheet(uint64_t frame) const;
+  bool inVideo(uint64_t frame) const;
+  Result<void> look(const FlownScene& scene, uint64_t frame, const FlightPlace& place);
+  Result<Image> draw(const sgm_grammar* grammar, const FlightPlace& place, const DrawnMeshes& drawn) const;
+
+  const FlyOptions& options_;
+  std::optional<Renderer> renderer_;
+  std::optional<FileWriter> sheet_;
+  std::unique_ptr<VideoFile> video_;
+  std::vector<Image> images_;
+  Light light_ = Light::sun;  ///< of now
+  SteadyLight steady_;
+  double seen_depth_ = 1, depth_ = 1;  ///< metres, at the last look, and as it is drawn
+  std::optional<FlightPlace> last_;
+  PictureLights lights_;
+  std::optional<Error> error_;
+};
+
+}  // namespace sgm::cli

@@ -1,0 +1,19 @@
+#pragma once
+// The commands that write a mesh, a picture or a survey.
+
+#include <string>
+
+#include "tools/support/console.h"
+#include "tools/support/render_options.h"
+
+namespace sgm::cli {
+
+struct MeshOptions : WorldOptions {
+  std::string out;  ///< empty: measure only
+};
+Exit mesh(const MeshOptions& options);
+
+/// A picture, a contact sheet or a survey.
+Exit render(const RenderOptions& options);
+
+}  // namespace sgm::cli

@@ -1,0 +1,140 @@
+// sgm lsp: the language server over standard input and output.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "tools/cli/serve/commands.h"
+#include "tools/language/lsp_server.h"
+#include "tools/support/console.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // of a message
+constexpr size_t kMostHeaderBytes = 64 << 10;        // of all lines before a message
+constexpr int kDeepest = 256;                        // arrays and objects within each other
+
+/// Whether arrays and objects are nested deeper than any message has them. The library copies and prints values by
+/// recursion, and its stack ends. Of text that is no JSON it says something.
+bool isTooDeep(std::string_view json) {
+  int depth = 0;
+  bool in_text = false;
+  for (size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text) {
+      if (c == '\\') ++i;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+/// Reads messages: headers, an empty line, as many bytes as they say. Nothing at the end of the input.
+class MessageReader {
+ public:
+  explicit MessageReader(std::istream& in) : in_(in) {}
+
+  /// The bytes of the next message; of one that is too large an empty text.
+  std::optional<std::string> next() {
+    const std::optional<uint64_t> length = headers();
+    if (!length) return std::nullopt;
+    if (*length > kMostBytes) {
+      in_.ignore(static_cast<std::streamsize>(*length));
+      return std::string();
+    }
+    std::string bytes(static_cast<size_t>(*length), '\0');
+    in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<uint64_t>(in_.gcount()) != *length) return std::nullopt;
+    return bytes;
+  }
+  /// The input went on, but not with a message.
+  bool lost() const { return lost_; }
+
+ private:
+  std::optional<uint64_t> headers() {
+    constexpr std::string_view kLength = "content-length:";
+    std::optional<uint64_t> length;
+    std::string line;
+    bool any = false;
+    size_t left = kMostHeaderBytes;
+    while (headerLine(line, left)) {
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.empty()) {
+        lost_ = !length;
+        return length;
+      }
+      any = true;
+      std::string name = line.substr(0, kLength.size());
+      std::transform(name.begin(), name.end(), name.begin(),
+                     [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+      if (name != kLength) continue;
+      const size_t digits = std::min(line.find_first_not_of(' ', kLength.size()), line.size());
+      uint64_t value = 0;
+      const auto [end, error] = std::from_chars(line.data() + digits, line.data() + line.size(), value);
+      constexpr auto kLongest = static_cast<uint64_t>(std::numeric_limits<std::streamsize>::max());
+      if (error == std::errc() && end == line.data() + line.size() && value < kLongest) length = value;
+    }
+    lost_ = any || left == 0;
+    return std::nullopt;
+  }
+
+  /// False at the end of the input, or of the bytes that headers may have.
+  bool headerLine(std::string& line, size_t& left) {
+    line.clear();
+    for (char c = 0; left > 0 && in_.get(c); --left) {
+      if (c == '\n') return true;
+      line += c;
+    }
+    return left > 0 && !line.empty();
+  }
+
+  std::istream& in_;
+  bool lost_ = false;
+};
+
+bool send(const nlohmann::json& message) {
+  // What an editor sent may not be UTF-8.
+  const std::string bytes = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  fmt::print("Content-Length: {}\r\n\r\n{}", bytes.size(), bytes);
+  return std::fflush(stdout) == 0;
+}
+
+}  // namespace
+
+Exit serveLanguage() {
+  MessageReader reader(std::cin);
+  LanguageServer server;
+  while (!server.ended()) {
+    const std::optional<std::string> bytes = reader.next();
+    if (!bytes) break;
+    const bool too_deep = isTooDeep(*bytes);
+    const nlohmann::json message =
+        too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : nlohmann::json::parse(*bytes, nullptr, false);
+    if (message.is_discarded()) {
+      const std::string why = bytes->empty() ? fmt::format("a message has 1 to {} bytes", kMostBytes)
+                              : too_deep     ? fmt::format("arrays and objects are at most {} deep", kDeepest)
+                                             : "this is no JSON";
+      if (!send(LanguageServer::answerToGarbage(why))) return Exit::file;
+      continue;
+    }
+    for (const nlohmann::json& answer : server.handle(message))
+      if (!send(answer)) return Exit::file;
+  }
+  if (reader.lost()) return complain(Exit::input, "lsp: the input is no message of the Language Server Protocol");
+  return server.endedWell() ? Exit::done : Exit::input;
+}
+
+}  // namespace sgm::cli

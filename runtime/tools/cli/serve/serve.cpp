@@ -1,0 +1,27 @@
+// sgm serve: a page and an interface over HTTP that judge meshes, until a signal ends it.
+
+#include <fmt/core.h>
+
+#include <cstdio>
+
+#include "tools/cli/serve/commands.h"
+#include "tools/support/awaited_signals.h"
+#include "tools/support/console.h"
+
+namespace sgm::cli {
+
+Exit serve(const ServeOptions& options) {
+  AwaitedSignals signals;
+  const Result<Serving> serving = Serving::start(options.serving);
+  if (!serving) return complain(serving.error());
+  if (options.json) {
+    fmt::print("{{\"work\": \"{}\", \"operations\": \"{}\"}}\n", serving->work(), serving->operations());
+  } else {
+    fmt::print("page {}/\nmetrics {}/metrics\nends with Ctrl-C\n", serving->work(), serving->operations());
+  }
+  std::fflush(stdout);
+  signals.wait();
+  return Exit::done;
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,104 @@
+#include "tools/support/serving.h"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <fstream>
+
+#include "base/plain_text.h"
+#include "tools/flight/flight_engine.h"
+
+namespace sgm::cli {
+namespace {
+
+Result<std::string> readToken(const std::string& file) {
+  std::ifstream in(file);
+  std::string token;
+  if (!in || !std::getline(in, token))
+    return Error{Code::io, fmt::format("cannot read a token from the first line of {}", file)};
+  while (!token.empty() && (token.back() == '\r' || token.back() == ' ')) token.pop_back();
+  return token;
+}
+
+/// This very program, which inspects what is uploaded.
+Result<std::string> ownProgram() {
+  std::string path(PATH_MAX, '\0');
+  const ssize_t size = readlink("/proc/self/exe", path.data(), path.size());
+  if (size <= 0 || static_cast<size_t>(size) >= path.size())
+    return Error{Code::io, fmt::format("cannot find this program's own file: {}", systemMessage(errno))};
+  path.resize(static_cast<size_t>(size));
+  return path;
+}
+
+std::string urlOf(const std::string& address, uint16_t port) {
+  return address.find(':') == std::string::npos ? fmt::format("http://{}:{}", address, port)
+                                                : fmt::format("http://[{}]:{}", address, port);
+}
+
+/// Each client takes a file, and a shell gives as few as 1,024.
+void allowManyFiles() {
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+}  // namespace
+
+Result<Serving> Serving::start(const ServingOptions& options) {
+  allowManyFiles();
+  std::string token;
+  if (!options.token_file.empty()) {
+    Result<std::string> read = readToken(options.token_file);
+    if (!read) return read.error();
+    token = std::move(*read);
+  }
+  const Result<std::string> program = ownProgram();
+  if (!program) return program.error();
+  std::vector<const char*> hosts;
+  for (const std::string& host : options.hosts) hosts.push_back(host.c_str());
+  const auto textOrNull = [](const std::string& text) { return text.empty() ? nullptr : text.c_str(); };
+
+  sgm_service_desc desc = SGM_SERVICE_DESC_INIT;
+  desc.work_port = options.port;
+  desc.operations_port = options.operations_port;
+  desc.address = options.listen.c_str();
+  desc.token = options.token_file.empty() ? nullptr : token.c_str();
+  desc.host_names = hosts.data();
+  desc.host_name_count = hosts.size();
+  desc.inspector = program->c_str();
+  desc.masters = textOrNull(options.masters);
+  desc.upload_folder = textOrNull(options.upload_folder);
+  desc.upload_bytes = options.upload_mb << 20;
+  desc.inspector_memory = options.memory_mb << 20;
+  desc.inspector_seconds = options.seconds;
+  desc.inspector_jobs = options.jobs;
+  desc.inspector_waiting = options.waiting;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_service* service = nullptr;
+  if (sgm_service_start(&desc, &service, &error) != SGM_OK) return errorOf(error);
+  Serving serving;
+  serving.service_.reset(service);
+  uint16_t work = 0, operations = 0;
+  static_cast<void>(sgm_service_get_ports(service, &work, &operations, nullptr));
+  serving.work_ = urlOf(options.listen, work);
+  serving.operations_ = urlOf(options.listen, operations);
+  return serving;
+}
+
+void Serving::Stop::operator()(sgm_service* service) const {
+  static_cast<void>(sgm_service_stop(service, kGraceMilliseconds));
+}
+
+Result<void> Serving::watch(const std::string& name, sgm_world* world) {
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_service_watch_world(service_.get(), name.c_str(), world, &error) != SGM_OK) return errorOf(error);
+  return {};
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,128 @@
+#include "tools/flight/daylight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace sgm::cli {
+namespace {
+
+constexpr size_t kColumns = 6, kRows = 4;  // of the rays over a picture; none in its very middle
+constexpr double kViewMetres = 256;        // what lies farther away takes up little of a picture
+constexpr double kGoldenAngle = 2.399963229728653;
+/// A ray up that meets nothing on this way has come to the sky: between solids, where those go on upwards without an
+/// end too, and out of rock, whose caves may be high. No farther than that: the world is derived along the ray.
+constexpr double kSkyMetres = 256, kEndlessSkyMetres = 128, kRockSkyMetres = 1024;
+/// So clearly must a look be for the other light.
+constexpr double kClearlyMore = 1.5, kClearlyLess = 0.5;
+
+/// Straight up, and around at 30 degrees above the horizon. `turn` spreads the directions of many places.
+std::array<Metres3, 5> upwards(double turn) {
+  std::array<Metres3, 5> directions{Metres3{0, 1, 0}};
+  const double height = glm::radians(30.0);
+  for (size_t i = 0; i < 4; ++i) {
+    const double around = turn + glm::radians(90.0 * static_cast<double>(i));
+    directions[i + 1] = {std::cos(height) * std::cos(around), std::sin(height), std::cos(height) * std::sin(around)};
+  }
+  return directions;
+}
+
+bool letsThrough(const LitWorld& world, const RayEnd& end) {
+  return end.material < world.translucent.size() && world.translucent[end.material];
+}
+
+/// The share of the directions upwards from a place in which light comes.
+Result<double> openness(const LitWorld& world, const Metres3& place, double turn) {
+  const std::array<Metres3, 5> directions = upwards(turn);
+  int open = 0;
+  for (const Metres3& direction : directions) {
+    const Result<std::optional<RayEnd>> end = world.cast(place, direction, world.sky_metres);
+    if (!end) return end.error();
+    open += !*end || letsThrough(world, **end);
+  }
+  return static_cast<double>(open) / static_cast<double>(directions.size());
+}
+
+}  // namespace
+
+LitWorld LitWorld::of(bool solid, bool endless_height) {
+  LitWorld world;
+  world.roofless = !(solid && endless_height);
+  world.sky_metres = solid ? kRockSkyMetres : endless_height ? kEndlessSkyMetres : kSkyMetres;
+  return world;
+}
+
+bool isTranslucent(std::string_view material) {
+  const SurfacePattern pattern = materialByName(material).pattern;
+  return pattern == SurfacePattern::glass || pattern == SurfacePattern::leaded || pattern == SurfacePattern::cloud;
+}
+
+Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
+  const Metres3 forward = glm::normalize(camera.direction);
+  const Metres3 level = glm::cross(forward, Metres3{0, 1, 0});
+  const Metres3 right = glm::dot(level, level) > 1e-9 ? glm::normalize(level) : Metres3{1, 0, 0};
+  const Metres3 up = glm::cross(right, forward);
+  const double half_height = std::tan(glm::radians(camera.fov_degrees) / 2), half_width = half_height * camera.aspect;
+  std::array<double, kColumns * kRows> distances{};
+  double sum = 0;
+  for (size_t i = 0; i < distances.size(); ++i) {
+    const auto column = static_cast<double>(i % kColumns), row = static_cast<double>(i / kColumns);
+    const double u = (2 * column + 1) / kColumns - 1, v = (2 * row + 1) / kRows - 1;
+    const Metres3 direction = glm::normalize(forward + right * (u * half_width) + up * (v * half_height));
+    const Result<std::optional<RayEnd>> seen = world.cast(camera.position, direction, kViewMetres);
+    if (!seen) return seen.error();
+    if (*seen && (*seen)->inside) return Outlook{0, true};
+    distances[i] = *seen ? (*seen)->distance : kViewMetres;
+    if (!world.roofless) continue;
+    if (*seen && letsThrough(world, **seen)) {
+      sum += 1;
+      continue;
+    }
+    Metres3 place = camera.position + direction * distances[i];
+    if (*seen) place += (*seen)->normal * world.clearance_metres;
+    const Result<double> open = openness(world, place, kGoldenAngle * static_cast<double>(i));
+    if (!open) return open.error();
+    sum += *open;
+  }
+  std::ranges::sort(distances);
+  // Between the median and the upper quartile: frames are near, what they frame is what matters.
+  const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
+  return Outlook{sum / static_cast<double>(distances.size()), false, depth};
+}
+
+std::optional<Light> lightNamed(std::string_view name) {
+  for (const Light light : {Light::sun, Light::lamp, Light::none})
+    if (name == lightName(light)) return light;
+  return {};
+}
+
+const char* lightName(Light light) {
+  switch (light) {
+    case Light::sun:
+      return "sun";
+    case Light::lamp:
+      return "lamp";
+    case Light::none:
+      break;
+  }
+  return "none";
+}
+
+Light lightAt(double daylight) { return daylight >= kEnoughDaylight ? Light::sun : Light::lamp; }
+
+Light SteadyLight::next(double daylight, bool anew) {
+  if (!light_ || anew) {
+    light_ = lightAt(daylight);
+    doubted_ = false;
+    return *light_;
+  }
+  const bool other =
+      *light_ == Light::sun ? daylight < kClearlyLess * kEnoughDaylight : daylight > kClearlyMore * kEnoughDaylight;
+  if (other && doubted_) light_ = lightAt(daylight);
+  doubted_ = other && !doubted_;
+  return *light_;
+}
+
+}  // namespace sgm::cli

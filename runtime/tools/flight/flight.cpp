@@ -1,0 +1,354 @@
+#include "tools/flight/flight.h"
+
+#include <ctime>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+namespace sgm::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFramesASecond = 60;
+constexpr auto kFrame = std::chrono::microseconds(16667);
+/// Without a pace the next frame comes when the world was planned anew, and so late at the most.
+constexpr auto kLongestWait = std::chrono::milliseconds(4);
+constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
+constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
+constexpr auto kLongestStill = std::chrono::seconds(20);
+constexpr uint64_t kWholeCheckEvery = 500;
+constexpr int kRaysAFrame = 6;
+constexpr uint64_t kRaysToWalk = 48;
+constexpr uint64_t kFramesToForget = 2;
+/// Until digs that are not drawn are left to the wait for all.
+constexpr int kFramesToDraw = 600;
+/// The wait needs room for meshes that the engine holds until it polls.
+constexpr int kWaits = 16;
+
+double threadMilliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The n-th direction of a sequence that covers the sphere evenly, however many are taken.
+Metres3 directionOf(uint64_t n) {
+  const double index = static_cast<double>(n);
+  const double z = 1 - 2 * std::fmod((index + 0.5) * 0.6180339887498949, 1.0);
+  const double turn = 2 * 3.141592653589793 * std::fmod(index * 0.7548776662466927, 1.0);
+  const double side = std::sqrt(std::max(0.0, 1 - z * z));
+  return {side * std::cos(turn), z, side * std::sin(turn)};
+}
+
+/// Where the viewer is, frame by frame.
+class Course {
+ public:
+  struct Stop {
+    FlightPlace place;
+    bool leapt = false;  ///< from far away
+  };
+
+  Course(FlightPath& path, const FlightSettings& settings)
+      : path_(path),
+        step_(settings.speed / kFramesASecond),
+        leg_(settings.teleports == 0 ? 0 : settings.frames / (settings.teleports + 1)),
+        teleports_(settings.teleports) {}
+
+  Result<Stop> next() {
+    Stop stop;
+    if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
+      if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
+      flown_ = 0;
+      // Stands for so long: what a moving viewer makes stale is not the leap's.
+      stands_ = kFramesToForget;
+      stop.leapt = true;
+    }
+    const Result<FlightPlace> place = path_.at(flown_);
+    if (!place) return place.error();
+    stop.place = *place;
+    ++frame_;
+    if (stands_ > 0) {
+      --stands_;
+    } else {
+      flown_ += step_;
+    }
+    return stop;
+  }
+
+ private:
+  FlightPath& path_;
+  const double step_;  ///< metres a frame
+  const uint64_t leg_, teleports_;
+  uint64_t frame_ = 0, teleported_ = 0, stands_ = 0;
+  double flown_ = 0;  ///< metres along the path
+};
+
+class Flight {
+ public:
+  Flight(sgm_world* world, FlightPath& path, const FlightSettings& settings)
+      : world_(world), course_(path, settings), settings_(settings), engine_(settings.check) {
+    if (settings.edits > 0) digger_.emplace(world, settings.seed, settings.edits);
+  }
+
+  Result<FlightReport> run(const FlightWatch& watch) {
+    if (Result<void> planned = plan(watch); !planned) return planned.error();
+    Clock::time_point due = Clock::now();
+    for (uint64_t frame = 0; frame < settings_.frames; ++frame) {
+      const Result<Course::Stop> stop = settings_.paced ? planned_[frame] : course_.next();
+      if (!stop) return stop.error();
+      if (digger_) {
+        if (Result<void> found = digger_->plan(frame, stop->place); !found) return found.error();
+      }
+      if (settings_.paced) {
+        std::this_thread::sleep_until(due);
+        due = std::max(due + kFrame, Clock::now() - 3 * kFrame);
+      }
+      if (stop->leapt) leap(frame);
+      const Clock::time_point begun = Clock::now();
+      if (frame == 0) start_ = begun;
+      place_ = stop->place;
+      if (Result<void> flown = flyFrame(frame); !flown) return flown.error();
+      if (watch.pictured && watch.pictured(frame)) {
+        if (Result<void> stood = standUntilDrawn(); !stood) return stood.error();
+      }
+      if (!settings_.paced) {
+        if (const Result<void> waited = awaitNews(); !waited) return waited.error();
+      }
+      report_.seconds += since(begun) / 1e3;
+      ++report_.frames;
+      if (watch.flown && !watch.flown(frame, place_, engine_.drawn())) return Error{Code::cancelled, "ended"};
+    }
+    if (settings_.paced) report_.seconds = since(start_) / 1e3;
+    return finish();
+  }
+
+ private:
+  Result<void> plan(const FlightWatch& watch) {
+    if (!settings_.paced) return {};
+    for (uint64_t frame = 0; frame < settings_.frames; ++frame) {
+      const Result<Course::Stop> stop = course_.next();
+      if (!stop) return stop.error();
+      planned_.push_back(*stop);
+      if (watch.planned) watch.planned(frame);
+    }
+    return {};
+  }
+
+  /// Frames that follow each other faster than anything is done would all show the same.
+  Result<void> awaitNews() const {
+    const Clock::time_point latest = Clock::now() + kLongestWait;
+    sgm_error error = SGM_ERROR_INIT;
+    for (sgm_world_stats now = SGM_WORLD_STATS_INIT; Clock::now() < latest;) {
+      if (sgm_world_get_stats(world_, &now, &error) != SGM_OK) return errorOf(error);
+      if (now.plans != stats_.plans || now.idle != 0) return {};
+      std::this_thread::sleep_for(kBetweenLooksForNews);
+    }
+    return {};
+  }
+
+  /// What is there to be done for the place that is about to be left?
+  void leap(uint64_t frame) {
+    teleport_frame_ = frame;
+    arrived_ = false;
+    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+    sgm_world_get_stats(world_, &stats, nullptr);
+    report_.work_at_teleports.push_back(stats.queued + stats.in_work);
+  }
+
+  Result<void> flyFrame(uint64_t frame) {
+    const Result<double> time = drawFrame();
+    if (!time) return time.error();
+    times_.push_back(*time);
+    if (settings_.paced && teleport_frame_ && frame == *teleport_frame_ + kFramesToForget) {
+      const uint64_t work = report_.work_at_teleports.back();
+      if (work > 0) {
+        const uint64_t left = std::min(work, stats_.stale);
+        report_.stale.push_back(static_cast<double>(left) / static_cast<double>(work));
+      }
+    }
+    if (Result<void> looked = look(frame); !looked) return looked;
+    return engine_.checkFrame(frame % kWholeCheckEvery == kWholeCheckEvery - 1, report_.checked);
+  }
+
+  /// Nothing is drawn yet where the flight has just come to. Where nothing happens any more, as with too little memory
+  /// for meshes, what is there must do.
+  Result<void> standUntilDrawn() {
+    Clock::time_point changed = Clock::now();
+    for (uint64_t made = 0; !arrived_ && Clock::now() < changed + kLongestStill;) {
+      if (made != stats_.chunks_meshed + stats_.frame) changed = Clock::now();
+      made = stats_.chunks_meshed + stats_.frame;
+      const Result<bool> walkable = isWalkable();
+      if (!walkable) return walkable.error();
+      arrived_ = *walkable || stats_.idle != 0;
+      if (*walkable && report_.walkable_ms < 0) report_.walkable_ms = since(start_);
+      if (arrived_) return {};
+      std::this_thread::sleep_for(kBetweenLooksWhileStanding);
+      if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
+      if (Result<void> checked = engine_.checkFrame(false, report_.checked); !checked) return checked;
+    }
+    return {};
+  }
+
+  /// The milliseconds that this took.
+  Result<double> drawFrame() {
+    sgm_viewer viewer = SGM_VIEWER_INIT;
+    for (int axis = 0; axis < 3; ++axis) {
+      viewer.position[axis] = place_.position[axis];
+      viewer.direction[axis] = static_cast<float>(place_.direction[axis]);
+      viewer.velocity[axis] = static_cast<float>(place_.direction[axis] * settings_.speed);
+    }
+    sgm_error error = SGM_ERROR_INIT;
+    const double before = threadMilliseconds();
+    if (digger_) {
+      if (Result<void> dug = digger_->dig(); !dug) return dug.error();
+    }
+    if (settings_.each_frame) {
+      const double seconds = static_cast<double>(times_.size()) / kFramesASecond;
+      if (Result<void> done = settings_.each_frame(seconds); !done) return done.error();
+    }
+    if (sgm_world_set_viewers(world_, &viewer, 0, 1, &error) != SGM_OK) return errorOf(error);
+    if (sgm_world_update(world_, settings_.frame_bytes, &error) != SGM_OK) return errorOf(error);
+    const Result<uint64_t> handed_over = engine_.poll(world_);
+    if (!handed_over) return handed_over.error();
+    const double time = threadMilliseconds() - before;
+    report_.peak_handed_over = std::max(report_.peak_handed_over, *handed_over);
+    const uint64_t drawn = stats_.frame;
+    if (sgm_world_get_stats(world_, &stats_, &error) != SGM_OK) return errorOf(error);
+    commits_ += stats_.frame != drawn;
+    report_.peak_collider_bytes = std::max(report_.peak_collider_bytes, stats_.collider_bytes);
+    if (digger_) digger_->look(stats_);
+    return time;
+  }
+
+  /// Looks around: are the surfaces that can be seen nearby drawn at level 0?
+  Result<void> look(uint64_t frame) {
+    if (report_.walkable_ms < 0) {
+      const double now = since(start_);
+      const Result<bool> walkable = isWalkable();
+      if (!walkable) return walkable.error();
+      if (*walkable) report_.walkable_ms = now;
+      return {};
+    }
+    // Where a teleport has just led to everything is new.
+    if (teleport_frame_ && frame < *teleport_frame_ + static_cast<uint64_t>(kFramesASecond)) return {};
+    const Result<Sight> sight = see(settings_.finest_distance, kRaysAFrame);
+    if (!sight) return sight.error();
+    report_.seen += sight->seen;
+    report_.seen_finest += sight->finest;
+    if (sight->seen > 0) ++report_.frames_seen;
+    if (sight->seen > 0 && sight->finest == sight->seen) ++report_.frames_covered;
+    return {};
+  }
+
+  /// Rays cost far more than frames do: what is not yet fine enough is looked at first in the next frame, lest the
+  /// question takes the time from the jobs that it is about.
+  Result<bool> isWalkable() {
+    if (!engine_.collidesNear(place_.position, kWalkableDistance)) return false;
+    bool seen = false;
+    for (uint64_t i = 0; i < kRaysToWalk; ++i) {
+      const Result<Surface> surface = surfaceAlong((coarse_ray_ + i) % kRaysToWalk, kWalkableDistance);
+      if (!surface) return surface.error();
+      seen = seen || *surface != Surface::none;
+      if (*surface != Surface::coarse) continue;
+      coarse_ray_ = (coarse_ray_ + i) % kRaysToWalk;
+      return false;
+    }
+    return seen;
+  }
+
+  struct Sight {
+    uint64_t seen = 0, finest = 0;
+  };
+  Result<Sight> see(double distance, int rays) {
+    Sight sight;
+    for (int i = 0; i < rays; ++i) {
+      const Result<Surface> surface = surfaceAlong(rays_++, distance);
+      if (!surface) return surface.error();
+      sight.seen += *surface != Surface::none;
+      sight.finest += *surface == Surface::finest;
+    }
+    return sight;
+  }
+
+  enum class Surface { none, coarse, finest };
+  /// In what was built around the viewer there is nothing to see.
+  Result<Surface> surfaceAlong(uint64_t direction_number, double distance) const {
+    const Metres3 direction = directionOf(direction_number);
+    sgm_ray_desc ray = SGM_RAY_DESC_INIT;
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.from[axis] = place_.position[axis] * SGM_UNITS_PER_METRE;
+      ray.direction[axis] = direction[axis];
+    }
+    ray.length = distance;
+    sgm_surface_point hit = SGM_SURFACE_POINT_INIT;
+    sgm_error error = SGM_ERROR_INIT;
+    if (sgm_world_ray_cast(world_, &ray, &hit, &error) != SGM_OK) return errorOf(error);
+    if (hit.found == 0 || hit.inside != 0) return Surface::none;
+    int32_t at[3];
+    for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(hit.position[axis]);
+    return engine_.finestAt(at, settings_.cell_units) ? Surface::finest : Surface::coarse;
+  }
+
+  Result<FlightReport> finish() {
+    report_.stats = stats_;
+    report_.commits = commits_;
+    report_.main_thread = spreadOf(times_);
+    if (Result<void> rested = rest(); !rested) return rested.error();
+    report_.colliders = engine_.checkColliders(place_.position, kWalkableDistance);
+    if (digger_) report_.digs = digger_->report();
+    return report_;
+  }
+
+  Result<void> rest() {
+    // Frames go on, so that the last digs count like the others.
+    for (int frame = 0; frame < kFramesToDraw && digger_ && digger_->waits(); ++frame) {
+      std::this_thread::sleep_for(kFrame);
+      if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
+      if (Result<void> checked = engine_.checkFrame(false, report_.checked); !checked) return checked;
+    }
+    sgm_error error = SGM_ERROR_INIT;
+    sgm_result waited = SGM_ERR_LIMIT;
+    for (int wait = 0; waited == SGM_ERR_LIMIT && wait < kWaits; ++wait) {
+      waited = sgm_world_wait_idle(world_, nullptr, nullptr, &error);
+      if (const Result<uint64_t> polled = engine_.poll(world_); !polled) return polled.error();
+    }
+    if (waited != SGM_OK) return errorOf(error);
+    if (digger_) {
+      if (sgm_world_get_stats(world_, &stats_, &error) != SGM_OK) return errorOf(error);
+      digger_->look(stats_);
+    }
+    return engine_.checkFrame(true, report_.checked);
+  }
+
+  sgm_world* world_;
+  Course course_;
+  const FlightSettings& settings_;
+  FlightEngine engine_;
+  std::optional<FlightDigger> digger_;
+  FlightReport report_;
+  std::vector<Course::Stop> planned_;             ///< of a paced flight
+  FlightPlace place_;                             ///< of the frame
+  sgm_world_stats stats_ = SGM_WORLD_STATS_INIT;  ///< after it
+  Clock::time_point start_;
+  std::vector<double> times_;
+  uint64_t rays_ = 0, coarse_ray_ = 0, commits_ = 0;
+  std::optional<uint64_t> teleport_frame_;
+  bool arrived_ = false;  ///< what is near has been drawn since the beginning, or the last leap
+};
+
+}  // namespace
+
+Result<FlightReport> fly(sgm_world* world, FlightPath& path, const FlightSettings& settings, const FlightWatch& watch) {
+  return Flight(world, path, settings).run(watch);
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,79 @@
+#pragma once
+// The language server: one message in, those that answer it out. Transport is lsp.cpp's.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "grammar/help/declarations.h"
+#include "tools/language/lsp_text.h"
+
+namespace sgm::cli {
+
+/// The Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols, formatting. Not
+/// thread-safe. What editors have open goes before what lies on disk; imports come from a document's folder.
+class LanguageServer {
+ public:
+  using Json = nlohmann::json;
+
+  /// A message, whatever it is: a request that cannot be answered gets an error, a notification that is not known
+  /// nothing. May throw std::bad_alloc.
+  std::vector<Json> handle(const Json& message);
+  /// What the protocol answers to bytes that are no JSON.
+  static Json answerToGarbage(const std::string& why);
+
+  bool ended() const { return state_ == State::ended; }
+  /// Whether the client asked it to shut down first.
+  bool endedWell() const { return asked_to_end_; }
+
+ private:
+  enum class State { fresh, running, shutdown, ended };
+  /// A document of whichever file a name leads to.
+  struct Source {
+    std::string uri;
+    DocumentText text;
+    Declarations declarations;
+  };
+  /// What a place means.
+  struct Target {
+    Source source;
+    DeclaredName name;
+  };
+
+  /// A request that gets an error: one of the protocol's numbers, and why.
+  struct Refusal {
+    int code;
+    std::string why;
+  };
+  using Answer = std::variant<Json, Refusal>;
+
+  static Json errorAnswer(const Json& id, const Refusal& refusal);
+  Answer answer(const std::string& method, const Json& params);
+  void notify(const std::string& method, const Json& params, std::vector<Json>& out);
+  void diagnose(const std::string& uri, std::vector<Json>& out);
+  void diagnoseAll(std::vector<Json>& out);
+  void publish(const std::string& uri, const Json& diagnostics, std::vector<Json>& out) const;
+
+  Answer completion(const Json& params) const;
+  Answer hover(const Json& params) const;
+  Answer definition(const Json& params) const;
+  Answer symbols(const Json& params) const;
+  Answer format(const Json& params) const;
+  Answer standardText(const Json& params) const;
+
+  std::vector<Target> targetsAt(const std::string& uri, uint32_t offset) const;
+  std::optional<Source> imported(const std::string& from_uri, const std::string& path) const;
+  std::optional<std::string> textOf(const std::string& uri) const;
+  /// Null where it is not open.
+  const DocumentText* document(const Json& params) const;
+
+  State state_ = State::fresh;
+  bool asked_to_end_ = false;
+  std::map<std::string, DocumentText> documents_;           ///< by URI
+  std::map<std::string, std::set<std::string>> diagnosed_;  ///< of each: files that its diagnostics are about
+};
+
+}  // namespace sgm::cli

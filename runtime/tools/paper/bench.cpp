@@ -1,0 +1,60 @@
+// sgm bench paper: the stages of the paper's tables on every backend.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "tools/paper/bench_report.h"
+#include "tools/paper/commands.h"
+#include "tools/paper/contenders.h"
+#include "tools/support/console.h"
+#include "tools/support/options.h"
+
+namespace sgm::cli {
+namespace {
+
+Result<int32_t> cellOf(const BenchOptions& options, const StageModel& model) {
+  WorldOptions cell;
+  cell.cell = options.cell.value_or(static_cast<double>(model.edge) / static_cast<double>(options.cells));
+  return cellUnits(cell);
+}
+
+Result<StageResult> measure(const BenchOptions& options, const StageModel& model, int32_t cell,
+                            std::span<const Contender> contenders) {
+  const auto measured = static_cast<uint64_t>(std::count_if(
+      contenders.begin(), contenders.end(), [](const Contender& contender) { return contender.backend != nullptr; }));
+  ProgressBar bar(fmt::format("measuring the {}", model.name));
+  uint64_t done = 0;
+  return measureStage(model, cell, options.runs, contenders, [&] { bar.show(++done, measured * (options.runs + 1)); });
+}
+
+}  // namespace
+
+Exit benchPaper(const BenchOptions& options) {
+  std::vector<StageResult> results;
+  for (const StageModel& model : stageModels()) {
+    const Result<int32_t> cell = cellOf(options, model);
+    if (!cell) return complain(cell.error());
+    // Devices of its own, as in a process that generates this stage alone: software is made ready for the kinds of
+    // instruction that it has met so far, and each costs it time whether it is there or not.
+    const Result<std::vector<Contender>> contenders = makeContenders(options.backends, options.threads);
+    if (!contenders) return complain(contenders.error());
+    Result<StageResult> result = measure(options, model, *cell, *contenders);
+    if (!result) return complain(result.error());
+    results.push_back(std::move(*result));
+  }
+  if (options.json) {
+    fmt::print("{}\n", toJson(options, results).text());
+  } else {
+    print(options, results);
+  }
+  // What was asked for by name and is not here has its row, and is an error as it is for the other commands.
+  Exit status = Exit::done;
+  for (const StageRow& row : results.back().rows) {
+    if (!row.measured() && !options.backends.empty())
+      status = complain(Exit::backend, fmt::format("{}: {}", row.name, row.reason));
+  }
+  return status;
+}
+
+}  // namespace sgm::cli

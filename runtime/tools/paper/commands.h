@@ -1,0 +1,37 @@
+#pragma once
+// `sgm bench paper` and `sgm paper`.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/support/console.h"
+
+namespace sgm::cli {
+
+struct BenchOptions {
+  uint64_t runs = 10;
+  std::vector<std::string> backends;  ///< none: all that `auto` might choose
+  unsigned threads = 0;
+  uint64_t cells = 256;        ///< on the edge of a stage's cube
+  std::optional<double> cell;  ///< metres, instead
+  bool json = false;
+};
+Exit benchPaper(const BenchOptions& options);
+
+struct PaperOptions {
+  std::string out;
+  std::vector<std::string> only;  ///< parts of the report; none: all
+  bool quick = false;
+  bool no_pictures = false;
+  std::string backend = "auto";
+  unsigned threads = 0;
+  uint64_t seed = 1;
+  bool json = false;
+};
+/// What --only may name, in the order of the report.
+std::vector<std::string> paperParts();
+Exit reproducePaper(const PaperOptions& options);
+
+}  // namespace sgm::cli

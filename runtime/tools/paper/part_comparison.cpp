@@ -1,0 +1,243 @@
+// Table 4: one grammar a system, and a measurement for each YES.
+
+#include <fmt/core.h>
+
+#include <optional>
+
+#include "region/topology.h"
+#include "tools/classify/build.h"
+#include "tools/cli/classify/master_key.h"
+#include "tools/cli/measure/commands.h"
+#include "tools/paper/command_line.h"
+#include "tools/paper/parts.h"
+#include "tools/paper/table4.h"
+#include "tools/paper/workshop.h"
+#include "tools/support/measured_mesh.h"
+#include "tools/support/render_options.h"
+
+namespace sgm::cli {
+namespace {
+
+/// What is so here.
+struct Finding {
+  enum class Said { yes, no, none } said = Said::none;
+  std::string what;
+  std::string command;  ///< empty: none
+};
+using Findings = std::array<Finding, kCriteria>;
+
+Finding finding(bool holds, std::string what, std::string command) {
+  return {holds ? Finding::Said::yes : Finding::Said::no, std::move(what), std::move(command)};
+}
+
+bool saysYes(const char* printed) { return std::string_view(printed).starts_with("YES"); }
+
+WorldOptions optionsFor(const Workshop& workshop, const ComparedSystem& system) {
+  WorldOptions options = workshop.on(system.grammar);
+  options.region = system.region;
+  options.cell = workshop.pick(system.cell, system.quick_cell);
+  return options;
+}
+
+size_t trianglesOf(const WorldMesh& mesh) { return mesh.indices.size() / 3; }
+
+/// How a parameter's other value changes the mesh.
+Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options, const Region& base, const char* set) {
+  WorldOptions changed = options;
+  changed.sets.emplace_back(set);
+  const Result<Region> region = workshop.mesh(changed);
+  if (!region) return region.error();
+  const bool another = region->meshed.hash != base.meshed.hash;
+  return finding(another,
+                 fmt::format("{}: {} triangles become {}, the hash {}", set, trianglesOf(base.meshed.mesh),
+                             trianglesOf(region->meshed.mesh), another ? "another" : "the same"),
+                 commandOf("mesh", changed));
+}
+
+Result<Finding> classified(const Workshop& workshop, const asset::TriangleMesh& mesh, const WorldOptions& options,
+                           const char* expected) {
+  const measure::MasterKey key = masters::defaultKey();
+  const masters::MasterSet set = masters::builtInMasters();
+  const Result<measure::Histogram> histogram =
+      measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), workshop.jobs());
+  if (!histogram) return histogram.error();
+  const Result<measure::Classification> said =
+      measure::classify(histogram->shares, key, set.of(key), *set.limitsOf(key));
+  if (!said) return said.error();
+  return finding(said->verdict == expected, fmt::format("classified as {}", said->verdict),
+                 commandOf("classify", options));
+}
+
+Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& system) {
+  Findings found;
+  const WorldOptions options = optionsFor(workshop, system);
+  const Result<Region> region = workshop.mesh(options, true);
+  if (!region) return region.error();
+  const WorldMesh& mesh = region->meshed.mesh;
+  const asset::TriangleMesh triangles = cli::trianglesOf(*region);
+  measure::MeshSettings settings;
+  settings.self_intersections = false;
+  const Result<measure::MeshMeasures> measured =
+      measure::measureMesh({triangles.points, triangles.triangles}, settings, workshop.jobs());
+  if (!measured) return measured.error();
+
+  constexpr std::array<const char*, 3> kClasses = {"cloud", "building", "cave"};
+  for (const Criterion kind : {kClouds, kArchitecture, kCaves}) {
+    if (!saysYes(system.printed[kind])) {
+      found[kind].what = "not what this grammar makes";
+      continue;
+    }
+    WorldOptions looked_at = options;
+    std::optional<Region> excerpt;
+    if (const Excerpt& of = system.excerpts[kind]; of.region != nullptr) {
+      looked_at.region = of.region;
+      looked_at.cell = of.cell;
+      Result<Region> meshed = workshop.mesh(looked_at);
+      if (!meshed) return meshed.error();
+      excerpt = std::move(*meshed);
+    }
+    Result<Finding> verdict =
+        classified(workshop, excerpt ? cli::trianglesOf(*excerpt) : triangles, looked_at, kClasses[kind]);
+    if (!verdict) return verdict.error();
+    found[kind] = std::move(*verdict);
+  }
+  WorldOptions coarse = options;
+  coarse.level = 1;
+  const Result<Region> far = workshop.mesh(coarse);
+  if (!far) return far.error();
+  found[kDetail] =
+      finding(trianglesOf(far->meshed.mesh) < trianglesOf(mesh),
+              fmt::format("level 0: {} triangles, level 1: {}", trianglesOf(mesh), trianglesOf(far->meshed.mesh)),
+              commandOf("mesh", coarse));
+  Result<Finding> control = changedBy(workshop, options, *region, system.control);
+  if (!control) return control.error();
+  found[kControl] = std::move(*control);
+  if (system.morph != nullptr) {
+    Result<Finding> morph = changedBy(workshop, options, *region, system.morph);
+    if (!morph) return morph.error();
+    found[kMorphing] = std::move(*morph);
+  } else {
+    found[kMorphing].what = "not in this grammar; in any other by a morphic rule, as in figure 8";
+  }
+  WorldOptions unwrapped = options;
+  unwrapped.uv = true;
+  const double density = region->texture->density.middle;
+  found[kTexture] =
+      finding(density >= 0.5 && density <= 2,
+              fmt::format("coordinates in tiles of 1 m, of {:.2f} of their length in the middle", density),
+              commandOf("mesh", unwrapped));
+  MeasureOptions judged = workshop.on<MeasureOptions>(system.grammar);
+  static_cast<WorldOptions&>(judged) = options;
+  judged.no_self_intersections = true;
+  judged.json = true;
+  found[kHidden] =
+      finding(measured->nesting.nested == 0,
+              fmt::format("{} closed parts in the solid of others", measured->nesting.nested), commandOf(judged));
+  found[kOverlapping] =
+      finding(measured->welded_points == 0,
+              fmt::format("{} of {} vertices at the place of another", measured->welded_points, measured->points),
+              commandOf(judged));
+  const Topology topology = topologyOf(mesh, region->meshed.extent);
+  const char* closed = isCut(*region) ? "watertight but for the border" : "watertight";
+  found[kHoles] = finding(topology.watertight, topology.watertight ? closed : topology.leak, commandOf(judged));
+  return found;
+}
+
+const char* signOf(const Finding& finding) {
+  switch (finding.said) {
+    case Finding::Said::yes:
+      return "yes";
+    case Finding::Said::no:
+      return "no";
+    case Finding::Said::none:
+      return "–";
+  }
+  return "";
+}
+
+/// A system's picture, the reasons, and the commands.
+Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup& picture) {
+  std::vector<std::vector<std::string>> rows{{"", "paper", "ours", "measured"}};
+  Markup commands;
+  for (size_t c = 0; c < kCriteria; ++c) {
+    rows.push_back({kCriterionNames[c], system.printed[c], signOf(found[c]), found[c].what});
+    if (found[c].said == Finding::Said::none || found[c].command.empty()) continue;
+    commands += text(fmt::format("# {}\n{}\n", kCriterionNames[c], found[c].command));
+  }
+  const Markup proof = element("div", {{"class", "words"}}, table(system.grammar, rows));
+  return element("h3", fmt::format("{}: {}", system.name, system.grammar)) + Markup{"\n"} + picture +
+         element("p", system.without) + Markup{"\n"} + proof +
+         element("details", element("summary", "Commands that repeat it") + element("pre", element("code", commands))) +
+         Markup{"\n"};
+}
+
+Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
+  RenderOptions options = workshop.on<RenderOptions>(system.grammar);
+  options.region = system.view_region;
+  options.camera = system.camera;
+  options.cell = workshop.pick(system.view_cell, system.quick_view_cell);
+  options.seed = system.view_seed;
+  if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
+  options.sharp = system.sharp;
+  // From inside more is to be seen.
+  options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
+  options.size = workshop.pick("720x440", "400x250");
+  const std::string file = Workshop::grammarOf(options);
+  const std::string stem = file.substr(file.find('/') + 1, file.rfind('.') - file.find('/') - 1);
+  std::vector<std::string> command;
+  Result<Markup> picture = workshop.picture(options, "table4-" + stem, system.alt, system.alt, command);
+  if (!picture) return picture.error();
+  for (const std::string& line : command)
+    *picture +=
+        element("details", element("summary", "Command of the picture") + element("pre", element("code", line)));
+  return picture;
+}
+
+}  // namespace
+
+Exhibits comparisonPart(Workshop& workshop) {
+  Exhibit exhibit;
+  exhibit.id = "table-4";
+  exhibit.title = "Table 4. Comparison of methods";
+  exhibit.printed = {
+      "“Table 4. Comparison of methods”: for ten methods, which geometry they make, how they are steered, and how "
+      "correct "
+      "their meshes are. “LOD: mesh (M), noise (SZ), Simple shapes (P)”.",
+      "Its “Removing high surfaces” is read as hidden surfaces, its “Removing overlapping verticals” as vertices."};
+  std::vector<std::vector<std::string>> summary{{"paper / ours"}};
+  summary[0].insert(summary[0].end(), kCriterionNames.begin(), kCriterionNames.end());
+  Markup cards;
+  Json systems = Json::array();
+  for (const ComparedSystem& system : comparedSystems()) {
+    const Result<Findings> found = findingsOf(workshop, system);
+    if (!found) return found.error();
+    const Result<Markup> picture = pictureOf(workshop, system);
+    if (!picture) return picture.error();
+    cards += cardOf(system, *found, *picture);
+    std::vector<std::string>& row = summary.emplace_back(std::vector<std::string>{system.name});
+    Json json{{"system", system.name}, {"grammar", system.grammar}};
+    for (size_t c = 0; c < kCriteria; ++c) {
+      const std::string printed = system.printed[c];
+      row.push_back(fmt::format("{} / {}", printed.substr(0, printed.find('(')), signOf((*found)[c])));
+      json["criteria"][kCriterionNames[c]] = {{"paper", printed},
+                                              {"ours", signOf((*found)[c])},
+                                              {"measured", (*found)[c].what},
+                                              {"command", (*found)[c].command}};
+    }
+    systems.push_back(std::move(json));
+  }
+  exhibit.ours = table("What the paper says, and what was measured of our grammar of that kind", summary) + cards;
+  exhibit.measured =
+      "Each system has a grammar of its own, after the work that it stands for. Detail by meshing level 1, whose cells "
+      "have twice the edge; control and morphing by another value of a parameter; texture by the coordinates' density, "
+      "half to twice what it should be in the middle; surfaces, vertices and holes by sgm measure, as nested, "
+      "welded_points, and open_edges beyond cut_edges: where the region cuts an endless world its border is no hole. A "
+      "dash: nothing was measured, or there is nothing to measure. What a mesh is classified as depends on its cells: "
+      "finer "
+      "than those of the built-in masters, a cave may be unknown, and a house a cloud.";
+  exhibit.commands = {commandOfPart(workshop.options(), "comparison")};
+  exhibit.numbers = {{"systems", std::move(systems)}};
+  return std::vector<Exhibit>{std::move(exhibit)};
+}
+
+}  // namespace sgm::cli

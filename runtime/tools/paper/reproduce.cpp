@@ -1,0 +1,119 @@
+// sgm paper: the report, made part by part.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "sgm/sgm.h"
+#include "tools/paper/bundle.h"
+#include "tools/paper/commands.h"
+#include "tools/paper/folder.h"
+#include "tools/paper/parts.h"
+#include "tools/paper/report_page.h"
+#include "tools/paper/workshop.h"
+#include "tools/support/console.h"
+#include "tools/support/ending_signals.h"
+#include "tools/support/options.h"
+
+namespace sgm::cli {
+namespace {
+
+/// Where an exhibit stands in the report: figures by number, then tables.
+std::pair<bool, int> orderOf(const Exhibit& exhibit) {
+  return {exhibit.id.starts_with("table"), std::stoi(exhibit.id.substr(exhibit.id.find('-') + 1))};
+}
+
+std::vector<Part> wantedParts(const PaperOptions& options) {
+  std::vector<Part> parts;
+  for (const Part& part : kParts)
+    if (options.only.empty() || std::ranges::find(options.only, part.name) != options.only.end()) parts.push_back(part);
+  return parts;
+}
+
+Result<std::vector<Exhibit>> makeExhibits(const PaperOptions& options, Workshop& workshop) {
+  std::vector<Exhibit> all;
+  const std::vector<Part> parts = wantedParts(options);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    workshop.begin(fmt::format("[{}/{}] {}", i + 1, parts.size(), parts[i].name));
+    Result<std::vector<Exhibit>> made = parts[i].make(workshop);
+    if (!made) return made.error();
+    std::ranges::move(*made, std::back_inserter(all));
+  }
+  std::ranges::sort(all, {}, orderOf);
+  return all;
+}
+
+/// The device that meshes; also whether what is asked for is here at all.
+Result<std::string> meshingDevice(const PaperOptions& options, JobSystem& jobs) {
+  WorldOptions world;
+  world.backend = options.backend;
+  const Result<std::unique_ptr<Backend>> backend = backendOf(world, jobs);
+  if (!backend) return backend.error();
+  const BackendCapabilities& capabilities = (*backend)->capabilities();
+  return fmt::format("{} on {}", backendName(capabilities.kind), capabilities.device);
+}
+
+Json numbersOf(const ReportFacts& facts, const std::vector<Exhibit>& exhibits) {
+  Json json{{"quick", facts.quick}};
+  for (const auto& [name, what] : facts.machine) json["machine"][name] = what;
+  for (const Exhibit& exhibit : exhibits) json["exhibits"][exhibit.id] = exhibit.numbers;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> paperParts() {
+  std::vector<std::string> names;
+  for (const Part& part : kParts) names.emplace_back(part.name);
+  return names;
+}
+
+Exit reproducePaper(const PaperOptions& options) {
+  const Stopwatch watch;
+  // What may be wrong is found out before minutes of work.
+  if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
+    return complain(writable.error());
+  const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
+  if (!jobs) return complain(jobs.error());
+  const Result<std::string> device = meshingDevice(options, **jobs);
+  if (!device) return complain(device.error());
+  std::optional<Renderer> renderer;
+  if (!options.no_pictures) {
+    Result<Renderer> made = Renderer::create();
+    if (!made) {
+      return complain(exitOf(made.error().code),
+                      fmt::format("{}; or leave the pictures out with --no-pictures", made.error().message));
+    }
+    renderer.emplace(std::move(*made));
+  }
+
+  Workshop workshop(options, **jobs, renderer ? &*renderer : nullptr);
+  const Result<std::vector<Exhibit>> exhibits = makeExhibits(options, workshop);
+  if (!exhibits) return complain(exhibits.error());
+
+  ReportFacts facts;
+  facts.quick = options.quick;
+  facts.pictures = !options.no_pictures;
+  facts.whole = options.only.empty();
+  facts.machine = {{"Program", fmt::format("sgm {}", sgm_version_string())},
+                   {"Meshed by", *device},
+                   {"Threads", fmt::format("{}", (*jobs)->concurrency())},
+                   {"Drawn by", renderer ? renderer->info().name : "nothing"},
+                   {"Seed", fmt::format("{}", options.seed)}};
+  std::vector<FolderFile> files = workshop.pictures();
+  for (const BundledFile& file : bundledFiles())
+    files.push_back({fmt::format("grammars/{}", file.path), std::string(file.bytes)});
+  files.push_back({kReportPage, reportPage(facts, *exhibits)});
+  if (const Result<void> written = writeReportFolder(options.out, std::move(files), &ending_signals); !written)
+    return complain(written.error());
+  if (options.json) {
+    fmt::print("{}\n", numbersOf(facts, *exhibits).text());
+  } else {
+    fmt::print("{}: {} figures and tables, {} pictures, {:.0f} s\n",
+               (std::filesystem::path(options.out) / kReportPage).string(), exhibits->size(),
+               workshop.pictures().size(), watch.seconds());
+  }
+  return Exit::done;
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,75 @@
+#pragma once
+// What the parts of the report work with: the bundled grammars, a renderer, and a place to put pictures.
+
+#include <string>
+#include <vector>
+
+#include "measure/mesh_measures.h"
+#include "tools/cli/measure/commands.h"
+#include "tools/paper/commands.h"
+#include "tools/paper/exhibit.h"
+#include "tools/paper/folder.h"
+#include "tools/render/renderer.h"
+#include "tools/support/options.h"
+#include "tools/support/region.h"
+#include "tools/support/render_options.h"
+
+namespace sgm::cli {
+
+class Workshop {
+ public:
+  /// renderer: null where no picture is drawn; outlives the workshop, as do the options.
+  Workshop(const PaperOptions& options, JobSystem& jobs, const Renderer* renderer)
+      : options_(options), jobs_(jobs), renderer_(renderer) {}
+
+  const PaperOptions& options() const { return options_; }
+  JobSystem& jobs() const { return jobs_; }
+  /// One of two, the second where it is to be quick.
+  template <class T>
+  T pick(T full, T quick) const {
+    return options_.quick ? std::move(quick) : std::move(full);
+  }
+  /// Beside progress bars, from now on.
+  void begin(std::string doing) { doing_ = std::move(doing); }
+  const std::string& doing() const { return doing_; }
+
+  /// Options for one of the bundled grammars, with the report's own backend and threads.
+  template <class Options = WorldOptions>
+  Options on(const std::string& grammar) const {
+    Options options;
+    options.file = kGrammars + grammar;
+    options.backend = options_.backend;
+    options.threads = options_.threads;
+    return options;
+  }
+  /// The name of the bundled grammar that options of on() mean.
+  static std::string grammarOf(const WorldOptions& options) { return options.file.substr(kGrammars.size()); }
+
+  /// texture: with texture coordinates. Errors: as meshProgram(), and where there is no surface bad_input.
+  Result<Region> mesh(const WorldOptions& options, bool texture = false) const;
+  /// The sampled region, its mesh welded, and what `sgm measure` says of it.
+  Result<measure::MeshMeasures> measure(const MeasureOptions& options) const;
+
+  /// Draws a picture and keeps it as pictures/NAME.png. The element with its caption and its command, which goes to
+  /// `commands` too; nothing where no pictures are drawn. alt: what is to be seen.
+  Result<Markup> picture(RenderOptions options, const std::string& name, const std::string& alt,
+                         const std::string& caption, std::vector<std::string>& commands);
+  /// Side by side.
+  static Markup row(const Markup& pictures) { return element("div", {{"class", "row"}}, pictures) + Markup{"\n"}; }
+
+  const std::vector<FolderFile>& pictures() const { return pictures_; }
+
+ private:
+  static inline const std::string kGrammars = "grammars/";
+
+  const PaperOptions& options_;
+  JobSystem& jobs_;
+  const Renderer* renderer_;
+  std::string doing_;
+  std::vector<FolderFile> pictures_;
+};
+
+/// The command that makes some of the report alone.
+std::string commandOfPart(const PaperOptions& options, const std::string& part);
+
+}  // namespace sgm::cli

@@ -1,0 +1,29 @@
+// sgm preview: a window that shows a grammar while it is written.
+
+#include "tools/preview/commands.h"
+#include "tools/preview/session.h"
+#include "tools/support/console.h"
+#include "tools/support/render_options.h"
+#include "tools/support/source.h"
+
+namespace sgm::cli {
+
+Exit showPreview(const RenderOptions& options) {
+  // A wrong command line is told at once; what is wrong in the text is told in the window.
+  if (const Result<std::string> text = readGrammarText(options.file); !text) return complain(text.error());
+  if (!options.region.empty()) {
+    if (const Result<IntBox> box = parseRegion(options.region); !box) return complain(box.error());
+  }
+  if (const Result<int32_t> cell = cellUnits(options); !cell) return complain(cell.error());
+  const PictureSize size = *readSize(options.size);
+  const Result<std::unique_ptr<preview::Window>> window =
+      preview::Window::open(options.file + " - sgm preview", size.width, size.height);
+  if (!window) return complain(window.error());
+  const Result<std::unique_ptr<preview::Painter>> painter = preview::Painter::create();
+  if (!painter) return complain(painter.error());
+  preview::Session session(options, **painter, **window);
+  if (const Result<void> done = session.run(); !done) return complain(done.error());
+  return Exit::done;
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,60 @@
+#pragma once
+// `sgm preview`, from the window's opening to its end.
+
+#include <future>
+#include <optional>
+#include <string>
+
+#include "tools/preview/controls.h"
+#include "tools/preview/file_watch.h"
+#include "tools/preview/free_camera.h"
+#include "tools/preview/painter.h"
+#include "tools/preview/pointed_place.h"
+#include "tools/preview/window.h"
+#include "tools/support/render_options.h"
+
+namespace sgm::preview {
+
+/// Brings file, controls, camera, painter and window together. Prints what a user asks for by key or click, and with
+/// --json a line for each picture and message, for tools.
+class Session {
+ public:
+  Session(const cli::RenderOptions& options, Painter& painter, Window& window);
+
+  /// Returns when the window is closed. Errors: those of the window.
+  Result<void> run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Pointed = Result<std::optional<PointedPlace>>;
+
+  cli::RenderOptions wishedOptions() const;
+  void ask();
+  Result<void> takeResult();
+  void steer();
+  void point();
+  void drawPlace();
+  void say(const PointedPlace& place) const;
+  void sayCommand() const;
+  void sayPicture(const Painted& painted) const;
+
+  const cli::RenderOptions options_;
+  Painter& painter_;
+  Window& window_;
+  Controls controls_;
+  FileWatch files_;
+  uint64_t edition_ = 1;
+  uint64_t wished_ = 0;
+  std::optional<FreeCamera> camera_;  ///< none: the first view
+  Painted last_;                      ///< its picture is in the window
+  bool at_work_ = false;
+  Clock::time_point frame_at_ = Clock::now();
+
+  std::future<Pointed> pointing_;  ///< what the pointer shows is looked up
+  std::optional<PointedPlace> place_;
+  std::string place_error_;
+  bool place_is_known_ = false, clicked_ = false;
+  Clock::time_point pointer_rests_ = Clock::now();
+};
+
+}  // namespace sgm::preview

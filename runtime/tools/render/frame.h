@@ -1,0 +1,55 @@
+#pragma once
+// What the shading pass is told. Laid out (std140, std430) as shaders/render/frame.glsl says.
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "base/result.h"
+#include "tools/render/scene.h"
+
+namespace sgm {
+
+struct Frame {
+  glm::mat4 view_projection;
+  glm::vec4 eye;
+  glm::vec4 pattern_offset;
+  glm::vec4 forward;
+  glm::vec4 right;
+  glm::vec4 up;
+  glm::vec4 sun;
+  glm::vec4 lamp_position[kMaxLamps + 1];
+  glm::vec4 lamp_colour[kMaxLamps + 1];
+  glm::uvec4 size;
+  glm::uvec4 counts;
+  glm::vec4 land;
+};
+static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 48);
+
+struct FrameMaterial {
+  glm::vec4 colour_roughness;
+  glm::uvec4 pattern;
+};
+static_assert(sizeof(FrameMaterial) == 32);
+
+bool isFinite(const glm::vec3& v);
+
+/// Error: invalid_argument.
+Result<void> checkCamera(const RenderCamera& camera);
+
+/// Where a camera's picture is: unit axes, and half its sides at distance 1.
+struct CameraAxes {
+  glm::vec3 forward, right, up;
+  float half_width, half_height;
+};
+/// camera must have been checked.
+CameraAxes axesOf(const RenderCamera& camera);
+
+/// scene must have been checked. Frame::land is empty until findLand() fills it.
+Frame frameOf(const RenderScene& scene);
+/// Tells the scene's frame of the land around the world, for which it looks at the whole mesh. May throw
+/// std::bad_alloc.
+void findLand(const RenderScene& scene, Frame& frame);
+std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
+
+}  // namespace sgm

@@ -1,0 +1,513 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/packing.hpp>
+#include <new>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "tools/render/brightness_tally.h"
+#include "tools/render/foliage.h"
+#include "tools/render/illuminated.h"
+#include "tools/render/light_filter.h"
+#include "tools/render/light_planes.h"
+#include "tools/render/pane.h"
+#include "tools/render/ray_caster.h"
+#include "tools/render/sampling.h"
+
+namespace sgm {
+namespace {
+
+constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
+/// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
+constexpr int kFirstRays = 2, kAllRays = 8;
+constexpr int kBounces = 2;              // of a soft ray, before what is left is taken to be even
+constexpr int kMostPanes = 2;            // that a ray goes through before it meets something else
+constexpr float kThroughPane = 0.8f;     // what lead and dirt leave of the light
+constexpr int kMirrorBounces = 2;        // of a ray from a mirror
+constexpr int kMirrorRays = 4;           // of a pixel: one alone would draw edges of what it mirrors as steps
+constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: a little hazy
+constexpr float kLampRadius = 0.05f;     // in reaches
+constexpr float kFar = 1e5f;             // metres
+constexpr float kDirtReach = 0.9f;       // metres: what lies nearer than this catches dirt
+constexpr float kUnderLedge = 2.4f;      // metres that a ledge's streaks run down
+constexpr float kSplash = 1.5f;          // metres that rain splashes up, and damp rises
+constexpr float kWiderThanLedge = 0.4f;  // metres: how far ground that splashes reaches from a wall, at least
+constexpr float kLedgeStep = 0.25f;      // metres that it may rise or fall there
+
+/// A surface that a ray has met.
+struct MetSurface {
+  vec3 position{0};
+  vec3 normal{0};  ///< as the mesh is shaded, unit length
+  vec3 start{0};   ///< where rays away from it begin: off the triangle, which curves less than the surface
+  uint32_t triangle = 0;
+  uint32_t material = 0;
+  uint32_t second = 0;  ///< that it passes into within the triangle
+  float distance = -1;  ///< below 0: nothing was met
+
+  bool isThere() const { return distance >= 0; }
+};
+
+/// A pane that what lies behind it is seen through: see MaterialLook.
+bool isClear(const RenderMaterial& material) {
+  return material.pattern == SurfacePattern::glass && material.relief == kClearPane;
+}
+
+LetsLight letsLight(const RenderMaterial& material) {
+  if (material.pattern == SurfacePattern::glowing || material.pattern == SurfacePattern::leaded || isClear(material))
+    return LetsLight::always;
+  return hasLeaves(material) ? LetsLight::in_spots : LetsLight::never;
+}
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+class LightTracer {
+ public:
+  /// vapour: the scene's clouds, or nullptr.
+  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
+      : scene_(scene),
+        frame_(frame),
+        mesh_(mesh),
+        vapour_(vapour),
+        to_sun_(frame.sun),
+        sky_(scene.background == Background::sky) {
+    for (const RenderMaterial& one : scene.materials) has_water_ |= one.pattern == SurfacePattern::water;
+  }
+
+  /// Through a pixel's first sample, or `off` pixels beside it.
+  vec3 directionAt(uint32_t x, uint32_t y, glm::vec2 off = glm::vec2(0)) const {
+    const float first = 0.5f / static_cast<float>(scene_.supersample);
+    const float u = (static_cast<float>(x) + first + off.x) / static_cast<float>(frame_.size.x) * 2 - 1;
+    const float v = (static_cast<float>(y) + first + off.y) / static_cast<float>(frame_.size.y) * 2 - 1;
+    return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
+  }
+
+  /// The eye sees through gaps of crowns.
+  MetSurface seenAt(uint32_t x, uint32_t y) const {
+    constexpr int kMostGaps = 6;
+    constexpr float kBehind = 0.02f;  // metres
+    const vec3 direction = directionAt(x, y);
+    vec3 from(frame_.eye);
+    MetSurface place = meet(from, direction);
+    for (int i = 0; i < kMostGaps && isGap(place, direction); ++i) {
+      from = place.position + kBehind * direction;
+      place = meet(from, direction);
+      if (place.isThere()) place.distance = glm::distance(place.position, vec3(frame_.eye));
+    }
+    return place;
+  }
+
+  /// What is seen of clouds before a surface, or before the sky.
+  VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
+    return vapour_->march(vec3(frame_.eye), directionAt(x, y), place.isThere() ? place.distance : kFar, x, y);
+  }
+
+  DirectLight direct(const MetSurface& place, uint32_t x, uint32_t y) const {
+    DirectLight light;
+    const uint32_t lights = sky_ ? 1 : frame_.counts.x;
+    for (uint32_t i = 0; i < lights; ++i) {
+      UnitPoints points(x, y, i);
+      const float open = sky_ ? sunShare(place, points) : lampShare(place, i, points);
+      light.open[i / 4] |= static_cast<uint32_t>(open * 255 + 0.5f) << (8 * (i % 4));
+    }
+    float wet = 0;
+    vec3 seen(0);
+    if (isMirror(place.material)) seen = mirrored(place, x, y);
+    // Along the rim of a pane, paint mirrors as little of this light as it should: the sky alone would shine in the
+    // pane.
+    if (isClear(material(place.material)) || isClear(material(place.second))) {
+      const uint32_t pane = isClear(material(place.material)) ? place.material : place.second;
+      // What it mirrors and what is behind it are one light here: the shader adds it as it is.
+      const float facing = -dot(directionAt(x, y), place.normal);
+      const float mirrors = 0.06f + 0.94f * std::pow(1 - std::clamp(facing, 0.0f, 1.0f), 5.0f);
+      seen = mix(colourOf(pane) * seenThrough(place, x, y), seen, mirrors);
+    } else if (isLeaded(place.material)) {
+      seen = seenThrough(place, x, y);
+    }
+    if (has_water_) {
+      UnitPoints points(x, y, 65);
+      wet = isWater(place.material) ? depthOf(place, points) : -wetness(place);
+    }
+    light.mirror[0] = glm::packHalf2x16({seen.r, seen.g});
+    light.mirror[1] = glm::packHalf2x16({seen.b, wet});
+    return light;
+  }
+
+  SoftLight soft(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints points(x, y, 32), turns(x, y, 33);
+    vec3 sum(0), lean(0);
+    float near = 0;
+    for (int i = 0; i < kSoftRays; ++i) {
+      const vec3 direction = cosineDirection(place.normal, points.next());
+      float distance = kFar;
+      // One lamp seen at close quarters must not sparkle.
+      const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
+      near += std::max(0.0f, 1 - distance / kDirtReach);
+      sum += light;
+      lean += direction * luminance(light);
+    }
+    SoftLight result;
+    result.lean = glm::vec4(lean / std::max(luminance(sum), 1e-12f), 0);
+    result.light = glm::vec4(sum / static_cast<float>(kSoftRays), 1);
+    if (sky_) result.lie = {near / static_cast<float>(kSoftRays), ledgeOver(place), footUnder(place), 0};
+    return result;
+  }
+
+  /// The light that falls on a place.
+  vec3 lightOn(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
+    vec3 light(soft.light);
+    for (uint32_t i = 0; i < (sky_ ? 1 : frame_.counts.x); ++i) {
+      const float open = static_cast<float>(direct.open[i / 4] >> (8 * (i % 4)) & 255u) / 255;
+      if (open > 0) light += open * (sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, i));
+    }
+    return light;
+  }
+
+  /// What would be seen of a place of plain colour in a light.
+  float brightness(const MetSurface& place, vec3 light) const {
+    const vec3 colour = colourOf(place.material);
+    if (sky_) return luminance(light * colour);
+    // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
+    constexpr float kStone = 0.3f;
+    return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
+  }
+
+ private:
+  const RenderMaterial& material(uint32_t index) const {
+    return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
+  }
+  vec3 colourOf(uint32_t index) const { return material(index).colour; }
+  /// Water, panes, and paint as smooth as they are.
+  bool isMirror(uint32_t index) const {
+    constexpr float kSmooth = 0.1f;
+    const RenderMaterial& look = material(index);
+    const bool lacquer = look.pattern == SurfacePattern::plain && look.relief == 0 && look.roughness <= kSmooth;
+    return lacquer || isWater(index) || look.pattern == SurfacePattern::glass;
+  }
+
+  /// What a mirror shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.
+  vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints spread(x, y, 63), turns(x, y, 64);
+    const vec3 eye(frame_.eye);
+    const float facing = dot(place.position - eye, place.normal);
+    vec3 sum(0);
+    for (int i = 0; i < kMirrorRays; ++i) {
+      const vec3 through = directionAt(x, y, spread.next() - 0.5f);
+      // Where it meets the mirror's plane, unless that is nearly edge-on.
+      const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
+      const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
+      const vec3 at = place.position + beside + vec3(frame_.pattern_offset);
+      const SurfacePattern pattern = material(place.material).pattern;
+      const vec3 normal = pattern == SurfacePattern::glass           ? paneNormal(place.normal, at)
+                          : pattern == SurfacePattern::water && sky_ ? rippledNormal(place.normal, at)
+                                                                     : place.normal;
+      vec3 back = glm::reflect(glm::normalize(place.position + beside - eye), normal);
+      // At grazing angles a bent normal would send the ray into the pane.
+      if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
+      sum += radiance(place.start + beside, back, turns, kMirrorBounces, nullptr, true);
+    }
+    return sum / static_cast<float>(kMirrorRays);
+  }
+
+  bool isGap(const MetSurface& place, vec3 direction) const {
+    if (!place.isThere()) return false;
+    const auto corner = [&](int i) { return &mesh_.vertex(place.triangle, i); };
+    return isCrown(scene_, frame_, {corner(0), corner(1), corner(2)}) &&
+           isCrownGap(frame_, place.position, -dot(place.normal, direction));
+  }
+
+  bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
+
+  /// Panes that rays go through.
+  bool isPane(uint32_t index) const { return isLeaded(index) || isClear(material(index)); }
+
+  /// What lies behind a pane, in a pixel: old glass bends and blurs what is seen through it.
+  vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints spread(x, y, 66), turns(x, y, 67);
+    const bool old = isLeaded(place.material);
+    const float blur = old ? 0.2f : 0.0f;
+    const vec3 bent =
+        (old ? 2.0f : 0.0f) * (paneNormal(place.normal, place.position + vec3(frame_.pattern_offset)) - place.normal);
+    const Across across(directionAt(x, y));
+    vec3 sum(0);
+    for (int i = 0; i < kMirrorRays; ++i) {
+      const glm::vec2 off = blur * onDisc(spread.next());
+      const vec3 direction = glm::normalize(directionAt(x, y) + bent + off.x * across.x + off.y * across.y);
+      sum += radiance(behind(place, direction), direction, turns, kMirrorBounces, nullptr, true);
+    }
+    return sum / static_cast<float>(kMirrorRays);
+  }
+
+  bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
+
+  /// Beds fall from the shore as gently as shores do: a third as deep as the shore is far, on a mean of several ways.
+  float depthOf(const MetSurface& place, UnitPoints& points) const {
+    constexpr int kWays = 8;
+    constexpr float kFall = 0.33f, kDeepest = 8;
+    float shallow = 0;
+    const float turn = points.next().x;
+    for (int i = 0; i < kWays; ++i) {
+      const float angle = 6.28318531f * (static_cast<float>(i) + turn) / kWays;
+      const auto shore = mesh_.castFronts(place.start, vec3(std::cos(angle), 0.02f, std::sin(angle)), kDeepest / kFall);
+      shallow += 1 / (0.02f + (shore ? shore->distance * kFall : kDeepest));
+    }
+    return kWays / shallow;
+  }
+
+  /// A surface over water is wet up to kHigh above it, the less the higher.
+  float wetness(const MetSurface& place) const {
+    constexpr float kHigh = 0.35f;  // metres
+    const vec3 out = glm::normalize(vec3(place.normal.x, 0, place.normal.z) + vec3(1e-5f, 0, 0));
+    const auto below =
+        mesh_.castFronts(place.start + 0.03f * out, glm::normalize(vec3(0.35f * out.x, -1, 0.35f * out.z)), kHigh);
+    if (!below || !isWater(mesh_.vertex(below->triangle, 0).material)) return 0;
+    return 1 - below->distance / kHigh;
+  }
+
+  MetSurface meet(vec3 from, vec3 direction) const {
+    const auto hit = mesh_.castFronts(from, direction, kFar);
+    if (!hit) return {};
+    MetSurface place;
+    place.distance = hit->distance;
+    place.position = from + direction * hit->distance;
+    const std::array<float, 3> share{1 - hit->u - hit->v, hit->u, hit->v};
+    const vec3 facet = glm::normalize(hit->facing);
+    vec3 lifted(0);
+    for (int i = 0; i < 3; ++i) {
+      const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
+      place.normal += share[static_cast<size_t>(i)] * vertex.normal;
+      // Hanika, "Hacking the shadow terminator", 2021: the surface curves out over the triangle.
+      const vec3 from_corner = place.position - vertex.position;
+      lifted += share[static_cast<size_t>(i)] * std::min(0.0f, dot(from_corner, vertex.normal)) * vertex.normal;
+    }
+    const float length = glm::length(place.normal);
+    place.normal = length > 0.1f ? place.normal / length : facet;
+    place.start = place.position - lifted + facet * (1e-3f + 2e-4f * hit->distance);
+    place.triangle = hit->triangle;
+    place.material = mesh_.vertex(hit->triangle, 0).material;
+    place.second = mesh_.vertex(hit->triangle, 0).second;
+    return place;
+  }
+
+  /// Where a ray goes on that a window lets through: within its pane, whose other side is met from inside.
+  static vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
+
+  vec3 sunOn(vec3 n) const { return sunLight() * std::max(0.0f, dot(n, to_sun_)); }
+
+  vec3 lampOn(vec3 p, vec3 n, uint32_t lamp) const {
+    const vec3 away = vec3(frame_.lamp_position[lamp]) - p;
+    const float distance = glm::length(away), facing = dot(n, away) / std::max(distance, 1e-6f);
+    if (facing <= 0) return vec3(0);
+    float fall = lampFall(distance, frame_.lamp_position[lamp].w);
+    if (lamp == 0) fall *= lampBeam(-dot(away, vec3(frame_.forward)) / std::max(distance, 1e-6f));
+    return vec3(frame_.lamp_colour[lamp]) * (fall * facing);
+  }
+
+  /// The share of rays that are free; reaches() casts the next one.
+  template <class Reaches>
+  static float shareOf(Reaches reaches) {
+    int open = 0, cast = 0;
+    for (; cast < kFirstRays || (cast < kAllRays && open != 0 && open != cast); ++cast) open += reaches();
+    return static_cast<float>(open) / static_cast<float>(cast);
+  }
+
+  float sunShare(const MetSurface& place, UnitPoints& points) const {
+    // What faces away, but for what lets light through, which is lit from within.
+    if (dot(place.normal, to_sun_) < -0.4f) return 0;
+    const Across across(to_sun_);
+    const float through = vapour_ ? vapour_->sunThrough(place.start) : 1;
+    return through * shareOf([&] {
+             const glm::vec2 at = kSunRadius * onDisc(points.next());
+             return mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
+           });
+  }
+
+  float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const {
+    const vec3 away = vec3(frame_.lamp_position[lamp]) - place.start;
+    const float reach = frame_.lamp_position[lamp].w, distance = glm::length(away);
+    if (lampFall(distance, reach) <= 0 || distance <= 1e-4f || dot(place.normal, away) < -0.4f * distance) return 0;
+    const vec3 towards = away / distance;
+    const Across across(towards);
+    return shareOf([&] {
+      const glm::vec2 at = std::min(kLampRadius * reach, 0.25f * distance) * onDisc(points.next());
+      return mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f);
+    });
+  }
+
+  /// Light that comes from the sun and all lamps to a place that a mirror shows: what is left to chance would sparkle.
+  vec3 litByAll(const MetSurface& place, UnitPoints& turns) const {
+    if (sky_) return lit(place, turns.next());
+    vec3 sum(0);
+    for (uint32_t i = 0; i < frame_.counts.x; ++i) {
+      const vec3 light = lampOn(place.position, place.normal, i);
+      if (luminance(light) <= 1e-4f) continue;
+      const vec3 away = vec3(frame_.lamp_position[i]) - place.start;
+      const float distance = glm::length(away);
+      const Across across(away / std::max(distance, 1e-6f));
+      const glm::vec2 at = std::min(kLampRadius * frame_.lamp_position[i].w, 0.25f * distance) * onDisc(turns.next());
+      if (mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f)) sum += light;
+    }
+    return sum;
+  }
+
+  /// Light that comes from the sun or one lamp, chosen by how much it could give, to a place and leaves it again.
+  vec3 lit(const MetSurface& place, glm::vec2 turn) const {
+    if (sky_) {
+      const vec3 light = sunOn(place.normal);
+      return light.r > 0 && mesh_.isFree(place.start, to_sun_, kFar) ? light : vec3(0);
+    }
+    std::array<vec3, kMaxLamps + 1> lights;
+    float all = 0;
+    for (uint32_t i = 0; i < frame_.counts.x; ++i)
+      all += luminance(lights[i] = lampOn(place.position, place.normal, i));
+    float left = turn.x * all;
+    for (uint32_t i = 0; i < frame_.counts.x; ++i) {
+      const float own = luminance(lights[i]);
+      if (own <= 0 || (left -= own) > 0) continue;
+      const vec3 away = vec3(frame_.lamp_position[i]) - place.start;
+      return mesh_.isFree(place.start, away, 0.98f) ? lights[i] * (all / own) : vec3(0);
+    }
+    return vec3(0);
+  }
+
+  /// With fair-weather clouds: where it is mirrored one by one, else their share of the sky.
+  vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const {
+    vec3 sky = skyLight(direction, to_sun_);
+    if (frame_.land.w > 0 && direction.y > 0) {
+      constexpr float kShare = 0.15f;
+      const float share = mirrored ? mirroredClouds(direction) : kShare;
+      sky = mix(sky, vec3(1.05f, 1.05f, 1.03f), share * smoothstep(0.0f, 0.1f, direction.y));
+    }
+    return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
+  }
+
+  /// How much a ledge keeps rain off a wall, 0..1.
+  float ledgeOver(const MetSurface& place) const {
+    if (std::abs(place.normal.y) > 0.5f) return 0;
+    const auto over = mesh_.castFronts(place.start, glm::normalize(vec3(0, 1, 0) + 0.12f * place.normal), kUnderLedge);
+    return over ? 1 - over->distance / kUnderLedge : 0;
+  }
+
+  /// How near the foot of a wall is, 0..1: whatever lies flat before it, and is wider than a ledge.
+  float footUnder(const MetSurface& place) const {
+    if (std::abs(place.normal.y) > 0.7f) return 0;
+    const vec3 down(0, -1, 0);
+    const auto under = mesh_.castFronts(place.start, glm::normalize(down + 0.10f * place.normal), kSplash);
+    if (!under || under->facing.y <= 0.5f * glm::length(under->facing)) return 0;
+    const vec3 away = place.start + kWiderThanLedge * place.normal;
+    const auto beside = mesh_.castFronts(away, down, under->distance + kLedgeStep);
+    return beside && beside->distance > under->distance - kLedgeStep ? 1 - under->distance / kSplash : 0;
+  }
+
+  /// distance: of what the ray meets first, unless it meets nothing. mirrored: it shows in a pane.
+  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
+                bool mirrored = false) const {
+    vec3 sum(0), weight(1);
+    for (int i = 0; i < bounces; ++i) {
+      MetSurface place = meet(from, direction);
+      for (int panes = 0; panes < kMostPanes && place.isThere() && isPane(place.material); ++panes) {
+        weight *= kThroughPane * colourOf(place.material);
+        from = behind(place, direction);
+        place = meet(from, direction);
+      }
+      if (distance && i == 0 && place.isThere()) *distance = place.distance;
+      if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(frame_.sun.w));
+      // Even light fills what is wide open, and clefts the less the narrower they are.
+      const float wide = place.distance / (place.distance + 0.7f);
+      sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
+      weight *= colourOf(place.material);
+      sum += weight * (mirrored && i == 0 ? litByAll(place, turns) : lit(place, turns.next()));
+      if (i + 1 == bounces) {
+        sum += weight * (sky_ ? vec3(0.10f, 0.12f, 0.15f) : vec3(0.3f * frame_.sun.w));
+        break;
+      }
+      from = place.start;
+      direction = cosineDirection(place.normal, turns.next());
+    }
+    return sum;
+  }
+
+  const RenderScene& scene_;
+  const Frame& frame_;
+  const RayCaster& mesh_;
+  const Vapour* vapour_;
+  vec3 to_sun_;
+  bool sky_;
+  bool has_water_ = false;
+};
+
+}  // namespace
+
+Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
+  try {
+    const SceneParts parts = partsOf(scene);
+    Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
+    if (!mesh) return mesh.error();
+    std::vector<LetsLight> lets;
+    for (const RenderMaterial& one : scene.materials) lets.push_back(letsLight(one));
+    if (!std::ranges::all_of(lets, [](LetsLight one) { return one == LetsLight::never; }))
+      mesh->loosen(lets, vec3(frame.pattern_offset));
+    std::optional<Vapour> vapour;
+    if (!parts.clouds.empty()) {
+      Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);
+      if (!made) return made.error();
+      vapour = std::move(*made);
+    }
+    const LightTracer tracer(scene, frame, *mesh, vapour ? &*vapour : nullptr);
+    LightPlanes planes;
+    planes.width = frame.size.x;
+    planes.height = frame.size.y;
+    planes.soft_width = (planes.width + kSoftPixels - 1) / kSoftPixels;
+    planes.soft_height = (planes.height + kSoftPixels - 1) / kSoftPixels;
+    planes.direct.resize(size_t{planes.width} * planes.height);
+    planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
+    if (vapour) planes.vapour.resize(planes.direct.size());
+    Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
+    std::vector<BrightnessTally> rows(planes.soft_height), lit_rows(planes.soft_height);
+    std::atomic<bool> stopped = false;
+    parallelFor(jobs, planes.soft_height, [&](size_t row) {
+      if (stopped || (scene.go_on && !scene.go_on())) {
+        stopped = true;
+        return;
+      }
+      const auto begin = static_cast<uint32_t>(row) * kSoftPixels;
+      for (uint32_t y = begin; y < std::min(begin + kSoftPixels, planes.height); ++y) {
+        for (uint32_t x = 0; x < planes.width; ++x) {
+          const MetSurface place = tracer.seenAt(x, y);
+          const size_t at = size_t{y} * planes.width + x;
+          fine.set(at, place.position, place.normal, place.distance);
+          if (vapour) planes.vapour[at] = tracer.vapourAt(place, x, y);
+          if (!place.isThere()) continue;
+          planes.direct[at] = tracer.direct(place, x, y);
+          if (x % kSoftPixels != 0 || y != begin) continue;
+          const size_t soft = row * planes.soft_width + x / kSoftPixels;
+          coarse.set(soft, place.position, place.normal, place.distance);
+          planes.soft[soft] = tracer.soft(place, x, y);
+          const vec3 light = tracer.lightOn(place, planes.direct[at], planes.soft[soft]);
+          rows[row].add(tracer.brightness(place, light));
+          lit_rows[row].add(luminance(light));
+        }
+      }
+    });
+    if (stopped) return Error{Code::cancelled, "the picture is not wanted any more"};
+    BrightnessTally all, lit;
+    for (const BrightnessTally& row : rows) all.add(row);
+    for (const BrightnessTally& row : lit_rows) lit.add(row);
+    planes.lit = lit.mean();
+    planes.brightness = all.mean();
+    planes.highlight = all.highlight();
+    const float sample = frame.eye.w * static_cast<float>(frame.size.z);
+    filterSoft(planes.soft, coarse, sample * kSoftPixels, jobs);
+    filterDirect(planes.direct, fine, sample, jobs);
+    return planes;
+  } catch (const std::bad_alloc&) {
+    return Error{Code::out_of_memory, "out of memory while tracing light"};
+  }
+}
+
+}  // namespace sgm

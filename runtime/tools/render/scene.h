@@ -1,0 +1,83 @@
+#pragma once
+// What there is to draw: a mesh, its materials, lights, a background, and a camera.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/fixed.h"
+#include "tools/materials/material.h"
+
+namespace sgm {
+
+/// Positions in metres from the scene's origin; normals unit length, out of the solid (zero: the triangle's own).
+struct RenderVertex {
+  glm::vec3 position{0};
+  glm::vec3 normal{0};
+  uint32_t material = 0;  ///< index into RenderScene::materials; beyond its end the last one is meant
+  uint32_t second = 0;    ///< material that it passes into, the same at all corners of a triangle, as is the first
+  float share = 0;        ///< of the second here, 0..1
+  /// Texture coordinates, which are drawn as chequers; the same at all corners of a triangle: none.
+  glm::vec2 texture{0};
+};
+
+struct RenderMaterial {
+  SurfacePattern pattern = SurfacePattern::rock;
+  glm::vec3 colour{0.42f, 0.37f, 0.31f};  ///< linear, 0..1
+  float roughness = 0.75f;                ///< 0.05..1
+  float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
+};
+
+/// What a grammar's `mat NAME` looks like (findLook). nullopt: the name is unknown.
+std::optional<RenderMaterial> findMaterial(std::string_view name);
+/// The same; names that are not known get a look as well (lookOf).
+RenderMaterial materialByName(std::string_view name);
+
+/// A lamp that shines on all sides and falls off with the square of the distance.
+struct RenderLamp {
+  glm::vec3 position{0};  ///< metres from the scene's origin
+  glm::vec3 colour{1, 0.9f, 0.75f};
+  float reach = 10;  ///< distance in metres at which a facing wall is well lit, above 0
+};
+
+/// Looks from position to target, Y up. Positions in metres from the scene's origin.
+struct RenderCamera {
+  glm::vec3 position{0};
+  glm::vec3 target{0, 0, -1};
+  float fov_degrees = 68;  ///< across the picture's height, 1..150
+  int width = 1280;        ///< pixels, 1..kMaxPicture
+  int height = 720;
+};
+
+enum class Background : uint32_t { cave, sky };
+
+inline constexpr size_t kMaxLamps = 7;
+
+struct RenderScene {
+  std::span<const RenderVertex> vertices;
+  std::span<const uint32_t> indices;          ///< three a triangle, counter-clockwise seen from outside the solid
+  std::span<const RenderMaterial> materials;  ///< at least one
+  /// World position of the scene's origin: patterns stick to the world, whatever origin a picture is drawn from.
+  Int3 origin;
+  RenderCamera camera;
+  /// The lamp on the explorer's helmet, a little above and beside the camera, aimed where it looks.
+  /// Its reach is in metres; its position is ignored.
+  RenderLamp headlamp;
+  std::vector<RenderLamp> lamps;  ///< set down in the scene, at most kMaxLamps
+  float ambient = 0.012f;         ///< light from everywhere, 0..1
+  Background background = Background::cave;
+  glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun; used under a sky
+  float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
+  float exposure = 0.85f;
+  int supersample = 2;  ///< samples on each side of a pixel, 1..3
+  /// Asked from any thread while light is traced; false ends the work with Code::cancelled. Empty: nobody asks.
+  std::function<bool()> go_on;
+};
+
+}  // namespace sgm

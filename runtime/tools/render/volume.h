@@ -1,0 +1,45 @@
+#pragma once
+// What there is to draw of fog: a volume of density, what it is made of, the light and a camera.
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "tools/render/image.h"
+#include "tools/render/scene.h"
+
+namespace sgm {
+
+/// What the fog is made of.
+struct VolumeMedium {
+  float extinction = 0.05f;  ///< at density 1, per metre: light goes 1 / extinction on average; from 0
+  float albedo = 1.0f;       ///< share of the light that is scattered and not lost, 0 to 1
+  float forward = 0.8f;      ///< mean cosine of the angle that light is scattered by, above -1 and below 1
+  uint32_t octaves = 5;      ///< of scattering; 1: single scattering alone; to 32
+};
+
+struct VolumeScene {
+  std::span<const uint8_t> density;  ///< in 255ths, x by x, then y by y, then z by z
+  glm::uvec3 size{0};                ///< points, at least 2 on each axis
+  glm::vec3 corner{0};               ///< the first point, metres from the scene's origin
+  float spacing = 1;                 ///< metres, above 0
+  VolumeMedium medium;
+  RenderCamera camera;
+  glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun
+  glm::vec3 sun_light{26.0f, 24.2f, 21.5f};       ///< irradiance of what faces the sun
+  glm::vec3 sky_light{0.34f, 0.45f, 0.64f};       ///< radiance from above
+  glm::vec3 ground_light{0.10f, 0.11f, 0.125f};   ///< and from below
+  float fog_distance = 10000;                     ///< as RenderScene's
+  float exposure = 0.85f;
+  int supersample = 2;  ///< rays on each side of a pixel, 1..3
+};
+
+struct VolumePicture {
+  Image image;  ///< before the sky
+  /// By pixel, what an engine would lay over its scene: light that comes to the eye, and the share of what is behind
+  /// the volume that still shows.
+  std::vector<glm::vec4> light;
+};
+
+}  // namespace sgm

@@ -1,0 +1,26 @@
+#pragma once
+// The passes of a picture of fog: light through the volume, rays from the eye, pixels.
+
+#include "tools/render/volume.h"
+#include "tools/render/vulkan_scope.h"
+
+namespace sgm {
+
+/// Everything that the passes read and write.
+struct VolumePass {
+  VkExtent3D extent{}, lit_extent{};
+  VkExtent2D picture{};
+  VulkanBuffer upload, light, pixels;
+  VulkanImage density, lit;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline light_pipeline = VK_NULL_HANDLE, march = VK_NULL_HANDLE, compose = VK_NULL_HANDLE;
+};
+
+/// scene must have been checked.
+Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene);
+
+/// Afterwards, `light` and `pixels` may be read.
+void recordVolume(const DrawingTable& calls, VkCommandBuffer commands, const VolumePass& pass);
+
+}  // namespace sgm

@@ -1,0 +1,62 @@
+#pragma once
+// A Vulkan instance and device of our own: chosen, opened, and able to run one batch of commands at a time.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backend/vulkan/devices.h"
+#include "base/result.h"
+#include "tools/render/drawing_table.h"
+
+namespace sgm {
+
+struct GpuOptions {
+  int index = -1;           ///< in the order of listGpus(); -1 takes the fastest kind there is
+  bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; an error where it is not installed
+};
+
+/// Every device of this machine that has Vulkan 1.2; not all of them mesh. Errors: unsupported, where there is none, no
+/// loader or no driver.
+Result<std::vector<vulkan::DeviceInfo>> listGpus();
+
+/// Owns the instance, the device and one queue that draws and computes. One thread at a time may use it.
+class VulkanDevice {
+ public:
+  /// Errors: unsupported (no loader, no driver, no such index, no validation layer), with what to install.
+  static Result<std::unique_ptr<VulkanDevice>> create(const GpuOptions& options);
+  ~VulkanDevice();
+  VulkanDevice(const VulkanDevice&) = delete;
+  VulkanDevice& operator=(const VulkanDevice&) = delete;
+
+  /// Records commands through `record`, submits them and waits until they are done.
+  Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
+
+  /// Warnings and errors of the validation layer so far; empty when created without it. Any thread.
+  std::vector<std::string> messages() const { return instance_->messages(); }
+
+  const vulkan::DeviceInfo& info() const { return info_; }
+  const vulkan::InstanceTable& instanceCalls() const { return instance_->calls(); }
+  const DrawingTable& calls() const { return calls_; }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkDevice handle() const { return device_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+
+ private:
+  VulkanDevice() = default;
+  Result<void> choose(int index);
+  Result<void> open();
+
+  std::unique_ptr<vulkan::Instance> instance_;
+  DrawingTable calls_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  uint32_t family_ = 0;
+  vulkan::DeviceInfo info_;
+  VkPhysicalDeviceLimits limits_{};
+};
+
+}  // namespace sgm

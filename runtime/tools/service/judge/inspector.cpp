@@ -1,0 +1,307 @@
+#include "tools/service/judge/inspector.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "base/thread_name.h"
+#include "tools/service/judge/child_process.h"
+#include "tools/service/judge/inspector_answer.h"
+
+namespace sgm::service {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kMostMastersJobs = 64;
+
+/// What the process needs to find its libraries, and nothing that a host keeps there for itself.
+std::vector<std::string> environmentOfChildren() {
+  std::vector<std::string> kept{"LC_ALL=C"};
+  for (const char* name : {"PATH", "LD_LIBRARY_PATH"})
+    if (const char* value = std::getenv(name)) kept.push_back(std::string(name) + "=" + value);
+  return kept;
+}
+
+/// Nothing that a callback throws ends the host.
+template <class... Arguments>
+void call(const std::function<void(Arguments...)>& function, std::type_identity_t<Arguments>... arguments) {
+  try {
+    if (function) function(std::move(arguments)...);
+  } catch (...) {
+    // Who asked has no memory left to be told.
+  }
+}
+
+/// What is said, or where that throws, `otherwise`.
+template <class Say>
+Inspection saidOr(Inspection& otherwise, const Say& say) noexcept {
+  try {
+    return say();
+  } catch (...) {
+    return std::move(otherwise);
+  }
+}
+
+bool runs(const std::string& program) { return !program.empty() && access(program.c_str(), X_OK) == 0; }
+
+class ProcessInspector final : public Inspector {
+ public:
+  ProcessInspector(const InspectorSettings& settings, Pipe stop)
+      : settings_(settings), environment_(environmentOfChildren()), stop_(std::move(stop)) {}
+  ~ProcessInspector() override;
+  /// Error: io.
+  Result<void> start();
+
+  Result<void> wouldTake() const override;
+  Result<void> inspect(Upload upload, std::function<void()> began, std::function<void(Inspection)> done) override;
+  void readMasters(std::function<void(Inspection)> done) override {
+    queueMasters({{}, false, std::move(done), outOfMemoryProblem()});
+  }
+  void writeMasters(std::string json, std::function<void(Inspection)> done) override {
+    queueMasters({std::move(json), true, std::move(done), outOfMemoryProblem()});
+  }
+  InspectorCounts counts() const override;
+
+ private:
+  struct Job {
+    Upload upload;
+    std::function<void()> began;
+    std::function<void(Inspection)> done;
+    Inspection out_of_memory;  ///< made while there is some
+    bool stopped = false;      ///< not to be judged: the inspector ends
+  };
+  struct MastersJob {
+    std::string json;
+    bool writes = false;
+    std::function<void(Inspection)> done;
+    Inspection out_of_memory;
+    bool stopped = false;
+  };
+
+  Result<void> wouldTakeLocked(bool program_runs) const;
+  void queueMasters(MastersJob job);
+  template <class AnyJob>
+  std::optional<AnyJob> take(std::deque<AnyJob>& waiting);
+  void work();
+  void workOnMasters();
+  void run(Job& job);
+  Inspection judge(const Upload& upload) const;
+  Inspection judgeMasters(const MastersJob& job) const;
+  Inspection answerOf(ChildSettings child, Answer wanted) const;
+  void count(const Inspection& said, double seconds);
+
+  const InspectorSettings settings_;
+  const std::vector<std::string> environment_;
+  /// What can be read once the inspector ends: whoever waits for a process waits for this too.
+  Pipe stop_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stopping_ = false;
+  std::deque<Job> waiting_;
+  std::deque<MastersJob> masters_waiting_;
+  InspectorCounts counts_;
+  std::vector<std::thread> threads_;
+};
+
+ProcessInspector::~ProcessInspector() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  // Written, not closed: a process that the host forked meanwhile may hold the other end's copy.
+  while (write(stop_.to.number(), "", 1) < 0 && errno == EINTR) {
+  }
+  for (std::thread& thread : threads_) thread.join();
+}
+
+Result<void> ProcessInspector::start() {
+  try {
+    threads_.reserve(settings_.jobs + 1);
+    for (unsigned i = 0; i < settings_.jobs; ++i)
+      threads_.emplace_back([this] {
+        nameThread("sgm inspector");
+        work();
+      });
+    threads_.emplace_back([this] { workOnMasters(); });
+  } catch (const std::system_error& e) {
+    return Error{Code::io, std::string("cannot start a thread: ") + e.what()};
+  }
+  return {};
+}
+
+Result<void> ProcessInspector::wouldTakeLocked(bool program_runs) const {
+  if (settings_.program.empty())
+    return Error{Code::unsupported, "nothing can be judged here: no program that inspects is configured"};
+  if (!program_runs)
+    return Error{Code::unsupported, "nothing can be judged here: " + settings_.program + " is no program that runs"};
+  if (counts_.running + waiting_.size() >= settings_.jobs + settings_.waiting)
+    return Error{Code::limit, std::to_string(waiting_.size()) + " uploads wait already: come again later"};
+  return {};
+}
+
+Result<void> ProcessInspector::wouldTake() const {
+  // Asked of a file system, which may keep one waiting.
+  const bool program_runs = runs(settings_.program);
+  const std::lock_guard lock(mutex_);
+  return wouldTakeLocked(program_runs);
+}
+
+Result<void> ProcessInspector::inspect(Upload upload, std::function<void()> began,
+                                       std::function<void(Inspection)> done) {
+  const bool program_runs = runs(settings_.program);
+  Job job{std::move(upload), std::move(began), std::move(done), outOfMemoryProblem()};
+  try {
+    const std::lock_guard lock(mutex_);
+    if (const Result<void> takes = wouldTakeLocked(program_runs); !takes) return takes;
+    waiting_.push_back(std::move(job));
+  } catch (const std::bad_alloc&) {
+    return Error{Code::limit, "no memory left"};  // short enough to need none
+  }
+  changed_.notify_all();
+  return {};
+}
+
+void ProcessInspector::queueMasters(MastersJob job) {
+  const bool program = !settings_.program.empty();
+  try {
+    const std::lock_guard lock(mutex_);
+    if (program && masters_waiting_.size() < kMostMastersJobs) {
+      masters_waiting_.push_back(std::move(job));
+      changed_.notify_all();
+      return;
+    }
+  } catch (const std::bad_alloc&) {
+    return call(job.done, std::move(job.out_of_memory));
+  }
+  call(job.done, saidOr(job.out_of_memory, [program] {
+         return program ? problemOf(503, "queue_full", "too many wait for the masters: come again later")
+                        : problemOf(503, "no_validator", "no program that reads masters is configured here");
+       }));
+}
+
+InspectorCounts ProcessInspector::counts() const {
+  const std::lock_guard lock(mutex_);
+  InspectorCounts counts = counts_;
+  counts.waiting = static_cast<unsigned>(waiting_.size());
+  return counts;
+}
+
+/// Waits for the next one. Nothing once the inspector ends and all were taken. What is returned ends with its caller,
+/// outside of the lock: it may hold the last descriptor of a large file.
+template <class AnyJob>
+std::optional<AnyJob> ProcessInspector::take(std::deque<AnyJob>& waiting) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return stopping_ || !waiting.empty(); });
+  if (waiting.empty()) return std::nullopt;
+  std::optional<AnyJob> job(std::move(waiting.front()));
+  waiting.pop_front();
+  job->stopped = stopping_;
+  if constexpr (std::is_same_v<AnyJob, Job>) counts_.running += stopping_ ? 0u : 1u;
+  return job;
+}
+
+void ProcessInspector::work() {
+  while (std::optional<Job> job = take(waiting_)) {
+    if (job->stopped) {
+      call(job->done, saidOr(job->out_of_memory, stoppedProblem));
+    } else {
+      run(*job);
+    }
+  }
+}
+
+void ProcessInspector::run(Job& job) {
+  call(job.began);
+  const Clock::time_point start = Clock::now();
+  Inspection said = saidOr(job.out_of_memory, [&] { return judge(job.upload); });
+  count(said, std::chrono::duration<double>(Clock::now() - start).count());
+  call(job.done, std::move(said));
+}
+
+void ProcessInspector::workOnMasters() {
+  while (std::optional<MastersJob> job = take(masters_waiting_))
+    call(job->done, saidOr(job->out_of_memory, [&] { return job->stopped ? stoppedProblem() : judgeMasters(*job); }));
+}
+
+/// Before anybody is told: who has an answer finds it counted.
+void ProcessInspector::count(const Inspection& said, double seconds) {
+  const std::lock_guard lock(mutex_);
+  --counts_.running;
+  if (said.status == 503) return;
+  const auto kind = said.status == 200   ? said.valid ? &InspectorCounts::valid : &InspectorCounts::invalid
+                    : said.status == 422 ? &InspectorCounts::refused
+                                         : &InspectorCounts::failed;
+  ++(counts_.*kind);
+  counts_.seconds_sum += seconds;
+  for (size_t i = 0; i < counts_.seconds.size(); ++i)
+    if (seconds <= std::ldexp(1.0, static_cast<int>(i) - 8)) ++counts_.seconds[i];
+}
+
+Inspection ProcessInspector::judge(const Upload& upload) const {
+  ChildSettings child;
+  child.arguments = {"inspect", "--kind=" + std::string(nameOf(upload.kind))};
+  // The command line takes an empty value for none, and what follows for the value.
+  if (!upload.name.empty()) child.arguments.push_back("--name=" + upload.name);
+  for (const auto& [name, value] : upload.options)
+    if (!value.empty()) child.arguments.push_back("--" + name + "=" + value);
+  const Result<Descriptor> file = reopenedForReading(upload.file());
+  if (!file) return problemOf(500, "validator_crashed", "the upload cannot be read: " + file.error().message);
+  child.input = file->number();
+  return answerOf(std::move(child), Answer::report);
+}
+
+Inspection ProcessInspector::judgeMasters(const MastersJob& job) const {
+  if (job.writes && settings_.masters.empty())
+    return problemOf(409, "read_only",
+                     "these masters are built in: name a base to keep others in, with --masters FILE");
+  ChildSettings child;
+  child.arguments = {"inspect", job.writes ? "--store-masters" : "--list-masters"};
+  child.text = job.json;
+  return answerOf(std::move(child), Answer::masters);
+}
+
+Inspection ProcessInspector::answerOf(ChildSettings child, Answer wanted) const {
+  child.program = settings_.program;
+  child.environment = environment_;
+  child.arguments.push_back("--memory=" + std::to_string(settings_.memory >> 20));
+  child.arguments.push_back("--seconds=" + std::to_string(settings_.time.count()));
+  if (!settings_.masters.empty()) child.arguments.push_back("--masters=" + settings_.masters);
+  child.time = settings_.time;
+  child.most_output = kMostAnswer;
+  child.cancel = stop_.from.number();
+  Result<ChildOutcome> outcome = runChild(child);
+  if (!outcome) return problemOf(500, "validator_crashed", outcome.error().message);
+  return inspectionOf(std::move(*outcome), settings_.time, wanted);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Inspector>> Inspector::create(const InspectorSettings& settings) {
+  const bool fits = settings.jobs >= 1 && settings.jobs <= 64 && settings.waiting <= 4096 &&
+                    settings.memory >= uint64_t{64} << 20 && settings.time.count() >= 1 &&
+                    settings.time.count() <= 86400;
+  if (!fits)
+    return Error{Code::invalid_argument,
+                 "an inspector has 1 to 64 jobs, at most 4096 uploads wait, and a process has 64 MB of memory or more "
+                 "and 1 to 86400 s"};
+  Result<Pipe> stop = Pipe::create();
+  if (!stop) return stop.error();
+  auto made = std::make_unique<ProcessInspector>(settings, std::move(*stop));
+  if (const Result<void> started = made->start(); !started) return started.error();
+  return std::unique_ptr<Inspector>(std::move(made));
+}
+
+}  // namespace sgm::service

@@ -1,0 +1,170 @@
+#include "tools/service/judge/inspector_answer.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tools/service/judge/inspector_json.h"
+
+namespace sgm::service {
+namespace {
+
+constexpr std::string_view kPreviewMagic = "SGMPREV1";
+constexpr size_t kPreviewHead = 16;
+
+template <class T>
+T numberAt(std::string_view bytes, size_t at) {
+  T value = 0;
+  for (size_t i = 0; i < sizeof(T); ++i)
+    value = static_cast<T>(value | T{static_cast<unsigned char>(bytes[at + i])} << (8 * i));
+  return value;
+}
+
+/// The next of the answer's two parts. Nothing where it is not whole.
+std::optional<std::string_view> takePart(std::string_view& left) {
+  if (left.size() < sizeof(uint64_t)) return std::nullopt;
+  const uint64_t size = numberAt<uint64_t>(left, 0);
+  left.remove_prefix(sizeof size);
+  if (size > left.size()) return std::nullopt;
+  const std::string_view part = left.substr(0, size);
+  left.remove_prefix(size);
+  return part;
+}
+
+bool isPreview(std::string_view bytes) {
+  if (bytes.size() < kPreviewHead || !bytes.starts_with(kPreviewMagic)) return false;
+  const uint64_t points = numberAt<uint32_t>(bytes, 8), triangles = numberAt<uint32_t>(bytes, 12);
+  if (bytes.size() != kPreviewHead + 12 * points + 12 * triangles) return false;
+  for (size_t at = kPreviewHead + 12 * points; at < bytes.size(); at += 4)
+    if (numberAt<uint32_t>(bytes, at) >= points) return false;
+  return true;
+}
+
+/// The text of a member's value; empty where there is none.
+std::string_view valueOf(const std::vector<JsonMember>& members, std::string_view name) {
+  const auto found = std::ranges::find(members, name, &JsonMember::name);
+  return found == members.end() ? std::string_view() : found->value;
+}
+
+/// The status of a problem that the process may answer with; nothing for anything else.
+std::optional<int> problemStatus(const std::vector<JsonMember>& members, Answer wanted) {
+  for (const char* member : {"type", "title", "code", "detail"})
+    if (!valueOf(members, member).starts_with('"')) return std::nullopt;
+  const std::string_view status = valueOf(members, "status");
+  for (const int of_reports : {422, 500})
+    if (status == std::to_string(of_reports)) return of_reports;
+  for (const int of_masters : {400, 409})
+    if (wanted == Answer::masters && status == std::to_string(of_masters)) return of_masters;
+  return std::nullopt;
+}
+
+bool isWanted(const std::vector<JsonMember>& members, Answer wanted) {
+  if (!valueOf(members, "status").empty()) return false;
+  if (wanted == Answer::masters)
+    return valueOf(members, "masters").starts_with('[') && valueOf(members, "limits").starts_with('[');
+  const std::string_view valid = valueOf(members, "valid");
+  return (valid == "true" || valid == "false") && valueOf(members, "measures").starts_with('{');
+}
+
+Inspection limitReached(const std::string& what) { return problemOf(500, "validator_limit", what); }
+
+Inspection tooMuchSaid(size_t most) {
+  return limitReached("what is to be said of this is more than " + std::to_string(most >> 20) +
+                      " MB, the service's limit of an answer");
+}
+
+/// Nothing where it is not what was wanted.
+std::optional<Inspection> soundAnswer(std::string_view output, Answer wanted) {
+  const std::optional<std::string_view> text = takePart(output), preview = takePart(output);
+  if (!text || !preview || !output.empty()) return std::nullopt;
+  if (wanted == Answer::report && text->size() > kMostReportText) return tooMuchSaid(kMostReportText);
+  if (!isSoundObject(*text)) return std::nullopt;
+  const std::vector<JsonMember> members = membersOf(*text);
+  Inspection said;
+  said.json = *text;
+  if (const std::optional<int> status = problemStatus(members, wanted)) {
+    said.status = *status;
+    return said;
+  }
+  if (!isWanted(members, wanted) || !(preview->empty() || isPreview(*preview))) return std::nullopt;
+  said.valid = wanted == Answer::report && valueOf(members, "valid") == "true";
+  said.preview = *preview;
+  return said;
+}
+
+std::string firstLine(std::string_view text) {
+  constexpr size_t kMost = 300;
+  const std::string_view line = text.substr(0, std::min(text.find('\n'), kMost));
+  return line.empty() ? std::string() : ": " + std::string(line);
+}
+
+const char* titleOf(int status) {
+  switch (status) {
+    case 409:
+      return "Conflict";
+    case 503:
+      return "Service Unavailable";
+    default:
+      return "Internal Server Error";
+  }
+}
+
+Inspection crashed(const std::string& how) { return problemOf(500, "validator_crashed", "the validator " + how); }
+
+}  // namespace
+
+Inspection problemOf(int status, std::string_view code, std::string_view detail) {
+  std::string json = R"({"type":"about:blank","title":)" + jsonString(titleOf(status));
+  json.append(R"(,"status":)").append(std::to_string(status));
+  json.append(R"(,"code":)").append(jsonString(code));
+  json.append(R"(,"detail":)").append(jsonString(detail)).append("}");
+  return {status, std::move(json), {}};
+}
+
+Inspection stoppedProblem() { return problemOf(503, "stopping", "the service ends: send it again when it is back"); }
+
+Inspection outOfMemoryProblem() noexcept {
+  Inspection said;
+  said.status = 500;
+  try {
+    said.json = R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"validator_limit",)"
+                R"("detail":"the service has no memory left for this: send it again later"})";
+  } catch (const std::bad_alloc&) {
+    // Not even for this: the status alone says it.
+  }
+  return said;
+}
+
+Inspection inspectionOf(ChildOutcome outcome, std::chrono::seconds time, Answer wanted) {
+  const std::string seconds = std::to_string(time.count());
+  switch (outcome.end) {
+    case ChildEnd::cancelled:
+      return stoppedProblem();
+    case ChildEnd::late:
+      return limitReached("judging this takes more than " + seconds +
+                          " s, the service's limit of time: send something smaller");
+    case ChildEnd::talkative:
+      return tooMuchSaid(kMostAnswer);
+    case ChildEnd::signalled:
+      if (outcome.signal == SIGXCPU)
+        return limitReached("judging this takes more than " + seconds +
+                            " s of processor time, the service's limit: send something smaller");
+      return crashed("was ended by signal " + std::to_string(outcome.signal) +
+                     (outcome.signal == SIGKILL ? ": perhaps the machine has no memory left"
+                                                : ": this is a bug of sgm's, please send us the file"));
+    case ChildEnd::exited:
+      break;
+  }
+  if (outcome.status.value_or(0) != 0)
+    return crashed("ended with status " + std::to_string(*outcome.status) + firstLine(outcome.complaint));
+  if (std::optional<Inspection> said = soundAnswer(outcome.output, wanted)) return std::move(*said);
+  return crashed((outcome.output.empty() ? "ended without a word" : "has said something else than a report") +
+                 firstLine(outcome.complaint));
+}
+
+}  // namespace sgm::service

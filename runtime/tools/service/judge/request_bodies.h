@@ -1,0 +1,70 @@
+#pragma once
+// Bodies of requests, as they come in: of uploads to a file, of short texts to memory.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "tools/service/http/handler.h"
+#include "tools/service/judge/upload.h"
+
+namespace sgm::service {
+
+/// Bytes of all bodies of a kind that come in at this moment. By bytes and not by heads, so that who sends little, or
+/// nothing, for as long as he may, is in nobody's way.
+struct IncomingRoom {
+  std::atomic<uint64_t> taken{0};
+  uint64_t most = 0;
+};
+
+/// What one body has of it, until it ends. Moves only.
+class IncomingShare {
+ public:
+  explicit IncomingShare(std::shared_ptr<IncomingRoom> room) : room_(std::move(room)) {}
+  IncomingShare(IncomingShare&& other) noexcept
+      : room_(std::move(other.room_)), taken_(std::exchange(other.taken_, 0)) {}
+  IncomingShare& operator=(IncomingShare&&) = delete;
+  ~IncomingShare() {
+    if (room_ != nullptr) room_->taken -= taken_;
+  }
+
+  /// The answer where there is no room for so many bytes more.
+  std::optional<http::Response> grow(size_t bytes);
+
+ private:
+  std::shared_ptr<IncomingRoom> room_;
+  uint64_t taken_ = 0;
+};
+
+class UploadBody final : public http::Body {
+ public:
+  UploadBody(Upload upload, std::shared_ptr<IncomingRoom> room) : upload_(std::move(upload)), share_(std::move(room)) {}
+
+  std::optional<http::Response> take(std::string_view piece) override;
+  Upload release() && { return std::move(upload_); }
+
+ private:
+  Upload upload_;
+  IncomingShare share_;
+};
+
+/// A text that is kept in memory.
+class TextBody final : public http::Body {
+ public:
+  explicit TextBody(std::shared_ptr<IncomingRoom> room) : share_(std::move(room)) {}
+
+  std::optional<http::Response> take(std::string_view piece) override;
+  std::string release() && { return std::move(text_); }
+  /// To be kept for as long as the text is.
+  IncomingShare releaseShare() && { return std::move(share_); }
+
+ private:
+  std::string text_;
+  IncomingShare share_;
+};
+
+}  // namespace sgm::service

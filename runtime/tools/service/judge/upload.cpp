@@ -1,0 +1,127 @@
+#include "tools/service/judge/upload.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "base/plain_text.h"
+
+namespace sgm::service {
+namespace {
+
+struct KindName {
+  UploadKind kind;
+  std::string_view name;  ///< what a file's name ends in, behind a point
+};
+constexpr KindName kNames[] = {
+    {UploadKind::glb, "glb"}, {UploadKind::obj, "obj"},     {UploadKind::ply, "ply"},
+    {UploadKind::stl, "stl"}, {UploadKind::grammar, "sgm"}, {UploadKind::glb, "gltf"},
+};
+
+struct KindType {
+  std::string_view type;
+  UploadKind kind;
+};
+constexpr KindType kTypes[] = {
+    {"model/gltf-binary", UploadKind::glb}, {"model/gltf+json", UploadKind::glb},   {"model/obj", UploadKind::obj},
+    {"model/ply", UploadKind::ply},         {"application/x-ply", UploadKind::ply}, {"model/stl", UploadKind::stl},
+    {"text/x-sgm", UploadKind::grammar},
+};
+
+std::string lowered(std::string_view text) {
+  std::string low(text);
+  for (char& c : low) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return low;
+}
+
+Error failed(const std::string& what) { return {Code::io, what + ": " + systemMessage(errno)}; }
+
+/// A file that has no name any more, and that who opens it again may only read. -1, and errno, where there is none.
+int openNameless(const std::string& folder) {
+#if defined(O_TMPFILE)
+  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
+  // What else can be wrong with the folder is wrong for a file with a name too.
+  if (file >= 0) return file;
+#endif
+  std::string path = folder + "/sgm_upload_XXXXXX";
+  const int named = mkostemp(path.data(), O_CLOEXEC);
+  if (named < 0) return named;
+  unlink(path.c_str());
+  if (fchmod(named, 0400) == 0) return named;
+  const int why = errno;
+  close(named);
+  errno = why;
+  return -1;
+}
+
+}  // namespace
+
+std::string_view nameOf(UploadKind kind) { return std::ranges::find(kNames, kind, &KindName::kind)->name; }
+
+std::optional<UploadKind> uploadKind(std::string_view content_type, std::string_view name) {
+  std::string type = lowered(content_type.substr(0, content_type.find(';')));
+  type.erase(std::remove_if(type.begin(), type.end(), [](char c) { return c == ' ' || c == '\t'; }), type.end());
+  if (!type.empty() && type != "application/octet-stream") {
+    const auto* of = std::ranges::find(kTypes, std::string_view(type), &KindType::type);
+    return of == std::end(kTypes) ? std::nullopt : std::optional(of->kind);
+  }
+  const size_t point = name.rfind('.');
+  if (point == std::string_view::npos) return std::nullopt;
+  const std::string ending = lowered(name.substr(point + 1));
+  const auto* of = std::ranges::find(kNames, std::string_view(ending), &KindName::name);
+  return of == std::end(kNames) ? std::nullopt : std::optional(of->kind);
+}
+
+Result<Upload> Upload::create(const std::string& folder) {
+  std::string in = folder;
+  if (in.empty()) {
+    std::error_code why;
+    in = std::filesystem::temp_directory_path(why).string();
+    if (why) return Error{Code::io, "there is no folder for temporary files: " + systemMessage(why)};
+  }
+  const int file = openNameless(in);
+  if (file < 0) return failed("cannot make a file in " + in);
+  return Upload(file);
+}
+
+Upload::Upload(Upload&& other) noexcept
+    : name(std::move(other.name)),
+      kind(other.kind),
+      options(std::move(other.options)),
+      file_(std::exchange(other.file_, -1)),
+      bytes_(std::exchange(other.bytes_, 0)) {}
+
+Upload& Upload::operator=(Upload&& other) noexcept {
+  if (this == &other) return *this;
+  if (file_ >= 0) close(file_);
+  name = std::move(other.name);
+  kind = other.kind;
+  options = std::move(other.options);
+  file_ = std::exchange(other.file_, -1);
+  bytes_ = std::exchange(other.bytes_, 0);
+  return *this;
+}
+
+Upload::~Upload() {
+  if (file_ >= 0) close(file_);
+}
+
+Result<void> Upload::append(std::string_view piece) {
+  while (!piece.empty()) {
+    const ssize_t written = write(file_, piece.data(), piece.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return failed("cannot write a temporary file");
+    bytes_ += static_cast<uint64_t>(written);
+    piece.remove_prefix(static_cast<size_t>(written));
+  }
+  return {};
+}
+
+}  // namespace sgm::service

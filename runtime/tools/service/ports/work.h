@@ -1,0 +1,56 @@
+#pragma once
+// The port for people and programs that work with the service: the page, uploads, reports, masters.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tools/service/http/handler.h"
+#include "tools/service/judge/inspector.h"
+#include "tools/service/judge/masters.h"
+#include "tools/service/judge/reports.h"
+#include "tools/service/judge/request_bodies.h"
+#include "tools/service/ports/access.h"
+#include "tools/service/watch/service_state.h"
+#include "tools/service/watch/watched_worlds.h"
+
+namespace sgm::service {
+
+struct WorkSettings {
+  std::string upload_folder;  ///< empty: the machine's own one for temporary files
+  uint64_t most_upload_bytes = uint64_t{64} << 20;
+  bool masters_writable = false;
+  uint64_t most_incoming_bytes = uint64_t{1} << 30;  ///< of all uploads that come in at one time; at least one fits
+};
+
+/// What it answers with; all of it outlives the server.
+struct WorkParts {
+  const Access& access;
+  Inspector& inspector;
+  Masters& masters;
+  Reports& reports;
+  WatchedWorlds& worlds;
+  std::function<ServiceState()> state;
+};
+
+class Work final : public http::Handler {
+ public:
+  Work(const WorkParts& parts, const WorkSettings& settings);
+
+  http::Admission admit(const http::Request& request) override;
+  void answer(const http::Request& request, std::unique_ptr<http::Body> body, http::Reply reply) override;
+
+ private:
+  http::Admission admitUpload(const http::Request& request);
+  http::Admission admitMasters(const http::Request& request);
+  void judge(const http::Request& request, std::unique_ptr<http::Body> body, http::Reply reply);
+
+  WorkParts parts_;
+  WorkSettings settings_;
+  std::shared_ptr<IncomingRoom> room_, text_room_;                        ///< of uploads on disk, of texts in memory
+  std::map<std::string_view, std::shared_ptr<const std::string>> files_;  ///< one copy for all clients
+};
+
+}  // namespace sgm::service

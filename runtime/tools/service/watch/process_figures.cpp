@@ -1,0 +1,73 @@
+#include "tools/service/watch/process_figures.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace sgm::service {
+namespace {
+
+std::string contentOf(const char* file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// When the machine was started, seconds since 1970.
+std::optional<double> bootTime() {
+  std::ifstream in("/proc/stat");
+  for (std::string word; in >> word;) {
+    double seconds = 0;
+    if (word == "btime" && in >> seconds) return seconds;
+  }
+  return std::nullopt;
+}
+
+/// The fields of /proc/self/stat behind the program's name, which may hold anything.
+void readTimes(ProcessFigures& figures) {
+  const std::string stat = contentOf("/proc/self/stat");
+  const size_t name_end = stat.rfind(')');
+  const long ticks = sysconf(_SC_CLK_TCK);
+  if (name_end == stat.npos || ticks <= 0) return;
+  constexpr int kFirstField = 3, kUser = 14, kSystem = 15, kStart = 22;
+  std::istringstream in(stat.substr(name_end + 1));
+  std::string field;
+  double user = 0, system = 0, start = 0;
+  for (int number = kFirstField; number <= kStart; ++number) {
+    if (number != kUser && number != kSystem && number != kStart) {
+      in >> field;
+    } else {
+      in >> (number == kUser ? user : number == kSystem ? system : start);
+    }
+  }
+  if (!in) return;
+  figures.cpu_seconds = (user + system) / static_cast<double>(ticks);
+  if (const std::optional<double> boot = bootTime()) figures.start_seconds = *boot + start / static_cast<double>(ticks);
+}
+
+std::optional<uint64_t> openFiles() {
+  std::error_code error;
+  uint64_t count = 0;
+  std::filesystem::directory_iterator at("/proc/self/fd", error);
+  for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) ++count;
+  // One of them is the folder's own.
+  return error || count == 0 ? std::nullopt : std::optional(count - 1);
+}
+
+}  // namespace
+
+ProcessFigures processFigures() {
+  ProcessFigures figures;
+  std::istringstream memory(contentOf("/proc/self/statm"));
+  uint64_t pages = 0, resident = 0;
+  const long page = sysconf(_SC_PAGESIZE);
+  if (page > 0 && memory >> pages >> resident) figures.resident_bytes = resident * static_cast<uint64_t>(page);
+  readTimes(figures);
+  figures.open_files = openFiles();
+  return figures;
+}
+
+}  // namespace sgm::service

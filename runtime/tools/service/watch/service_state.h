@@ -1,0 +1,22 @@
+#pragma once
+// What the service knows of itself, for its metrics and its summary.
+
+#include <chrono>
+
+#include "tools/service/http/server.h"
+#include "tools/service/judge/inspector.h"
+
+namespace sgm::service {
+
+struct ServiceState {
+  std::chrono::steady_clock::time_point started;
+  uint16_t operations_port = 0;
+  http::ServerCounts work, operations;
+  InspectorCounts inspector;
+  bool inspects = false;      ///< whether uploads can be judged
+  unsigned most_waiting = 0;  ///< uploads
+  uint64_t most_upload_bytes = 0;
+  size_t reports = 0;
+};
+
+}  // namespace sgm::service

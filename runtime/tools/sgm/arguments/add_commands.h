@@ -1,0 +1,44 @@
+#pragma once
+// Each declares a command, and returns what to run where it is the one given.
+
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "tools/support/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sgm::cli {
+
+using Command = std::function<Exit()>;
+using AddCommand = Command (*)(CLI::App& root);
+
+/// The commands of this build, in the order of help: those of all_commands.cpp or of core_commands.cpp.
+std::span<const AddCommand> commandsToAdd();
+/// Names of commands that this build leaves out.
+std::span<const std::string_view> commandsLeftOut();
+
+Command addCheck(CLI::App& root);
+Command addFmt(CLI::App& root);
+Command addExplain(CLI::App& root);
+Command addLsp(CLI::App& root);
+Command addMesh(CLI::App& root);
+Command addRender(CLI::App& root);
+Command addPreview(CLI::App& root);
+Command addBake(CLI::App& root);
+Command addStore(CLI::App& root);
+Command addMeasure(CLI::App& root);
+Command addClassify(CLI::App& root);
+Command addMasters(CLI::App& root);
+Command addFly(CLI::App& root);
+Command addServe(CLI::App& root);
+Command addBench(CLI::App& root);
+Command addPaper(CLI::App& root);
+Command addBackends(CLI::App& root);
+/// Which help does not list: the metrics service calls it.
+Command addInspect(CLI::App& root);
+
+}  // namespace sgm::cli

@@ -1,0 +1,78 @@
+// The command line, declared, and nothing else: whatever includes CLI11 takes its time to compile.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grammar/text/sink.h"
+#include "sgm/sgm.h"
+#include "tools/sgm/arguments/add_commands.h"
+#include "tools/sgm/command_line.h"
+#include "tools/support/console.h"
+
+namespace sgm::cli {
+namespace {
+
+/// Of a word that stands where a command should: what is wrong with it; else the parser's own message.
+std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
+  std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
+  for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
+    const std::string word = argv[i];
+    const auto known = std::ranges::find(commands, word, [](const CLI::App* command) { return command->get_name(); });
+    if (known != commands.end()) {
+      commands = (*known)->get_subcommands(nullptr);
+      continue;
+    }
+    Suggestion suggestion(word);
+    std::string all;
+    for (const CLI::App* command : commands) {
+      if (command->get_group().empty()) continue;  // not for people
+      suggestion.offer(command->get_name());
+      all += (all.empty() ? "" : ", ") + command->get_name();
+    }
+    const std::string_view best = suggestion.best();
+    return fmt::format("there is no command '{}': {}", word,
+                       best.empty() ? "write one of " + all : fmt::format("did you mean '{}'?", best));
+  }
+  return error.what();
+}
+
+}  // namespace
+
+Exit runCommandLine(int argc, char** argv) {
+  CLI::App app("Shape grammars with morphing: from grammar text to meshes and pictures.", "sgm");
+  app.set_version_flag("--version", std::string("sgm ") + sgm_version_string());
+  app.require_subcommand(1);
+  app.footer(
+      "Run sgm COMMAND --help for its options and an example.\n"
+      "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
+      "be read or written; the highest of several.");
+  std::vector<Command> commands;
+  for (const AddCommand add : commandsToAdd()) commands.push_back(add(app));
+
+  // Before CLI11 looks: it would answer `sgm bake --help` with the help of sgm.
+  if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
+    return complain(Exit::usage,
+                    fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "
+                                "--preset release), and build it again",
+                                argv[1]));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e), Exit::done;
+    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", complaintOf(app, e, argc, argv));
+    return Exit::usage;
+  }
+  const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (all[i]->parsed()) return commands[i]();
+  }
+  return Exit::usage;
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,51 @@
+// The command `sgm`.
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "tools/sgm/command_line.h"
+#include "tools/support/console.h"
+#include "tools/support/ending_signals.h"
+
+namespace {
+
+using sgm::cli::Exit;
+
+/// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal), in whatever it is
+/// doing; but no unfinished file stays behind, and what has to be done whole is done first.
+void endBy(int signal) {
+  if (sgm::cli::ending_signals.waits(signal)) return;
+  sgm::cli::unfinished_files.remove();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void handleSignals() {
+  // A file that grows past a limit is then a failed write, which cleans up after itself.
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
+    // What our caller has us ignore (nohup, a background job of a script) stays ignored.
+    if (std::signal(signal, endBy) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  handleSignals();
+  Exit status = Exit::input;
+  try {
+    status = sgm::cli::runCommandLine(argc, argv);
+  } catch (const std::bad_alloc&) {
+    sgm::cli::complain(Exit::input, "out of memory: take a smaller region or a larger --cell");
+  } catch (const std::exception& e) {
+    sgm::cli::complain(Exit::input, e.what());
+  }
+  // What was printed may not have arrived (a full disk behind a redirection).
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    status = sgm::cli::complain(Exit::file, "cannot write to standard output");
+  }
+  return static_cast<int>(status);
+}

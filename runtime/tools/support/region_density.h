@@ -1,0 +1,24 @@
+#pragma once
+// The density of a region that was meshed, at the corners of its cells: what `sgm render --volume` draws.
+
+#include "query/density_grid.h"
+#include "tools/support/region.h"
+
+namespace sgm::cli {
+
+struct RegionDensity {
+  DensityGrid grid;
+  std::vector<uint8_t> values;
+  DensityFigures figures;
+  double seconds = 0;
+};
+
+/// Error: invalid_argument, where the grammar's solid is not meant as fog, with what to write.
+Result<void> checkDensity(const Program& program);
+
+/// A progress bar where stderr is a terminal. Errors: as sampleDensity(), limit, out_of_memory.
+Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, const Region& region, int level);
+
+Json toJson(const RegionDensity& density);
+
+}  // namespace sgm::cli

@@ -1,0 +1,81 @@
+#include "tools/support/region_notes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "derive/layout/floor_plan.h"
+#include "tools/support/surroundings.h"
+
+namespace sgm::cli {
+namespace {
+
+int32_t thinnest(const IntBox& box) {
+  int64_t edge = std::numeric_limits<int32_t>::max();
+  for (int axis = 0; axis < 3; ++axis) edge = std::min(edge, int64_t{box.hi[axis]} - box.lo[axis]);
+  return static_cast<int32_t>(edge);
+}
+
+/// Metres, as it is written; nothing where it is computed.
+std::optional<double> wallOf(const Program& program, const StmtNode& s) {
+  const ExprId wall = program.ast.treemaps[s.extra].wall;
+  if (wall == kNoId) return kTreemapWall;
+  const ExprNode& n = program.expr(wall);
+  return n.kind == ExprKind::number ? std::optional(n.value) : std::nullopt;
+}
+
+/// "4 cm", "2.5 cm", "1.2 m".
+std::string lengthText(int32_t units) {
+  const double length = metres(units);
+  return length < 1 ? fmt::format("{:.3g} cm", 100 * length) : fmt::format("{:.3g} m", length);
+}
+
+}  // namespace
+
+Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
+  const bool solid = region.program->domain.solid;
+  const Result<std::vector<IntBox>> shapes = shapesIn(world, region.meshed.extent);
+  if (!shapes) return shapes.error();
+  if (shapes->empty())
+    return std::string(solid ? "nothing is cut from the rock in this region" : "no shape lies in this region") +
+           ": what is derived may lie elsewhere, which --region takes, or be left out, as warnings say";
+  if (!solid && region.meshed.solid_samples == region.samples())
+    return std::string("this region lies all within the solid: take more of the world with --region");
+  const bool thin = std::ranges::all_of(*shapes, [&](const IntBox& box) { return thinnest(box) < region.cell; });
+  if (thin)
+    return fmt::format("what is here is thinner than a cell of {} m: take smaller ones with --cell",
+                       metres(region.cell));
+  return fmt::format("{} here, or is thinner than a cell of {} m: look at the cuts, or take smaller cells with --cell",
+                     solid ? "what is cut is filled again" : "all is carved away", metres(region.cell));
+}
+
+void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell) {
+  constexpr size_t kMostSaid = 10;
+  for (size_t i = 0; i < std::min(parts.size(), kMostSaid); ++i) {
+    const ThinPart& part = parts[i];
+    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may not be seen ({}{} {})\n",
+               part.cut ? "what is cut in " : "", part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick",
+               lengthText(cell), part.is_about ? "about " : "", part.uses, part.uses == 1 ? "use" : "uses");
+  }
+  if (parts.size() > kMostSaid)
+    fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMostSaid);
+}
+
+void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell) {
+  for (const StmtNode& s : program.ast.stmts) {
+    if (s.kind != StmtKind::treemap) continue;
+    const std::optional<double> wall = wallOf(program, s);
+    if (!wall || *wall >= metres(cell)) continue;
+    fmt::print(
+        stderr,
+        "{}:{}:{}: warning: the walls of this treemap, {} m, are thinner than a cell of {} m, and may have holes "
+        "or be gone: take smaller cells, such as --cell {:.2g}\n",
+        s.span.file == 0 ? file : std::string(program.modules[s.span.file].path), s.span.line, s.span.column, *wall,
+        metres(cell), *wall / 2);
+  }
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,18 @@
+#pragma once
+// Letters as strokes of a pen: the same in SVG files and in pixels, on machines with and without fonts.
+
+#include <string_view>
+
+#include "tools/survey/drawing.h"
+
+namespace sgm::survey {
+
+enum class Align { left, middle, right };
+
+/// Pixels that the text takes along x with capitals of this height.
+double letterWidth(std::string_view text, double height);
+
+/// The text with its baseline at `at`. Characters beyond ASCII are drawn as question marks. height: of capitals.
+Mark lettering(std::string_view text, Point at, double height, Align align = Align::left, Ink ink = kBlack);
+
+}  // namespace sgm::survey

@@ -1,0 +1,46 @@
+#pragma once
+// What the derivation of one cell sees of the layers below it, through programs compiled once for the cell's
+// surroundings.
+
+#include <exception>
+#include <map>
+#include <optional>
+
+#include "derive/interpret/lower_layers.h"
+#include "field/prune.h"
+#include "world/world_field.h"
+
+namespace sgm {
+
+/// Lives for one derivation, on its thread. An error below is kept and must be looked at when the derivation is done.
+class LayersBelow final : public LowerLayers {
+ public:
+  LayersBelow(const WorldField& world, const IntBox& around);
+
+  bool solid(uint32_t layer, Int3 p) const override;
+  std::optional<int32_t> probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
+                               int32_t length) const override;
+  BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const override;
+
+  const std::optional<Error>& error() const { return error_; }
+  /// That the layers which were asked have read (GrammarChunk::parameters).
+  uint64_t parameters() const { return parameters_; }
+
+ private:
+  const FieldProgram* program(uint32_t layer, const IntBox& box) const;
+  /// Derivation knows nothing of the settings' shift.
+  Int3 shifted(Int3 p) const;
+
+  const WorldField& world_;
+  IntBox around_;
+  mutable std::map<uint32_t, std::shared_ptr<const FieldProgram>> programs_;
+  mutable std::shared_ptr<const FieldProgram> elsewhere_;  ///< of a box outside of `around_`
+  mutable EvalScratch scratch_;
+  mutable PruneScratch prune_scratch_;
+  mutable PrunedProgram pruned_, piece_;
+  mutable std::vector<int32_t> x_, y_, z_, q_;
+  mutable std::optional<Error> error_;
+  mutable uint64_t parameters_ = 0;
+};
+
+}  // namespace sgm

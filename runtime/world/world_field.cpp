@@ -1,0 +1,376 @@
+#include "world/world_field.h"
+
+#include <algorithm>
+
+#include "base/bytes.h"
+#include "derive/chunk_ops.h"
+#include "derive/coarse_chunk.h"
+#include "world/layers_below.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t{1} << 24;
+
+IntBox moved(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
+
+/// lo <= p < hi.
+bool holds(const IntBox& box, Int3 p) { return box.contains(p) && p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z; }
+
+/// For each layer: whether its cells may derive the rule.
+std::vector<bool> layersDeriving(const Program& program, uint32_t rule) {
+  std::vector<bool> found;
+  for (const Layer& layer : program.layers) {
+    std::vector<bool> reached(program.rules.size());
+    std::vector<uint32_t> open;
+    const auto reach = [&](uint32_t r) {
+      if (!reached[r]) open.push_back(r);
+      reached[r] = true;
+    };
+    if (const ExprNode& start = program.expr(layer.start); start.ref == Ref::rule) reach(start.id);
+    while (!open.empty()) {
+      const uint32_t from = open.back();
+      open.pop_back();
+      for (uint32_t to : program.rules[from].calls) reach(to);
+    }
+    found.push_back(reached[rule]);
+  }
+  return found;
+}
+
+}  // namespace
+
+WorldField::WorldField(WorldFieldSettings settings, std::pmr::memory_resource* memory)
+    : settings_(std::move(settings)), memory_(memory), cache_(settings_.cache_bytes, memory) {}
+
+WorldField::WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone,
+                       std::pmr::memory_resource* memory)
+    : settings_(std::move(settings)), alone_(std::move(alone)), memory_(memory), cache_(0, memory) {}
+
+std::optional<std::vector<std::byte>> WorldField::identity() const {
+  if (alone_) return std::nullopt;
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  out.put(settings_.program->hash);
+  out.put(uint64_t{settings_.parameters.values.size()});
+  for (double value : settings_.parameters.values) out.put(value);
+  out.put(settings_.seed);
+  out.put(settings_.finest_cell);
+  for (int axis = 0; axis < 3; ++axis) out.put(settings_.shift[axis]);
+  for (const HostField& host : settings_.hosts) {
+    out.put(host.identity);
+    for (const Int3 corner : {host.bounds.lo, host.bounds.hi}) {
+      for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
+    }
+    out.put(uint32_t{host.cut});
+    out.put(host.label);
+    out.put(host.smooth);
+    out.put(host.steepness);
+  }
+  return bytes;
+}
+
+template <class T, class Derive>
+Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
+  const ProfileScope scope(profiler(), zone::kDerive);
+  // Probes start in the cell and end within its reach; what queries look at lies within it.
+  const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
+  LayersBelow below(*this, around);
+  Result<T> derived = derive(below);
+  if (below.error()) return *below.error();
+  return derived;
+}
+
+void WorldField::adopt(const WorldField& other) const {
+  cache_.adopt(other.cache_, [&](const DerivedCell& cell) { return derivesAlike(other, cell.chunk.parameters); });
+}
+
+bool WorldField::derivesAlike(const WorldField& other, uint64_t parameters) const {
+  const WorldFieldSettings& theirs = other.settings_;
+  return !alone_ && !other.alone_ && settings_.program->hash == theirs.program->hash && settings_.seed == theirs.seed &&
+         settings_.shift == theirs.shift &&
+         (parameters & changedParameters(settings_.parameters, theirs.parameters)) == 0;
+}
+
+Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LayersBelow& below) {
+    const Program& program = *settings_.program;
+    const ParameterValues& parameters = settings_.parameters;
+    const uint64_t seed = settings_.seed;
+    Result<GrammarChunk> derived =
+        cell_edge == 0
+            ? deriveCell(program, parameters, seed, layer, at, below, DeriveLimits{}, memory_)
+            : deriveCoarseCell(program, parameters, seed, layer, at, cell_edge, below, DeriveLimits{}, memory_);
+    if (derived) derived->parameters |= below.parameters();
+    return derived;
+  });
+  if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
+  // Cells of far levels would tell the same again.
+  if (chunk && settings_.on_notes && !chunk->notes.empty() && cell_edge <= settings_.finest_cell)
+    settings_.on_notes(*chunk);
+  return chunk;
+}
+
+Result<TracedCell> WorldField::trace(uint32_t layer, Int3 at) const {
+  Result<TracedCell> traced = overLayersBelow<TracedCell>(layer, at, [&](const LayersBelow& below) {
+    return traceCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{},
+                     memory_);
+  });
+  if (traced && settings_.shift != Int3{}) translate(traced->chunk, settings_.shift);
+  return traced;
+}
+
+Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3 at) const {
+  return cache_.get({layer, at, 0}, [&] { return derive(layer, at, 0); });
+}
+
+CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  // What is kept for a level does for the next one as well. Never made of what is kept for finer levels: what a chunk
+  // shows must not depend on what the cache happens to hold.
+  constexpr int kLevelsTogether = 2;
+  int32_t kept = settings_.finest_cell;
+  while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
+  // The finest level does not show all of a cell either: where cells are of 50 cm, houses have no glazing bars. Layers
+  // above ask for more than it shows: they see what is finer, too.
+  const Layer& info = settings_.program->layers[layer];
+  if (!info.by_level || cell_edge < settings_.finest_cell || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
+  return {layer, at, kept};
+}
+
+Result<std::shared_ptr<const DerivedCell>> WorldField::cellFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  const CellKey key = keyFor(layer, at, cell_edge);
+  return cache_.get(key, [&] { return derive(layer, at, key.cell_edge); });
+}
+
+Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const IntBox& box, size_t most) const {
+  const std::vector<bool> deriving = layersDeriving(*settings_.program, rule);
+  std::vector<RuleInstance> found;
+  for (uint32_t layer = 0; layer < deriving.size(); ++layer) {
+    if (!deriving[layer]) continue;
+    const Result<void> walked = walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) -> Result<void> {
+      Result<std::vector<RuleInstance>> derived =
+          overLayersBelow<std::vector<RuleInstance>>(layer, key.cell, [&](const LowerLayers& below) {
+            return deriveInstances(*settings_.program, settings_.parameters, settings_.seed, layer, key.cell, rule,
+                                   below, DeriveLimits{}, memory_);
+          });
+      if (!derived) return derived.error();
+      for (RuleInstance& instance : *derived) {
+        if (settings_.shift != Int3{}) {
+          translate(instance.chunk, settings_.shift);
+          instance.origin = saturatingAdd(instance.origin, settings_.shift);
+        }
+        if (holds(box, instance.origin)) found.push_back(std::move(instance));
+      }
+      if (found.size() > most) {
+        return Error{Code::limit, "the region holds more than " + std::to_string(most) + " uses of `" +
+                                      std::string(settings_.program->text(settings_.program->rules[rule].name)) +
+                                      "`; choose a smaller one"};
+      }
+      return {};
+    });
+    if (!walked) return walked.error();
+  }
+  return found;
+}
+
+Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by,
+                                   const std::function<Result<void>(const CellKey&)>& visit) const {
+  const Program& program = *settings_.program;
+  const Layer& info = program.layers[layer];
+  // A grammar without layers is one cell.
+  if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
+  const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
+                                  saturate(-int64_t{settings_.shift.z})});
+  std::array<int64_t, 3> first{}, last{};
+  const int64_t most = by == CellsBy::shapes ? kMaxCellsOfChunk : kMaxCellsWalked;
+  int64_t count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    const int64_t edge = info.cell[axis];
+    ShapeSpan span = by == CellsBy::shapes ? shapeSpan(program, info, axis) : reachSpan(program, info, axis);
+    if (by == CellsBy::ownership && edge > 0) span = {0, edge - 1};
+    if (edge == 0) {
+      if (home.hi[axis] < span.lo || home.lo[axis] > span.hi) return {};
+      continue;
+    }
+    // Cells that would lie partly outside of the world derive nothing.
+    const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
+                  world_last = floorDiv(INT32_MAX, edge) - 1;
+    first[a] = std::max(-floorDiv(span.hi - home.lo[axis], edge), world_first);
+    last[a] = std::min(floorDiv(home.hi[axis] - span.lo, edge), world_last);
+    if (last[a] < first[a]) return {};
+    count *= last[a] - first[a] + 1;
+    if (count > most) {
+      const std::string what = "more than " + std::to_string(most) + " cells of the layer `" +
+                               std::string(program.text(info.name)) + "` reach into ";
+      return Error{Code::limit, by == CellsBy::shapes
+                                    ? what + "one chunk; make the layer's cells larger, or mesh at a finer level"
+                                    : what + "the box; ask for a smaller one, or make the layer's cells larger"};
+    }
+  }
+  for (int64_t z = first[2]; z <= last[2]; ++z) {
+    for (int64_t y = first[1]; y <= last[1]; ++y) {
+      for (int64_t x = first[0]; x <= last[0]; ++x) {
+        if (Result<void> visited = visit({layer, {saturate(x), saturate(y), saturate(z)}}); !visited) return visited;
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> WorldField::cellsAround(uint32_t layer, const IntBox& box,
+                                     const std::function<Result<void>(Int3 cell)>& visit) const {
+  return walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) { return visit(key.cell); });
+}
+
+FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const {
+  if (alone_) return {finest_cell, cell, false, 0};
+  const Domain& domain = settings_.program->domain;
+  return {finest_cell, cell, domain.solid, makeLabel(domain.material, 0)};
+}
+
+Result<void> WorldField::bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const {
+  std::pmr::vector<CellKey> missing(memory_);
+  for (const CellKey& key : keys) {
+    if (at_hand.count(key) == 0) missing.push_back(key);
+  }
+  if (missing.empty()) return {};
+  std::vector<std::shared_ptr<const DerivedCell>> found;
+  cache_.find(missing, found);
+  for (size_t i = 0; i < missing.size(); ++i) {
+    const CellKey& key = missing[i];
+    if (!found[i]) {
+      Result<std::shared_ptr<const DerivedCell>> derived =
+          cache_.get(key, [&] { return derive(key.layer, key.cell, key.cell_edge); });
+      if (!derived) return derived.error();
+      found[i] = std::move(*derived);
+    }
+    at_hand.emplace(key, std::move(found[i]));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
+    uint32_t layers, const IntBox& box, const FieldSettings& field, std::span<const HostField> hosts,
+    std::span<const Brush> brushes, CellsAtHand& at_hand, GatheredCells* gathered) const {
+  const ProfileScope scope(profiler(), zone::kCompile);
+  const IntBox reached = box.grown(influenceMargin(field.cell));
+  std::pmr::vector<IndexedCell> indexed(memory_);
+  const auto use = [&](const std::shared_ptr<const DerivedCell>& cell) {
+    indexed.push_back(cell->indexed());
+    if (gathered == nullptr) return;
+    gathered->parameters |= cell->chunk.parameters;
+    gathered->cells.push_back(cell);
+  };
+  if (alone_) use(alone_);
+  std::pmr::vector<CellKey> keys(memory_);
+  for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
+    if (!settings_.program->layers[layer].shows(field.cell)) continue;
+    keys.clear();
+    const Result<void> walked = walkCells(layer, reached, CellsBy::shapes, [&](const CellKey& key) -> Result<void> {
+      keys.push_back(keyFor(key.layer, key.cell, field.cell));
+      return {};
+    });
+    if (!walked) return walked.error();
+    if (const Result<void> brought = bring(keys, at_hand); !brought) return brought.error();
+    for (const CellKey& key : keys) use(at_hand.at(key));
+  }
+  Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
+  if (!program) return program.error();
+  return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
+}
+
+Result<ShapeField> WorldField::compileShapes(const IntBox& box, int level, const EditSnapshot* edits) const {
+  ShapeField shapes;
+  FieldSettings settings = fieldSettings(settings_.finest_cell, cellAt(level));
+  settings.shapes = &shapes.labels;
+  CellsAtHand at_hand;
+  GatheredCells gathered;
+  Result<std::shared_ptr<const FieldProgram>> program =
+      compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box, settings, settings_.hosts,
+                    brushes(box, level, edits), at_hand, &gathered);
+  if (!program) return program.error();
+  shapes.program = std::move(*program);
+  shapes.cells = std::move(gathered.cells);
+  return shapes;
+}
+
+Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level, const EditSnapshot* edits,
+                                                                CellsAtHand* at_hand) const {
+  CellsAtHand own;
+  return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
+                       fieldSettings(settings_.finest_cell, cellAt(level)), settings_.hosts, brushes(box, level, edits),
+                       at_hand != nullptr ? *at_hand : own);
+}
+
+std::pmr::vector<Brush> WorldField::brushes(const IntBox& box, int level, const EditSnapshot* edits) const {
+  std::pmr::vector<Brush> found(memory_);
+  if (edits) edits->query(box.grown(influenceMargin(cellAt(level))), cellAt(level), found);
+  return found;
+}
+
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level) const {
+  Result<FieldProgram> program =
+      compileField({}, IntBox::everything(), fieldSettings(settings_.finest_cell, cellAt(level)), memory_);
+  if (!program) return program.error();
+  return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
+}
+
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
+                                                                     uint64_t* parameters) const {
+  // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
+  CellsAtHand at_hand;
+  GatheredCells gathered;
+  Result<std::shared_ptr<const FieldProgram>> program =
+      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, at_hand, &gathered);
+  if (parameters != nullptr) *parameters |= gathered.parameters;
+  return program;
+}
+
+Result<void> WorldField::forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
+                                     const std::function<void(const GrammarChunk&)>& visit,
+                                     const CellsAtHand* at_hand) const {
+  if (alone_) return visit(alone_->chunk), Result<void>{};
+  for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
+    if (!wanted(settings_.program->layers[layer])) continue;
+    const Result<void> walked = walkCells(layer, box, by, [&](const CellKey& key) -> Result<void> {
+      if (at_hand != nullptr) {
+        if (const auto found = at_hand->find(key); found != at_hand->end())
+          return visit(found->second->chunk), Result<void>{};
+      }
+      Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
+      if (!derived) return derived.error();
+      visit((*derived)->chunk);
+      return {};
+    });
+    if (!walked) return walked.error();
+  }
+  return {};
+}
+
+Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAtHand* at_hand) const {
+  std::vector<Anchor> found;
+  const auto wanted = [](const Layer& layer) { return layer.anchors; };
+  const auto visit = [&](const GrammarChunk& chunk) {
+    for (const Anchor& a : chunk.anchors) {
+      if (holds(box, a.frame.origin)) found.push_back(a);
+    }
+  };
+  // A cell has no anchors outside of it.
+  const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, at_hand);
+  if (!visited) return visited.error();
+  return found;
+}
+
+Result<std::vector<DeriveNote>> WorldField::notes(const IntBox& box, int32_t cell_edge) const {
+  std::vector<DeriveNote> found;
+  const auto wanted = [&](const Layer& layer) { return layer.shows(cell_edge) || layer.anchors; };
+  const Result<void> visited = forEachCell(box, CellsBy::reach, wanted, [&](const GrammarChunk& chunk) {
+    found.insert(found.end(), chunk.notes.begin(), chunk.notes.end());
+  });
+  if (!visited) return visited.error();
+  return found;
+}
+
+}  // namespace sgm
