@@ -1,11 +1,10 @@
-// Where the driver and the kernels' image come from.
+// Loads the driver, and embeds the kernels' image.
 
-#include <dlfcn.h>
-
+#include "base/platform/library.h"
 #include "cuda/driver_device.h"
 
 #ifdef SGM_CUDA_IMAGE
-// The file as it is, without a detour over an array's text of several times its size.
+// Includes the file as it is, without a source array several times its size.
 asm(".pushsection .rodata, \"a\", @progbits\n"
     ".balign 64\n"
     ".hidden sgm_cuda_image\n"
@@ -35,8 +34,8 @@ std::span<const std::byte> kernelImage() {
 
 namespace {
 
-/// Stays in memory: what a driver keeps for threads must outlive them.
-void* openLibrary() { return dlopen("libcuda.so.1", RTLD_NOW | RTLD_LOCAL); }
+/// Never unloaded: the driver's thread-local data must outlive the threads.
+void* openLibrary() { return platform::openLibrary("libcuda.so.1"); }
 
 }  // namespace
 
@@ -44,17 +43,17 @@ bool haveDriver() { return openLibrary() != nullptr; }
 
 Result<DriverTable> openDriver() {
   void* library = openLibrary();
-  if (!library) return Error{Code::unsupported, "no NVIDIA driver here: there is no libcuda.so.1"};
+  if (!library) return Error{Code::unsupported, "there is no NVIDIA driver: libcuda.so.1 is missing"};
   DriverTable table;
   const char* missing = nullptr;
-#define SGM_CU(entry, name, parameters)                                        \
-  table.entry = reinterpret_cast<decltype(table.entry)>(dlsym(library, name)); \
+#define SGM_CU(entry, name, parameters)                                                     \
+  table.entry = reinterpret_cast<decltype(table.entry)>(platform::symbolOf(library, name)); \
   if (table.entry == nullptr && missing == nullptr) missing = name;
   SGM_CU_FUNCTIONS
 #undef SGM_CU
   if (missing != nullptr) {
     return Error{Code::unsupported,
-                 std::string("the NVIDIA driver is too old, it has no ") + missing + ": update it to 11.2 or newer"};
+                 std::string("the NVIDIA driver is too old and lacks ") + missing + ": update it to 11.2 or newer"};
   }
   if (const CuResult result = table.init(0); result != kCuSuccess) {
     const char* text = nullptr;

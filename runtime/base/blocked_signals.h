@@ -1,5 +1,5 @@
 #pragma once
-// Threads of the library that leave signals to those of the program.
+// Keeps signals away from the threads of the library: the threads of the program handle them.
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <pthread.h>
@@ -9,9 +9,9 @@
 
 namespace sgm {
 
-/// While it lives, on the thread that made it: signals wait for other threads, and for those that it starts meanwhile
-/// they do so for good. Those of a fault of the thread itself are not blocked: blocked, they would end the process
-/// without the handler that the program has for them. The mask before is there again afterwards.
+/// Blocks signals on the constructing thread for the lifetime of the object. Threads started meanwhile inherit the mask
+/// and keep it. Signals of a fault of the thread itself stay unblocked: if they were blocked, the fault would end the
+/// process without calling the program's handler. The destructor restores the previous mask.
 class BlockedSignals {
  public:
 #if defined(__unix__) || defined(__APPLE__)

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers to bytes and back, little-endian on every machine we build for.
+// Converts numbers to bytes and back, little-endian on every supported machine.
 
 #include <cstddef>
 #include <cstring>
@@ -25,7 +25,7 @@ class ByteWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Does not own. Past the end it gives zeros, and is failed from then on.
+/// Does not own the bytes. Reading past the end returns 0, and failed() is true from then on.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 #include "base/checksum.h"
 
-// Compiled in, so that whoever links the library needs nothing of it.
+// xxHash is compiled in, so that programs that link the library do not need it.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

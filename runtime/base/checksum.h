@@ -1,5 +1,5 @@
 #pragma once
-// Checksums of bytes that come back from a disk or a network.
+// Checksums of bytes read from a disk or a network.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// XXH64 with seed 0: finds damage, not malice. The same on every machine.
+/// XXH64 with seed 0, the same on every machine. It detects damage, but not malicious changes.
 uint64_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace sgm

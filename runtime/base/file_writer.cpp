@@ -1,17 +1,12 @@
 #include "base/file_writer.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "base/plain_text.h"
+#include "base/platform/file.h"
 
 namespace sgm {
 namespace fs = std::filesystem;
@@ -25,9 +20,9 @@ Error writeError(const fs::path& target, const std::string& reason) {
   return {Code::io, "cannot write '" + target.string() + "': " + reason};
 }
 
-Error writeError(const fs::path& target, int code) { return writeError(target, std::generic_category().message(code)); }
+Error writeError(const fs::path& target, int code) { return writeError(target, systemMessage(code)); }
 
-/// The path with links at its end followed, also to what is not there yet.
+/// The path with symbolic links at its end resolved, even if the final target does not exist yet.
 Result<std::string> followed(const fs::path& target) {
   fs::path place = target;
   for (int links = 0; links < kMostLinks; ++links) {
@@ -52,40 +47,25 @@ std::string nameBeside(const std::string& place, int number) {
 }
 
 bool isAt(int file, const std::string& name) {
-  struct stat ours {
-  }, there{};
-  return fstat(file, &ours) == 0 && lstat(name.c_str(), &there) == 0 && ours.st_ino == there.st_ino &&
-         ours.st_dev == there.st_dev;
+  platform::FileStatus ours, there;
+  return platform::statusOf(file, ours) == 0 && platform::statusAt(name, there, false) == 0 && ours.isSameFile(there);
 }
 
-/// Whoever holds the lock of an unfinished file, and nobody else, may remove it: its writer, or after the writer's end
-/// the first who gets it.
+/// Removes the file if no process holds its lock. Only the holder of the lock may remove an unfinished file: its writer
+/// or, after the writer has ended, the first process that gets the lock.
 void removeIfLeft(const std::string& name) {
-  const int file = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return;
-  if (flock(file, LOCK_EX | LOCK_NB) == 0 && isAt(file, name)) unlink(name.c_str());
-  ::close(file);
+  const platform::File file(platform::openFile(name, platform::kWrite | platform::kNoFollow));
+  if (file && platform::lockFile(file.number()) == 0 && isAt(file.number(), name)) platform::removeFile(name);
 }
 
-/// Those that killed processes left beside the target.
+/// Removes the unfinished files that killed processes left beside the target.
 void removeLeft(const std::string& place) {
   for (int number = 0; number < kMostNames; ++number) {
     const std::string name = nameBeside(place, number);
-    if (access(name.c_str(), F_OK) != 0) return;
+    platform::FileStatus there;
+    if (platform::statusAt(name, there, false) != 0) return;
     removeIfLeft(name);
   }
-}
-
-std::string linkOf(int file) { return "/proc/self/fd/" + std::to_string(file); }
-
-int openNameless([[maybe_unused]] const std::string& folder) {
-#ifdef O_TMPFILE
-  const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  // Its name will come through /proc, which not every container has.
-  if (file < 0 || access(linkOf(file).c_str(), F_OK) == 0) return file;
-  ::close(file);
-#endif
-  return -1;
 }
 
 }  // namespace
@@ -104,34 +84,29 @@ int UnfinishedFiles::announce(const std::string& name) {
 
 void UnfinishedFiles::remove() const noexcept {
   for (const Slot& slot : slots_)
-    if (slot.state == Slot::whole) unlink(slot.name.data());
+    if (slot.state == Slot::whole) platform::removeFileInHandler(slot.name.data());
 }
 
 Result<FileWriter> FileWriter::create(const fs::path& target, UnfinishedFiles* unfinished, Naming naming) {
   const Result<std::string> place = followed(target);
   if (!place) return place.error();
-  struct stat there {};
-  const bool replaces = stat(place->c_str(), &there) == 0;
+  platform::FileStatus there;
+  const bool replaces = platform::statusAt(*place, there, true) == 0;
   if (!replaces && errno != ENOENT) return writeError(target, errno);
-  if (replaces && S_ISDIR(there.st_mode)) return writeError(target, "it is a folder");
-  if (replaces && !S_ISREG(there.st_mode)) return writeError(target, "it is no regular file");
-  // The rename would not mind, but whoever protected the file does.
-  if (replaces && access(place->c_str(), W_OK) != 0) return writeError(target, errno);
+  if (replaces && there.kind == platform::FileStatus::Kind::folder) return writeError(target, "it is a folder");
+  if (replaces && !there.isRegular()) return writeError(target, "it is not a regular file");
+  // A rename ignores write protection, so it is checked here.
+  if (replaces && !platform::isWritable(*place)) return writeError(target, errno);
 
   removeLeft(*place);
-  FileWriter writer(target, *place, naming == Naming::nameless ? openNameless(folderOf(*place)) : -1, unfinished);
+  FileWriter writer(target, *place, naming == Naming::nameless ? platform::openNamelessFile(folderOf(*place)) : -1,
+                    unfinished);
   if (writer.file_ < 0) {
     if (const int code = writer.openNamed(); code != 0) return writeError(target, code);
   } else {
-    flock(writer.file_, LOCK_EX | LOCK_NB);
+    platform::lockFile(writer.file_);
   }
-  if (replaces) {
-    // An owner that we may not give keeps nothing but the mode.
-    if ((there.st_uid != geteuid() || there.st_gid != getegid()) &&
-        fchown(writer.file_, there.st_uid, there.st_gid) != 0)
-      errno = 0;
-    if (fchmod(writer.file_, there.st_mode & 0777) != 0) return writeError(target, errno);
-  }
+  if (replaces && platform::takeRights(writer.file_, *place) != 0) return writeError(target, errno);
   return writer;
 }
 
@@ -153,21 +128,22 @@ FileWriter::FileWriter(FileWriter&& other) noexcept
       undo_(other.undo_) {}
 
 FileWriter::~FileWriter() {
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (!temporary_.empty()) platform::removeFile(temporary_);
   forgetName();
   close();
 }
 
-/// 0, or why there is no such file.
+/// Returns 0, or the errno if no file could be opened.
 int FileWriter::openNamed() {
   for (int number = 0; number < kMostNames; ++number) {
     temporary_ = nameBeside(place_, number);
-    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    file_ = platform::openFile(temporary_,
+                               platform::kWrite | platform::kCreate | platform::kExclusive | platform::kNoFollow);
     if (file_ < 0 && errno == EEXIST) continue;
     if (file_ < 0) break;
     announce();
-    // Another may have taken it for one left behind, before it was locked.
-    if (flock(file_, LOCK_EX | LOCK_NB) == 0 ? isAt(file_, temporary_) : errno != EWOULDBLOCK) return 0;
+    // Before the lock, another process may have taken the file for a left one and removed it.
+    if (platform::lockFile(file_) == 0 ? isAt(file_, temporary_) : errno != EWOULDBLOCK) return 0;
     forgetName();
     close();
     errno = EEXIST;
@@ -176,11 +152,11 @@ int FileWriter::openNamed() {
   return errno;
 }
 
-/// Gives the nameless file a name beside the target. 0, or why it has none.
+/// Gives the nameless file a name beside the target. Returns 0 or an errno.
 int FileWriter::nameNameless() {
   for (int number = 0; number < kMostNames; ++number) {
     std::string name = nameBeside(place_, number);
-    if (linkat(AT_FDCWD, linkOf(file_).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+    if (platform::nameFile(file_, name) == 0) {
       temporary_ = std::move(name);
       announce();
       return 0;
@@ -201,7 +177,7 @@ void FileWriter::forgetName() {
 }
 
 void FileWriter::close() {
-  if (file_ >= 0 && ::close(std::exchange(file_, -1)) != 0 && first_error_ == 0) first_error_ = errno;
+  if (file_ >= 0 && platform::closeFile(std::exchange(file_, -1)) != 0 && first_error_ == 0) first_error_ = errno;
 }
 
 void FileWriter::write(const void* bytes, size_t count) {
@@ -222,8 +198,7 @@ void FileWriter::flush() {
 
 void FileWriter::send(const char* from, size_t count) {
   while (first_error_ == 0 && count > 0) {
-    const ssize_t sent = ::write(file_, from, count);
-    if (sent < 0 && errno == EINTR) continue;
+    const ptrdiff_t sent = platform::writeNext(file_, from, count);
     if (sent <= 0) {
       first_error_ = sent < 0 ? errno : EIO;
       return;
@@ -238,8 +213,8 @@ Error FileWriter::errorFrom(int code) const { return writeError(target_, code); 
 Result<void> FileWriter::finish() {
   if (first_error_ == 0 && file_ >= 0) {
     flush();
-    // Some file systems only tell here that they are full.
-    if (first_error_ == 0 && fsync(file_) != 0 && errno != EINVAL) first_error_ = errno;
+    // Some file systems report only here that they are full.
+    if (first_error_ == 0 && platform::syncFile(file_) != 0 && errno != EINVAL) first_error_ = errno;
     if (first_error_ == 0 && temporary_.empty()) first_error_ = nameNameless();
   }
   if (first_error_ != 0) return errorFrom(first_error_);
@@ -248,7 +223,7 @@ Result<void> FileWriter::finish() {
 
 Result<void> FileWriter::commit() {
   if (Result<void> done = finish(); !done) return done;
-  if (std::rename(temporary_.c_str(), place_.c_str()) != 0) return errorFrom(errno);
+  if (platform::replaceFile(temporary_, place_) != 0) return errorFrom(errno);
   forgetName();
   close();
   return {};
@@ -256,21 +231,18 @@ Result<void> FileWriter::commit() {
 
 Result<void> FileWriter::commitReversibly() {
   if (Result<void> done = finish(); !done) return done;
-#ifdef RENAME_EXCHANGE
-  if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, place_.c_str(), RENAME_EXCHANGE) == 0) {
-    undo_ = Undo::exchange;  // what is beside the target now is what it was
+  if (platform::exchangeFiles(temporary_, place_) == 0) {
+    undo_ = Undo::exchange;  // the file beside the target is now the replaced one
     return {};
   }
-#endif
-  if (access(place_.c_str(), F_OK) != 0) undo_ = Undo::remove;
+  platform::FileStatus there;
+  if (platform::statusAt(place_, there, true) != 0) undo_ = Undo::remove;
   return commit();
 }
 
 void FileWriter::undo() {
-#ifdef RENAME_EXCHANGE
-  if (undo_ == Undo::exchange) renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, place_.c_str(), RENAME_EXCHANGE);
-#endif
-  if (undo_ == Undo::remove) unlink(place_.c_str());
+  if (undo_ == Undo::exchange) platform::exchangeFiles(temporary_, place_);
+  if (undo_ == Undo::remove) platform::removeFile(place_);
   undo_ = Undo::impossible;
 }
 

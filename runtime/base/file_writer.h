@@ -1,5 +1,5 @@
 #pragma once
-// Output files that appear whole or not at all.
+// Writes output files that appear complete or not at all.
 
 #include <array>
 #include <atomic>
@@ -12,17 +12,18 @@
 
 namespace sgm {
 
-/// The names of unfinished files, for a program that a signal may end. It runs its handler between any two instructions
-/// of ours, so a name is never freed, and counts from when it is whole. There is room for a few; a writer that finds
-/// none is not known here, and no worse off otherwise. Must outlive the writers that it is given to. Any thread.
+/// The names of unfinished files, so that a signal handler can remove them. The handler may run between any two
+/// instructions of the writers: names are therefore never freed, and a name is valid only once it is fully copied.
+/// There are 8 slots; the file of a further writer is not registered, but written all the same. Must outlive the
+/// writers that use it. Thread-safe.
 class UnfinishedFiles {
  public:
-  /// Removes them all. Neither locks nor allocates.
+  /// Removes all registered files. Neither locks nor allocates.
   void remove() const noexcept;
 
  private:
   friend class FileWriter;
-  /// A slot's number, -1 where there is no room.
+  /// Returns the number of the slot, or -1 if all slots are in use or the name is too long.
   int announce(const std::string& name);
   void forget(int slot) { slots_[static_cast<size_t>(slot)].state = Slot::open; }
 
@@ -34,22 +35,22 @@ class UnfinishedFiles {
   std::array<Slot, 8> slots_{};
 };
 
-/// Writes a file that takes its target's name on commit. Whatever fails, and without commit, nothing is left behind and
-/// the target is as it was. A target that is a link stays one, and one that is replaced keeps its mode. The first error
-/// is kept and comes out of commit. One thread.
+/// Writes a file that gets the name of its target on commit. After any failure, or without commit, no file is left
+/// behind and the target is unchanged. A target that is a symbolic link stays one, and a replaced file keeps its mode.
+/// The first error is kept, and commit returns it. Not thread-safe.
 ///
-/// Until commit the file has no name where the file system can do that (O_TMPFILE), so that not even a killed process
-/// leaves it; elsewhere it stands beside the target as TARGET.sgm-partN, locked by its writer: one that nobody holds
-/// was left by a killed process, and the next writer of that target removes it.
+/// Until commit the file has no name if the file system supports that (O_TMPFILE), so that even a killed process leaves
+/// no file. Otherwise it is TARGET.sgm-partN beside the target, locked by its writer. If such a file is not locked, a
+/// killed process left it, and the next writer of that target removes it.
 class FileWriter {
  public:
   enum class Naming {
-    nameless,  ///< no name before commit, where the file system can
+    nameless,  ///< no name before finish or commit, if the file system supports that
     named,     ///< a name beside the target from the beginning
   };
 
-  /// unfinished: told of the file while it has a name that is not its target's; or null.
-  /// Error: Code::io, where the folder is missing or not writable, or the target is no regular file or write-protected.
+  /// unfinished: lists the file while its name differs from the target's; may be null.
+  /// Error: Code::io if the folder is missing or not writable, or the target is write-protected or not a regular file.
   static Result<FileWriter> create(const std::filesystem::path& target, UnfinishedFiles* unfinished = nullptr,
                                    Naming naming = Naming::nameless);
 
@@ -59,24 +60,24 @@ class FileWriter {
 
   void write(const void* bytes, size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// Little-endian on every machine we build for; T is an arithmetic type.
+  /// Little-endian on every supported machine; T is an arithmetic type.
   template <class T>
   void writeValue(T value) {
     write(&value, sizeof value);
   }
 
-  /// Everything handed to the disk, beside the target under a name of its own. Error: Code::io, for instance when the
-  /// disk is full.
+  /// Flushes everything to the disk, into a file of its own name beside the target. Error: Code::io, for instance if
+  /// the disk is full.
   Result<void> finish();
-  /// finish, then the target's name.
+  /// Calls finish, then renames the file to the target.
   Result<void> commit();
-  /// As commit, and what stood at the target is kept until the destructor, so that undo can bring it back where the
-  /// file system can exchange two names: for files that belong together.
+  /// The same as commit, but keeps the replaced file until the destructor, so that undo can restore it if the file
+  /// system can exchange two names. For files that belong together.
   Result<void> commitReversibly();
   void undo();
 
-  uint64_t bytes() const { return bytes_; }  ///< handed to write so far
-  /// Where the unfinished file stands, for another program to fill it; empty while it has no name.
+  uint64_t bytes() const { return bytes_; }  ///< bytes passed to write so far
+  /// The path of the unfinished file, so that another program can fill it; empty while it has no name.
   const std::string& name() const { return temporary_; }
 
  private:
@@ -92,9 +93,9 @@ class FileWriter {
   void send(const char* from, size_t count);
   Error errorFrom(int code) const;
 
-  std::filesystem::path target_;  // as the caller calls it
-  std::string place_;             // where it is, links followed
-  std::string temporary_;         // beside it; empty while it has no name
+  std::filesystem::path target_;  // as given by the caller
+  std::string place_;             // the target with symbolic links resolved
+  std::string temporary_;         // the path beside it; empty while the file has no name
   int file_ = -1;
   UnfinishedFiles* unfinished_;
   int slot_ = -1;  // in unfinished_

@@ -34,7 +34,7 @@ inline Int3 saturatingSub(Int3 a, Int3 b) {
   return {saturate(int64_t{a.x} - b.x), saturate(int64_t{a.y} - b.y), saturate(int64_t{a.z} - b.z)};
 }
 
-/// A closed box of world positions: lo and hi belong to it. Empty where lo > hi on an axis.
+/// A closed box of world positions: lo and hi belong to it. Empty if lo > hi on an axis.
 struct IntBox {
   Int3 lo{1, 1, 1};
   Int3 hi{0, 0, 0};
@@ -52,12 +52,12 @@ struct IntBox {
     return !empty() && !b.empty() && lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y &&
            lo.z <= b.hi.z && b.lo.z <= hi.z;
   }
-  /// Grown by margin units on every side (saturating at the ends of the world).
+  /// The box grown by margin units on every side, saturating at the ends of the world.
   IntBox grown(int32_t margin) const {
     if (empty()) return *this;
     return {saturatingSub(lo, {margin, margin, margin}), saturatingAdd(hi, {margin, margin, margin})};
   }
-  /// The smallest box that holds both.
+  /// The smallest box that contains both.
   IntBox joined(const IntBox& b) const {
     if (empty()) return b;
     if (b.empty()) return *this;

@@ -30,7 +30,7 @@ struct Job {
 class ThreadPool final : public JobSystem {
  public:
   ThreadPool(const Profiler& profiler, const char* names) : profiler_(profiler), names_(names) {}
-  /// To be called once, before anything else. An error where not one thread starts.
+  /// Must be called once, before any other function. Returns an error if no thread starts.
   Result<void> start(unsigned workers) {
     const unsigned wanted = std::max(1u, workers - 1);
     try {
@@ -38,7 +38,7 @@ class ThreadPool final : public JobSystem {
       while (threads_.size() < wanted) threads_.emplace_back([this, number = threads_.size() + 1] { work(number); });
     } catch (const std::system_error& e) {
       if (threads_.empty()) {
-        return Error{Code::limit, std::string("not one thread could be started (") + e.what() +
+        return Error{Code::limit, std::string("no thread could be started (") + e.what() +
                                       "): raise the limits on processes and on address space"};
       }
     } catch (const std::bad_alloc&) {
@@ -104,8 +104,8 @@ class ThreadPool final : public JobSystem {
   std::vector<std::thread> threads_;
 };
 
-// Shared by the caller and the jobs that it has submitted; one of those may run long after the call has returned, and
-// then finds nothing left to do.
+// Shared by the caller and the jobs that it has submitted. A job may run long after the call has returned; it then
+// finds no work left.
 struct ForState {
   const std::function<void(size_t)>* body;
   size_t count;
@@ -160,10 +160,10 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
       share.release();
     }
   } catch (const std::bad_alloc&) {
-    // Fewer threads then: what was submitted already still reads the body, so this call must go on.
+    // Fewer threads work then. The jobs already submitted still read the body, so this call must continue.
   }
   state->run();
-  // Nothing is left to begin; what other threads have begun must end before the body goes away.
+  // All bodies have started; those on other threads must end before the body is destroyed.
   std::unique_lock lock(state->mutex);
   helpUntil(jobs, lock, state->done, [&state] { return state->active.load() == 0; });
   if (state->error) std::rethrow_exception(state->error);

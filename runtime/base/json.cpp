@@ -40,7 +40,7 @@ void writeNumber(std::string& out, T value) {
   out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-/// indent: nothing for all on one line.
+/// indent: nullopt if everything is on one line.
 void newLine(std::string& out, std::optional<size_t> indent) {
   if (!indent) return;
   out += '\n';

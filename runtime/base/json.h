@@ -1,6 +1,6 @@
 #pragma once
-// What --json prints. A small writer of our own: nearly all of the command only writes, and a large library would take
-// longer to compile than the rest of it.
+// Writes the JSON of --json. This is a small writer of our own, because the command mostly writes JSON, and a large
+// library would take longer to compile than the rest of the command.
 
 #include <concepts>
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace sgm {
 
-/// A value of JSON. Braces make objects where all they hold is pairs that begin with a text, {{"a", 1}, {"b", 2}}, and
-/// arrays otherwise. Objects keep the order in which members came.
+/// A JSON value. Braces make an object if they contain only pairs that begin with a text, {{"a", 1}, {"b", 2}}, and an
+/// array otherwise. Objects keep the order in which members were added.
 class Json {
   using Array = std::vector<Json>;
   using Object = std::vector<std::pair<std::string, Json>>;
@@ -42,21 +42,21 @@ class Json {
   static Json array();
   static Json object();
 
-  /// A member of an object, added where it is not there. Nothing becomes an object with it.
+  /// A member of an object, added if it is missing. A null value becomes an object first.
   Json& operator[](std::string_view key);
-  /// To an array. Nothing becomes an array with it.
+  /// Appends to an array. A null value becomes an array first.
   void push_back(Json value);
   /// Adds the other object's members, or replaces them.
   void update(Json object);
 
-  /// On several lines, indented by two spaces; always UTF-8: U+FFFD stands for what is not. Numbers that JSON does not
-  /// have are null.
+  /// The text on several lines, indented by two spaces. It is always UTF-8: U+FFFD replaces invalid bytes. NaN and
+  /// infinity become null.
   std::string text() const;
   /// The same on one line, without spaces.
   std::string line() const;
 
  private:
-  /// indent: nothing for all on one line.
+  /// indent: nullopt writes everything on one line.
   void write(std::string& out, std::optional<size_t> indent) const;
 
   std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::string, Array, Object> value_;

@@ -20,9 +20,9 @@ class JsonParser {
   Result<JsonValue> run() {
     JsonValue value = parse(0);
     skip();
-    if (!failed_ && at_ < text_.size()) fail("more text behind the value");
+    if (!failed_ && at_ < text_.size()) fail("text after the value");
     if (values_ > most_values_)
-      return Error{Code::limit, "it has more than " + std::to_string(most_values_) + " values of JSON", 0, 0};
+      return Error{Code::limit, "it has more than " + std::to_string(most_values_) + " JSON values", 0, 0};
     if (failed_) return Error{Code::bad_input, message_, 0, 0};
     return value;
   }
@@ -56,9 +56,9 @@ class JsonParser {
     JsonValue value;
     skip();
     if (++values_ > most_values_) {
-      failed_ = true;  // run() says why
+      failed_ = true;  // run() reports the reason
     } else if (depth > kDeepest) {
-      fail("values within values, too deep,");
+      fail("values nested too deeply");
     } else if (at_ >= text_.size()) {
       fail("a value is missing");
     } else if (text_[at_] == '{') {
@@ -85,7 +85,7 @@ class JsonParser {
     if (accept('}')) return;
     do {
       skip();
-      if (at_ >= text_.size() || text_[at_] != '"') return fail("a name in quotes is missing");
+      if (at_ >= text_.size() || text_[at_] != '"') return fail("a quoted name is missing");
       value.names.push_back(string());
       if (!accept(':')) return fail("`:` is missing");
       value.items.push_back(parse(depth + 1));
@@ -154,7 +154,7 @@ class JsonParser {
       const bool pair = low && *low >= 0xDC00 && *low < 0xE000;
       code = pair ? std::optional(0x10000 + ((*code - 0xD800) << 10) + (*low - 0xDC00)) : std::nullopt;
     }
-    if (!code || (*code >= 0xD800 && *code < 0xE000)) return fail("an escape that JSON does not have");
+    if (!code || (*code >= 0xD800 && *code < 0xE000)) return fail("an invalid escape sequence");
     appendUtf8(out, *code);
   }
 
@@ -163,7 +163,7 @@ class JsonParser {
     ++at_;
     while (!failed_) {
       if (at_ >= text_.size()) {
-        fail("a text without its end");
+        fail("an unterminated string");
       } else if (text_[at_] == '"') {
         ++at_;
         return out;
@@ -173,7 +173,7 @@ class JsonParser {
       } else {
         const size_t size = utf8Size(text_.substr(at_));
         if (size == 0 || static_cast<unsigned char>(text_[at_]) < 0x20) {
-          fail("a character that is none");
+          fail("an invalid character");
           break;
         }
         out.append(text_, at_, size);

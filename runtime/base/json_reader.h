@@ -1,6 +1,6 @@
 #pragma once
-// Reads JSON from outside: what a GLB file says of itself. A small reader of our own, so that the core library needs no
-// other; strict (RFC 8259), bounded in depth, linear in time and memory.
+// Reads JSON from outside, such as the header of a GLB file. This is a small reader of our own, so that the core
+// library needs no other one. It is strict (RFC 8259), limits the depth, and is linear in time and memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,23 +20,23 @@ class JsonValue {
   enum class Kind : unsigned char { null, boolean, number, text, array, object };
 
   Kind kind = Kind::null;
-  double number = 0;  ///< of a boolean 0 or 1
+  double number = 0;  ///< 0 or 1 if a boolean
   std::string text;
-  std::vector<JsonValue> items;    ///< of an array, or the values of an object
-  std::vector<std::string> names;  ///< of an object, as many
+  std::vector<JsonValue> items;    ///< elements of an array, or values of an object
+  std::vector<std::string> names;  ///< names of the values of an object
 
-  /// A member of an object; null where there is none. Of several with one name, the last.
+  /// The member of an object; null if it is missing. If several members have the name, the last one.
   const JsonValue* find(std::string_view name) const;
-  /// The elements of a member that is an array; none where it is missing or something else.
+  /// The elements of a member that is an array; empty if it is missing or of another type.
   std::span<const JsonValue> list(std::string_view name) const;
-  /// A member that is a whole number from 0 to 2^53; nothing where it is missing or something else.
+  /// A member that is a whole number from 0 to 2^53; nullopt if it is missing or another value.
   std::optional<size_t> count(std::string_view name) const;
-  /// Itself as a whole number from 0 to 2^53; nullopt if it is something else.
+  /// This value as a whole number from 0 to 2^53; nullopt if it is another value.
   std::optional<size_t> whole() const;
 };
 
-/// A value takes some hundred bytes of memory, and may take two of text. Errors: bad_input, with the byte in the
-/// message; limit, for more than `most_values`.
+/// A value takes about 100 bytes of memory, but may take only two bytes of text.
+/// Errors: bad_input, with the byte offset in the message; limit for more than `most_values`.
 Result<JsonValue> readJson(std::string_view text, size_t most_values = SIZE_MAX);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Marks functions that a GPU runs too.
+// Marks functions that also run on a GPU.
 
 #ifdef __CUDACC__
 #define SGM_KERNEL __host__ __device__ inline

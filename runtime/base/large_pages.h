@@ -1,5 +1,5 @@
 #pragma once
-// Memory for what a mesh has millions of.
+// Memory for large arrays, such as the vertices of a mesh.
 
 #include <cstddef>
 #include <memory_resource>
@@ -15,9 +15,9 @@ namespace sgm {
 
 inline constexpr size_t kLargePage = size_t{1} << 21;
 
-/// Memory of a resource, which outlives it. Asks for pages of 2 MB: to touch small ones for the first time takes longer
-/// than most that is measured, on a virtual machine ten times as long. Elsewhere, and where the system has none left,
-/// as std::pmr::polymorphic_allocator; but what is moved keeps its memory.
+/// Allocates from a resource, which must outlive it, and requests pages of 2 MB: the first access to small pages takes
+/// longer than most measured work, and ten times as long on a virtual machine. If the system has no large pages, it
+/// acts as std::pmr::polymorphic_allocator, except that a moved container keeps its memory.
 template <class T>
 class LargePages {
  public:
@@ -34,7 +34,7 @@ class LargePages {
     const size_t bytes = count * sizeof(T);
     void* const memory = memory_->allocate(bytes, alignmentOf(bytes));
 #ifdef MADV_HUGEPAGE
-    // The end keeps small pages: a whole one there would be memory that nobody uses. Refused, nothing is lost.
+    // The end keeps small pages: a large page there would waste memory. The request may fail without harm.
     if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);

@@ -50,7 +50,7 @@ constexpr std::array<double, 8> kCosTerms{1.0 / 24,
                                           1.0 / 20922789888000.0,
                                           -1.0 / 6402373705728000.0};
 
-/// x = quarter * pi/2 + value + tail, |value| <= pi/4 and a little.
+/// x = quarter * pi/2 + value + tail; |value| is at most slightly above pi/4.
 struct Reduced {
   int64_t quarter;
   double value, tail;
@@ -61,7 +61,7 @@ Reduced reduceAngle(double x) {
   const double high = x - n * kHalfPi1;
   const double middle = n * kHalfPi2;
   const double value = high - middle;
-  // What the subtraction rounded away, less the last part of pi/2.
+  // The rounding error of the subtraction, minus the last part of pi/2.
   const double tail = ((high - value) - middle) - n * kHalfPi3;
   return {static_cast<int64_t>(n), value, tail};
 }
@@ -105,7 +105,7 @@ constexpr std::array<double, 9> kAtanEighths{0.0,
                                              0.64350110879328438680,
                                              0.71882999962162450542,
                                              0.78539816339744830962};
-// What those constants lose to rounding.
+// The rounding errors of those constants.
 constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 -3.1253241424539383e-18,
                                                 1.0698755618734451e-17,
@@ -117,8 +117,8 @@ constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 3.061616997868383e-17};
 constexpr std::array<double, 7> kAtanTerms{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-/// For 0 <= numerator <= denominator, denominator > 0. Small quotients take the series alone, lest the two parts
-/// cancel.
+/// Requires 0 <= numerator <= denominator and denominator > 0. Small quotients use the series alone, because the two
+/// parts would cancel.
 double atanUnit(double numerator, double denominator) {
   const double quotient = numerator / denominator;
   const int index = static_cast<int>(quotient * 8.0 + 0.5);
@@ -136,7 +136,7 @@ constexpr std::array<double, 12> kExpTerms{1.0 / 2,       1.0 / 6,        1.0 / 
 
 double powerOfTwo(int64_t n) { return std::bit_cast<double>(static_cast<uint64_t>(n + 1023) << 52); }
 
-/// exp(x + tail), |tail| small beside 1.
+/// exp(x + tail), where |tail| is small compared with 1.
 double expWithTail(double x, double tail) {
   if (x > 709.8) return kInfinity;
   if (x < -745.2) return 0.0;
@@ -146,7 +146,7 @@ double expWithTail(double x, double tail) {
   const double r = high - low;
   const double lost = (high - r) - low;
   const double value = 1.0 + (r + (lost + r * r * polynomial(kExpTerms, r)));
-  // Two factors, so that neither overflows where the product does not, and a subnormal is rounded once.
+  // Two factors, so that neither overflows unless the product does, and a subnormal is rounded only once.
   const int64_t k = static_cast<int64_t>(n), half = k / 2;
   return value * powerOfTwo(half) * powerOfTwo(k - half);
 }
@@ -202,7 +202,7 @@ DoubleDouble twoProduct(double a, double b) {
   return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// log x with about 12 bits more than a double holds: a power multiplies the error by its exponent.
+/// log x with about 12 bits more than a double has, because a power multiplies the error by its exponent.
 DoubleDouble logExtended(double x) {
   const Split split = splitFloat(x);
   const DoubleDouble denominator = fastTwoSum(2.0, split.f);

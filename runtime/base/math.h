@@ -10,15 +10,15 @@ namespace sgm {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kPi = 0x1.921fb54442d18p+1;
 
-/// a b of bounds, where 0 times infinity is 0: the infinite side only says that there is no bound.
+/// The product of two bounds, where 0 times infinity is 0: infinity only means that there is no bound.
 inline double boundProduct(double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; }
 
 double detSin(double x);  ///< |x| <= 1e6; absolute error under 4e-16 + 1e-16 |x|
-double detCos(double x);  ///< as detSin
+double detCos(double x);  ///< same as detSin
 double detAtan2(double y, double x);
 double detExp(double x);            ///< below -708.4, where results are subnormal: absolute error under 5e-324
 double detLog(double x);            ///< x > 0; -infinity at 0; NaN below
-double detPow(double x, double y);  ///< x >= 0; relative error under 1e-14 where |y log x| < 100
+double detPow(double x, double y);  ///< x >= 0; relative error under 1e-14 if |y log x| < 100
 double detFloor(double x);          ///< exact
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Texts that are the same whatever locale the host program has chosen: the C library's own are not.
+// Texts that do not depend on the locale of the host program, unlike those of the C library.
 
 #include <charconv>
 #include <cstring>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Why a system call failed, by its errno, in English.
+/// The reason why a system call failed, from its errno, in English.
 inline std::string systemMessage(int code) {
 #if defined(__GLIBC__) && defined(_GNU_SOURCE) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 32)
   if (const char* text = strerrordesc_np(code)) return text;
@@ -16,20 +16,20 @@ inline std::string systemMessage(int code) {
   return std::strerror(code);
 }
 
-/// The same of a code of <system_error>; of codes that are not the system's, what their category says.
+/// The same for a code of <system_error>; other categories than the system's give their own message.
 inline std::string systemMessage(const std::error_code& code) {
   const bool system = code.category() == std::system_category() || code.category() == std::generic_category();
   return system ? systemMessage(code.value()) : code.message();
 }
 
-/// A number with so many significant digits, as "%g" has it with a point.
+/// A number with the given significant digits, as by "%g" with a decimal point.
 inline std::string generalText(double value, int digits = 6) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
   return std::string(text, end.ptr);
 }
 
-/// A number with so many digits behind the point. Precondition: less than 1e300.
+/// A number with the given digits after the decimal point. Precondition: |value| < 1e300.
 inline std::string fixedText(double value, int digits) {
   char text[400];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);

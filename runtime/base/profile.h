@@ -1,17 +1,17 @@
 #pragma once
-// Where time goes, told to a profiler of the caller's: zones that nest on each thread. Without one they cost a branch.
+// Reports zones of time, nested on each thread, to the caller's profiler. Without a profiler, a zone costs a branch.
 
 #include <cstdint>
 
 namespace sgm {
 
-/// The caller's functions, copied to wherever work is done; owns nothing. They let no exception out and call nothing of
-/// ours. Names are those below.
+/// The caller's functions, copied to every place that does work; owns nothing. They must not throw exceptions or call
+/// the library. The names of zones and plots are listed below.
 struct Profiler {
   uint64_t (*begin)(void* user, const char* zone) = nullptr;           ///< null: there is no profiler
-  void (*end)(void* user, uint64_t begun) = nullptr;                   ///< takes what begin gave, on the same thread
-  void (*thread)(void* user, const char* name) = nullptr;              ///< or null
-  void (*plot)(void* user, const char* name, double value) = nullptr;  ///< or null
+  void (*end)(void* user, uint64_t begun) = nullptr;                   ///< takes begin's result, on the same thread
+  void (*thread)(void* user, const char* name) = nullptr;              ///< may be null
+  void (*plot)(void* user, const char* name, double value) = nullptr;  ///< may be null
   void* user = nullptr;
 
   void nameThread(const char* name) const {
@@ -19,7 +19,7 @@ struct Profiler {
   }
 };
 
-/// What zones and plots are called. Each is one pointer in all of the library: profilers keep tables by it.
+/// The names of zones and plots. Each has one address in the whole library: profilers key tables by the pointer.
 namespace zone {
 inline constexpr char kDerive[] = "sgm.derive", kCompile[] = "sgm.compile", kMesh[] = "sgm.mesh", kPack[] = "sgm.pack",
                       kPlan[] = "sgm.plan", kUpdate[] = "sgm.update", kPoll[] = "sgm.poll", kRegion[] = "sgm.region",
@@ -29,7 +29,7 @@ namespace plot {
 inline constexpr char kQueued[] = "sgm.queued", kInWork[] = "sgm.in_work", kMeshBytes[] = "sgm.mesh_bytes";
 }  // namespace plot
 
-/// A zone from here to the end of the block, however that is left.
+/// A zone from the constructor to the end of the block.
 class ProfileScope {
  public:
   /// The profiler must outlive the scope.

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays that are filled once: those that handles of meshes keep, and large scratch.
+// Arrays that are filled once: the arrays of mesh handles, and large scratch memory.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Memory that is written once, without being cleared first, in large pages: meshes are large.
+/// An array in large pages whose elements are not cleared first, because meshes are large.
 template <class T>
 class RawArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -31,19 +31,19 @@ class RawArray {
     if (data_ != nullptr) pages_.deallocate(data_, room_);
   }
 
-  /// Once, on an empty array. Throws std::bad_alloc.
+  /// Call once, on an empty array. Throws std::bad_alloc.
   void allocate(size_t size) {
     if (size == 0) return;
     data_ = pages_.allocate(size);
     size_ = room_ = size;
   }
-  /// Room for at least `size`; the first `used` elements stay. Grows to the double, so that many calls copy little.
-  /// Throws std::bad_alloc, and is as before then.
+  /// Makes room for at least `size` elements and keeps the first `used`. The size at least doubles, so that many calls
+  /// copy little. Throws std::bad_alloc and then leaves the array unchanged.
   void grow(size_t used, size_t size) {
     if (size > size_) resize(used, std::max(size, 2 * size_));
   }
-  /// Exactly `size` in memory of its own; the first `used` elements stay, of which there are no more. Throws
-  /// std::bad_alloc, and is as before then.
+  /// Moves the array to new memory of exactly `size` elements and keeps the first `used`, at most `size`. Throws
+  /// std::bad_alloc and then leaves the array unchanged.
   void resize(size_t used, size_t size) {
     RawArray other(pages_.resource());
     other.allocate(size);
@@ -52,7 +52,7 @@ class RawArray {
     std::swap(size_, other.size_);
     std::swap(room_, other.room_);
   }
-  /// Leaves the first `size` elements. Their memory stays as large as it was.
+  /// Keeps only the first `size` elements, but all of the memory.
   void cut(size_t size) { size_ = std::min(size, size_); }
   T* data() { return data_; }
   const T* data() const { return data_; }
@@ -61,7 +61,7 @@ class RawArray {
  private:
   LargePages<T> pages_;
   T* data_ = nullptr;
-  size_t size_ = 0, room_ = 0;  ///< elements that count, and those that there is memory for
+  size_t size_ = 0, room_ = 0;  ///< number of elements, and capacity
 };
 
 }  // namespace sgm

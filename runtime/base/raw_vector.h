@@ -1,5 +1,5 @@
 #pragma once
-// Vectors whose new elements are not cleared first: those that are filled behind each other after one resize().
+// Vectors whose new elements are not cleared: one resize() allocates them, and then they are filled in order.
 
 #include <memory_resource>
 #include <type_traits>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Takes its memory as std::pmr::polymorphic_allocator does, but leaves elements that are made of nothing as they are.
+/// Allocates as std::pmr::polymorphic_allocator does, but leaves default-constructed elements uninitialized.
 template <class T>
 class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -21,7 +21,7 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   struct rebind {
     using other = RawAllocator<Other>;
   };
-  /// As theirs: a copy's memory comes from the default resource.
+  /// The same as in the base class: the memory of a copy comes from the default resource.
   RawAllocator select_on_container_copy_construction() const { return {}; }
 
   template <class... Arguments>
@@ -30,7 +30,7 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   }
 };
 
-/// resize() leaves what is new unwritten: write it before it is read.
+/// resize() leaves new elements uninitialized: write them before reading them.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 

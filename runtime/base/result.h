@@ -1,5 +1,5 @@
 #pragma once
-// Errors are values: every operation that bad input or a scarce machine can make fail returns a Result.
+// Errors are values: every operation that can fail because of bad input or missing resources returns a Result.
 
 #include <cstdlib>
 #include <optional>
@@ -11,18 +11,18 @@ namespace sgm {
 
 enum class Code {
   invalid_argument,  ///< the caller broke the function's contract
-  range,             ///< beyond the integer grid: a place outside of the world, a cell too large
+  range,             ///< beyond the integer grid: a position outside the world, a cell too large
   bad_input,         ///< text or data from outside is wrong; line and column say where
   limit,             ///< a cap (count, depth, memory, time, threads) was reached
   out_of_memory,
   io,           ///< a file could not be read or written
   unsupported,  ///< no such backend, device or feature here
   cancelled,
-  busy,         ///< something that is in use stands in the way
-  device_lost,  ///< the GPU has failed; what was made with it is of no more use
+  busy,         ///< a resource in use prevents the operation
+  device_lost,  ///< the GPU has failed; objects made with it are no longer usable
 };
 
-/// One clear message that says what to do. line and column count from 1; 0 means no place in a text.
+/// One clear message that says what to do. line and column count from 1; 0 if the error has no place in a text.
 struct Error {
   Code code = Code::invalid_argument;
   std::string message;
@@ -30,7 +30,7 @@ struct Error {
   int column = 0;
 };
 
-/// Either a value or an Error. Reading the one that is not there is a bug of the caller's.
+/// Either a value or an Error. Reading the absent one is a bug in the caller and aborts.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -1,11 +1,11 @@
 #pragma once
-// How urgent the parts are that work is shared out in.
+// The priority of jobs that are parts of a larger work.
 
 namespace sgm {
 
-/// For JobSystem::submit(), of a part of something that a thread waits for, which does itself what nobody else begins.
-/// No less urgent than any other job that comes all the time: a part that comes too late does nothing, but it holds
-/// memory until it has run.
+/// For JobSystem::submit(): the priority of a part of work that a thread waits for. The waiting thread does itself the
+/// parts that no other thread has begun. The priority is not below that of any frequent job: a part that runs too late
+/// does no work, but holds memory until it has run.
 inline constexpr int kSharePriority = 1;
 
 }  // namespace sgm

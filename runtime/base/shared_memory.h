@@ -1,5 +1,5 @@
 #pragma once
-// Memory that two APIs' devices on one GPU have in common.
+// Memory shared by the devices of two APIs on one GPU.
 
 #include <array>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace sgm {
 
-/// Names a GPU, the same in every API (VkPhysicalDeviceIDProperties::deviceUUID, cuDeviceGetUuid).
+/// Identifies a GPU, equally in every API (VkPhysicalDeviceIDProperties::deviceUUID, cuDeviceGetUuid).
 using DeviceId = std::array<uint8_t, 16>;
 
-/// One allocation of the device that draws, which another API imports whole. Lives as long as anything is placed in it.
+/// One allocation of the drawing device, which another API imports whole. Lives as long as any object is placed in it.
 class SharedBlock {
  public:
   SharedBlock() = default;
@@ -22,12 +22,12 @@ class SharedBlock {
   SharedBlock& operator=(const SharedBlock&) = delete;
 
   virtual uint64_t bytes() const = 0;
-  /// Whether it has to be imported as memory dedicated to one buffer.
+  /// True if it must be imported as memory dedicated to one buffer.
   virtual bool dedicated() const = 0;
-  /// A file descriptor of it, the caller's to close. Errors: out_of_memory, limit, unsupported, device_lost.
+  /// A file descriptor of it, which the caller closes. Errors: out_of_memory, limit, unsupported, device_lost.
   virtual Result<int> descriptor() const = 0;
   std::mutex importing;            ///< guards `imported`
-  std::shared_ptr<void> imported;  ///< what the other API has made of it last; ends with the block
+  std::shared_ptr<void> imported;  ///< the other API's latest import; destroyed with the block
 };
 
 }  // namespace sgm

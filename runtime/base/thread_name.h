@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Of the calling thread; cut off after 15 bytes. Where the system has no such names nothing happens.
+/// Names the calling thread; the name is cut after 15 bytes. Has no effect on systems other than Linux.
 inline void nameThread(const std::string& name) {
 #if defined(__linux__)
   pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());

@@ -1,5 +1,5 @@
 #pragma once
-// Text from outside claims to be UTF-8; here it is taken at its word only after a look.
+// Checks whether text from outside is UTF-8, and writes UTF-8.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// How many bytes the first character takes; 0 where the text is empty or does not begin with a character of UTF-8
+/// The number of bytes of the first character; 0 if the text is empty or does not begin with a valid UTF-8 character
 /// (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF).
 inline size_t utf8Size(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -26,7 +26,7 @@ inline size_t utf8Size(std::string_view text) {
   return size;
 }
 
-/// Appends a character by its number, at most U+10FFFF and no surrogate.
+/// Appends the character of a code point, which must be at most U+10FFFF and not a surrogate.
 inline void appendUtf8(std::string& out, uint32_t code) {
   const auto put = [&](uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
   if (code < 0x80) {

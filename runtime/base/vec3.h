@@ -1,6 +1,6 @@
 #pragma once
-// Points and directions in double precision, by components: what meshes and queries compute with. + - * / alone, so the
-// same bits everywhere.
+// Points and directions in double precision, by components, for meshes and queries. They use + - * / alone, so the bits
+// are the same everywhere.
 
 #include <array>
 

@@ -1,21 +1,21 @@
 #include "store/curl_library.h"
 
-#include <dlfcn.h>
+#include "base/platform/library.h"
 
 namespace sgm::store {
 
 Result<CurlTable> loadCurl() {
-  void* library = dlopen("libcurl.so.4", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  // Debian's other two have the same functions, with other libraries for encryption.
+  void* library = platform::openLibrary("libcurl.so.4");
+  // Debian has two more variants with the same functions, but other TLS libraries.
   for (const char* name : {"libcurl-gnutls.so.4", "libcurl-nss.so.4"}) {
-    if (library == nullptr) library = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (library == nullptr) library = platform::openLibrary(name);
   }
   if (library == nullptr)
-    return Error{Code::unsupported, "no libcurl here to read stores from servers with: install the package libcurl4"};
+    return Error{Code::unsupported, "reading stores from servers needs libcurl: install the package libcurl4"};
   CurlTable table;
   bool complete = true;
   const auto load = [&]<class F>(F& function, const char* name) {
-    function = reinterpret_cast<F>(dlsym(library, name));
+    function = reinterpret_cast<F>(platform::symbolOf(library, name));
     complete = complete && function != nullptr;
   };
   load(table.global_init, "curl_global_init");

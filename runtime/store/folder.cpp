@@ -1,10 +1,5 @@
 #include "store/folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -12,19 +7,19 @@
 #include <thread>
 
 #include "base/plain_text.h"
+#include "base/platform/file.h"
 
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-Error ioError(const fs::path& file, int code) {
-  return {Code::io, "'" + file.string() + "': " + std::generic_category().message(code)};
-}
+Error ioError(const fs::path& file, int code) { return {Code::io, "'" + file.string() + "': " + systemMessage(code)}; }
 
 Error lockError(const Folder& store, const fs::path& path, int number) {
   const std::string root = "'" + store.root().string() + "'";
   if (number == EWOULDBLOCK || number == EACCES)
-    return {Code::busy, "another process merges into " + root + ", or cleans it: try again when it has ended"};
+    return {Code::busy,
+            "another process is merging into " + root + " or cleaning it: try again when that process has ended"};
   if (number == ENOLCK || number == ENOSYS || number == EOPNOTSUPP || number == EBADF)
     return {Code::unsupported,
             "the file system of " + root + " has no locks, which merging needs: mount it with locks, or merge a copy"};
@@ -40,7 +35,7 @@ std::string placeName(const TileKey& tile) {
          std::to_string(tile.at.z);
 }
 
-/// A folder's.
+/// The files of a folder.
 class FolderFiles final : public StoreFiles {
  public:
   explicit FolderFiles(fs::path root) : root_(std::move(root)) {}
@@ -75,8 +70,8 @@ std::unique_ptr<StoreFiles> folderFiles(const fs::path& root) { return std::make
 Result<void> checkFormat(StoreFiles& files) {
   const std::string root = files.nameOf("");
   const auto none = [&] {
-    return Error{Code::bad_input, "'" + root + "' is no store of baked worlds (its file '" + kFormatFile +
-                                      "' is missing, or another): sgm bake --out makes one"};
+    return Error{Code::bad_input, "'" + root + "' is not a store of baked worlds (its file '" + kFormatFile +
+                                      "' is missing or has other contents): create a store with sgm bake --out"};
   };
   const Result<std::shared_ptr<const StoredFile>> format = files.open(kFormatFile, std::nullopt);
   if (!format) return format.error();
@@ -87,8 +82,8 @@ Result<void> checkFormat(StoreFiles& files) {
   if (text == formatText()) return {};
   if (text.rfind("sgm store ", 0) != 0) return none();
   return Error{Code::bad_input, "'" + root + "' is a store of another version ('" + text.substr(0, text.find('\n')) +
-                                    "', and this is " + formatText().substr(4, 7) +
-                                    "): bake it anew into another folder"};
+                                    "', but this program uses " + formatText().substr(4, 7) +
+                                    "): bake its worlds again into another folder"};
 }
 
 Result<void> Folder::make() const {
@@ -96,11 +91,11 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / kFormatFile;
   std::error_code error;
   if (!fs::exists(format, error)) {
-    // Another worker may be about to make it, or have been killed while it was.
+    // Another worker may be about to create the file, or may have been killed meanwhile.
     for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
       if (name != kFormatFile && name.rfind("format.sgm-part", 0) != 0)
-        return Error{Code::bad_input, "'" + root_.string() + "' is not empty and no store: name another folder"};
+        return Error{Code::bad_input, "'" + root_.string() + "' is neither empty nor a store: pass another folder"};
     }
     if (error) return ioError(root_, error.value());
     const std::string text = formatText();
@@ -118,24 +113,23 @@ Result<StoreLock> StoreLock::take(const Folder& store, std::chrono::milliseconds
   constexpr std::chrono::milliseconds kBetweenLooks{100};
   const auto until = std::chrono::steady_clock::now() + patience;
   const fs::path path = store.root() / kFormatFile;
-  // Network file systems lock only what is open for writing.
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  // Network file systems only lock files that are open for writing.
+  const int file = platform::openFile(path, platform::kRead | platform::kWrite);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
-  // Not without end: whoever has it may hang, on another machine.
-  while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+  // Do not wait for ever: the holder may hang, perhaps on another machine.
+  while (platform::lockFile(file) != 0) {
     if ((errno == EWOULDBLOCK || errno == EACCES) && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(kBetweenLooks);
       continue;
     }
-    if (errno == EINTR) continue;
     return lockError(store, path, errno);
   }
   return lock;
 }
 
 StoreLock::~StoreLock() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ >= 0) platform::closeFile(file_);
 }
 
 fs::path tileFile(const fs::path& baking, const TileKey& tile) { return baking / (placeName(tile) + ".tile"); }
@@ -144,25 +138,22 @@ fs::path packFile(const fs::path& baking, const TileKey& tile) { return baking /
 Result<void> makeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return Error{Code::io, "'" + folder.string() + "' cannot be made: " + systemMessage(error)};
+  if (error) return Error{Code::io, "'" + folder.string() + "' cannot be created: " + systemMessage(error)};
   return {};
 }
 
 OpenFile::OpenFile(fs::path path, int file, uint64_t size) : path_(std::move(path)), file_(file), size_(size) {}
 
-OpenFile::~OpenFile() { ::close(file_); }
+OpenFile::~OpenFile() { platform::closeFile(file_); }
 
 Result<std::shared_ptr<const OpenFile>> OpenFile::open(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return ioError(path, errno);
-  struct stat status {};
-  const int error = ::fstat(file, &status) == 0 ? 0 : errno;
-  if (error != 0 || !S_ISREG(status.st_mode)) {
-    ::close(file);
-    if (error != 0) return ioError(path, error);
-    return Error{Code::io, "'" + path.string() + "' is no regular file"};
-  }
-  return std::shared_ptr<const OpenFile>(new OpenFile(path, file, static_cast<uint64_t>(status.st_size)));
+  platform::File file(platform::openFile(path, platform::kRead));
+  platform::FileStatus status;
+  if (!file || platform::statusOf(file.number(), status) != 0) return ioError(path, errno);
+  if (!status.isRegular()) return Error{Code::io, "'" + path.string() + "' is not a regular file"};
+  std::shared_ptr<const OpenFile> opened(new OpenFile(path, file.number(), status.bytes));
+  file.release();
+  return opened;
 }
 
 Result<std::pmr::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes,
@@ -173,8 +164,7 @@ Result<std::pmr::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes
   if (offset > size_ || bytes > size_ - offset) return ends();
   std::pmr::vector<std::byte> content(bytes, memory);
   for (size_t done = 0; done < bytes;) {
-    const ssize_t got = ::pread(file_, content.data() + done, bytes - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
+    const ptrdiff_t got = platform::readAt(file_, content.data() + done, bytes - done, offset + done);
     if (got < 0) return ioError(path_, errno);
     if (got == 0) return ends();
     done += static_cast<size_t>(got);
@@ -201,12 +191,7 @@ bool isPack(const fs::path& path, const PackFile& pack) {
 }
 
 Result<void> syncFolder(const fs::path& folder) {
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return ioError(folder, errno);
-  // Some file systems have nothing to do, and say so.
-  const int error = ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
-  ::close(file);
-  if (error != 0) return ioError(folder, error);
+  if (platform::syncFolder(folder) != 0) return ioError(folder, errno);
   return {};
 }
 

@@ -1,16 +1,18 @@
 #include "backend/vulkan/loader.h"
 
-#include <dlfcn.h>
+#include "base/platform/library.h"
 
 namespace sgm::vulkan {
 
 Result<GlobalTable> openLoader() {
-  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+  void* library = platform::openLibrary("libvulkan.so.1");
   if (!library) {
-    return Error{Code::unsupported, "no Vulkan loader here: install the packages libvulkan1 and mesa-vulkan-drivers"};
+    return Error{Code::unsupported,
+                 "the Vulkan loader is missing: install the packages libvulkan1 and mesa-vulkan-drivers"};
   }
   GlobalTable table;
-  table.vkGetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  table.vkGetInstanceProcAddr =
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(platform::symbolOf(library, "vkGetInstanceProcAddr"));
   if (!table.vkGetInstanceProcAddr) return Error{Code::unsupported, "libvulkan.so.1 is damaged: reinstall libvulkan1"};
   bool complete = true;
 #define SGM_LOAD(name)                                                                           \
@@ -58,18 +60,18 @@ Error errorOf(VkResult result, const std::string& what) {
     case VK_ERROR_FRAGMENTED_POOL:
       return {Code::out_of_memory, what + ": a descriptor pool is exhausted" + number};
     case VK_ERROR_MEMORY_MAP_FAILED:
-      return {Code::out_of_memory, what + ": no room to map the GPU's memory" + number};
+      return {Code::out_of_memory, what + ": there is no address space to map the GPU's memory" + number};
     case VK_ERROR_TOO_MANY_OBJECTS:
       return {Code::limit, what + ": too many objects of this kind" + number};
     case VK_ERROR_DEVICE_LOST:
       return {Code::device_lost, what + ": the Vulkan device was lost" + number};
     case VK_ERROR_INCOMPATIBLE_DRIVER:
       return {Code::unsupported,
-              what + ": no Vulkan driver here: install your GPU's driver, or mesa-vulkan-drivers" + number};
+              what + ": there is no Vulkan driver: install your GPU's driver, or mesa-vulkan-drivers" + number};
     case VK_TIMEOUT:
       return {Code::unsupported, what + ": the Vulkan device did not finish in time" + number};
     default:
-      return {Code::unsupported, what + ": Vulkan refused" + number};
+      return {Code::unsupported, what + ": the Vulkan call failed" + number};
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Parts of chunks that were made ahead of time, wherever they are kept (store/).
+// Parts of chunks that were baked ahead of time, wherever they are stored (store/).
 
 #include <optional>
 
@@ -10,18 +10,18 @@ namespace sgm {
 
 /// Of this process, since the source was opened.
 struct BakedStats {
-  uint64_t hits = 0, misses = 0;  ///< one or the other for every get
-  uint64_t damaged = 0;           ///< misses where something was there that could not be trusted
-  uint64_t errors = 0;            ///< times that a file could not be read, or was not what it should be
-  uint64_t bytes = 0;             ///< read for hits, as they are stored
+  uint64_t hits = 0, misses = 0;  ///< each get counts as one of them
+  uint64_t damaged = 0;           ///< misses because the stored data was invalid
+  uint64_t errors = 0;            ///< files that could not be read, or were invalid
+  uint64_t bytes = 0;             ///< read for hits, compressed
 };
 
 struct BakedPart {
   std::pmr::vector<std::byte> bytes;
-  bool is_far = false;  ///< took its time to come: who has a disk cache keeps it there
+  bool is_far = false;  ///< it came from a server: worth storing in a disk cache
 };
 
-/// Where to look: on this machine alone, which takes as long as its disk does, or on servers, too.
+/// Where to search: only on this machine, which takes as long as its disk does, or also on servers.
 enum class Reach : uint8_t { near, far };
 
 /// Read only. Thread-safe.
@@ -29,22 +29,23 @@ class BakedParts {
  public:
   virtual ~BakedParts() = default;
 
-  /// Which world these bytes stand for (bakedWorldInputs of chunk_part.h).
+  /// Identifies the world by these bytes (bakedWorldInputs of chunk_part.h).
   virtual DiskKey worldOf(std::span<const std::byte> inputs) const = 0;
 
-  /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
-  /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be
-  /// read, or trusted. Throws std::bad_alloc.
+  /// Returns the output of encodeChunkPart for that world without edits, in `memory`: a body of level 0 with its
+  /// anchors and voids, a seam to the next level. Verified by a hash of all bytes. nullopt if it is missing, unreadable
+  /// or invalid. Throws std::bad_alloc.
   virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
-  /// What get gave, looking so far, is none: counts a damaged miss instead of the hit, and is not given again.
+  /// Call if the result of get() with this reach is invalid: counts a damaged miss instead of the hit, and get() does
+  /// not return it again.
   virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) = 0;
 
-  /// Whether some may be far: whoever looks that far has time, and looks into a disk cache first. Always the same.
+  /// Whether some parts may be on servers: such searches take time, and should try a disk cache first. Constant.
   virtual bool isFar() const = 0;
 
-  /// Nobody has to wait any more: all that follows may be misses.
+  /// Ends all waits: from now on calls may miss.
   virtual void stop() noexcept = 0;
 
   virtual BakedStats stats() const = 0;

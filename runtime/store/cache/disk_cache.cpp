@@ -16,7 +16,7 @@ namespace {
 
 // The least share of a set: thousands of chunks, so that random keys fill all sets alike, and listing takes 10 ms.
 constexpr uint64_t kLeastShare = uint64_t{16} << 20;
-constexpr uint64_t kSlack = 8;  // one part of so many is made free, or written between two listings
+constexpr uint64_t kSlack = 8;  // divisor: this share is freed, or written between two listings
 
 class FileCache final : public DiskCache {
  public:
@@ -34,7 +34,7 @@ class FileCache final : public DiskCache {
     const int error = folder_.read(key, file);
     if (error == 0) {
       if (auto content = unpackDiskEntry(key, file, memory)) {
-        folder_.touch(key);  // a folder that cannot be written to still serves
+        folder_.touch(key);  // touching fails in a read-only folder, which is no problem
         count(&DiskCacheStats::hits);
         return content;
       }
@@ -86,15 +86,15 @@ class FileCache final : public DiskCache {
   /// Some shards, and their share of the limit.
   struct Set {
     std::mutex mutex;
-    uint64_t bytes = 0;    ///< of its entries when they were listed, and stored since
-    uint64_t writing = 0;  ///< of entries that are just being written
-    uint64_t allowed = 0;  ///< that may still be written before the entries are listed again
+    uint64_t bytes = 0;    ///< of the entries at the last listing, and stored since
+    uint64_t writing = 0;  ///< of entries being written
+    uint64_t allowed = 0;  ///< bytes that may be written before the next listing
   };
 
   size_t setSize() const { return DiskFolder::kShards / sets_; }
   Set& setOf(const DiskKey& key) { return all_sets_[DiskFolder::shardOf(key) / setSize()]; }
 
-  /// So many bytes of a set, held while they are written; false where they are not to be had.
+  /// Reserves bytes of a set while an entry is written; false if there is no room.
   class Room {
    public:
     Room(FileCache& cache, Set& set, uint64_t bytes) : cache_(cache), set_(set), bytes_(bytes) {
@@ -115,7 +115,7 @@ class FileCache final : public DiskCache {
     }
     explicit operator bool() const { return held_; }
 
-    /// They are written.
+    /// The entry is written.
     void fill() {
       const std::lock_guard lock(set_.mutex);
       cache_.setBytes(set_, set_.bytes + bytes_);
@@ -130,7 +130,7 @@ class FileCache final : public DiskCache {
     bool held_ = false, filled_ = false;
   };
 
-  /// Lists the entries of a set, and removes the longest unused where so many bytes more would pass its share.
+  /// Lists the entries of a set, and removes the longest unused ones if this many more bytes would exceed its share.
   void makeRoom(Set& set, uint64_t bytes) {
     std::pmr::vector<DiskFile> files(memory_);
     uint64_t total = set.writing;
@@ -166,10 +166,10 @@ class FileCache final : public DiskCache {
     ++(stats_.*what);
   }
 
-  /// What is not there was never stored, or another process has removed it.
+  /// A missing file was never stored, or another process has removed it.
   static int unlessGone(int error) { return error == ENOENT ? 0 : error; }
 
-  /// Whether it is an error; counts it, and says the first.
+  /// Returns whether it is an error; counts it, and reports the first one.
   bool failed(const char* what, int error) {
     if (error == 0) return false;
     bool first = false;
@@ -178,8 +178,8 @@ class FileCache final : public DiskCache {
       first = stats_.errors++ == 0;
     }
     if (first && log_) {
-      log_("cannot " + std::string(what) + " in the disk cache '" + folder_.name() +
-           "': " + std::generic_category().message(error) + "; what it does not keep is computed again");
+      log_("cannot " + std::string(what) + " in the disk cache '" + folder_.name() + "': " + systemMessage(error) +
+           "; uncached chunks are computed again");
     }
     return true;
   }
@@ -188,8 +188,8 @@ class FileCache final : public DiskCache {
   const Log log_;
   std::pmr::memory_resource* const memory_;
   const uint64_t sets_, share_;
-  std::array<Set, DiskFolder::kShards> all_sets_;  ///< the first sets_ of them
-  mutable std::mutex mutex_;                       ///< of stats_; taken last
+  std::array<Set, DiskFolder::kShards> all_sets_;  ///< only the first sets_ are used
+  mutable std::mutex mutex_;                       ///< guards stats_; locked last
   DiskCacheStats stats_;
 };
 
@@ -198,11 +198,11 @@ class FileCache final : public DiskCache {
 Result<std::unique_ptr<DiskCache>> DiskCache::open(const std::filesystem::path& folder, uint64_t byte_limit, Log log,
                                                    std::pmr::memory_resource* memory) {
   if (byte_limit == 0) {
-    return Error{Code::invalid_argument, "a disk cache needs a limit above 0 bytes; without a cache, open none"};
+    return Error{Code::invalid_argument, "a disk cache needs a limit above 0 bytes; for no cache, do not open one"};
   }
   if (folder.empty()) return Error{Code::invalid_argument, "a disk cache needs a folder"};
   std::error_code why;
-  // The process may change its working folder.
+  // The process may change its current folder later.
   const std::filesystem::path place = std::filesystem::absolute(folder, why);
   if (!why) std::filesystem::create_directories(place, why);
   if (!why && !std::filesystem::is_directory(place, why) && !why)

@@ -11,7 +11,7 @@
 namespace sgm {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "entries are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "entries have the byte order of memory");
 
 struct EntryHeader {
   std::array<char, 4> magic{'S', 'G', 'M', 'C'};
@@ -22,7 +22,7 @@ struct EntryHeader {
 };
 static_assert(sizeof(EntryHeader) == 48);
 
-// The cave's chunks are half a percent smaller at level 3, which takes a quarter longer.
+// Level 3 makes the cave's chunks half a percent smaller, but takes a quarter longer.
 constexpr int kZstdLevel = 1;
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
-// The files of the disk cache: where an entry lies, and how it comes and goes.
+// The files of the disk cache: their names, and how they are read, written and removed.
 
 #include "store/cache/disk_cache.h"
 
 namespace sgm {
 
-/// An entry's file as a listing sees it.
+/// An entry's file in a listing.
 struct DiskFile {
   int64_t used = 0;  ///< nanoseconds of the file system's clock
   DiskKey key;
@@ -13,13 +13,13 @@ struct DiskFile {
   friend auto operator<=>(const DiskFile&, const DiskFile&) = default;
 };
 
-/// Entries in FOLDER/3f/3f...: 32 hexadecimal digits of the key. One that is being written has the ending ".part"; a
-/// killed process leaves it, and whoever meets it a minute later removes it. Stateless; any thread, any process.
-/// Functions return 0 or errno.
+/// Entries in FOLDER/3f/3f...: 32 hexadecimal digits of the key. An entry that is being written ends in ".part"; if the
+/// process is killed, another one that finds the file a minute later removes it. Stateless; thread-safe, also between
+/// processes. Functions return 0 or errno.
 class DiskFolder {
  public:
   static constexpr size_t kShards = 256;
-  static constexpr int kUntrusted = -1;  ///< no errno: there is something that no write() has made
+  static constexpr int kUntrusted = -1;  ///< not an errno: the file cannot have been made by write()
 
   static size_t shardOf(const DiskKey& key) { return static_cast<size_t>(key.high >> 56); }
 
@@ -27,16 +27,16 @@ class DiskFolder {
 
   const std::string& name() const { return folder_; }
 
-  /// ENOENT: no such entry. kUntrusted: no regular file, or one too large for an entry. Throws std::bad_alloc.
+  /// ENOENT: no such entry. kUntrusted: not a regular file, or too large for an entry. Throws std::bad_alloc.
   int read(const DiskKey& key, std::pmr::vector<std::byte>& file) const;
-  /// EEXIST: it is there, or another is writing it.
+  /// EEXIST: the entry exists, or another process is writing it.
   int write(const DiskKey& key, std::span<const std::byte> file) const;
   int remove(const DiskKey& key) const;
-  /// Makes the entry the latest used.
+  /// Marks the entry as the most recently used.
   int touch(const DiskKey& key) const;
 
-  /// Appends the entries of a shard, adds to `unfinished` the bytes of those that are being written, and removes those
-  /// that will never be finished. Throws std::bad_alloc.
+  /// Appends the entries of a shard, adds the bytes of entries being written to `unfinished`, and removes abandoned
+  /// ones. Throws std::bad_alloc.
   int list(size_t shard, std::pmr::vector<DiskFile>& files, uint64_t& unfinished) const;
 
  private:

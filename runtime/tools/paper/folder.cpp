@@ -29,7 +29,7 @@ Error failure(const fs::path& path, const std::string& why) {
   return Error{Code::io, fmt::format("cannot write {}: {}", path.string(), why)};
 }
 
-/// A new folder beside the target, removed with all that is in it unless it got another name.
+/// A new folder beside the target, removed with its contents unless it is renamed.
 class Beside {
  public:
   static Result<Beside> create(const fs::path& target) {
@@ -51,7 +51,7 @@ class Beside {
   fs::path path_;
 };
 
-/// Without a slash at its end, which would be a name of its own.
+/// Without a trailing slash, which would count as another name.
 fs::path cleaned(const fs::path& target) {
   const fs::path path = target.lexically_normal();
   return path.has_filename() ? path : path.parent_path();
@@ -78,7 +78,7 @@ FolderFile manifestOf(const std::vector<FolderFile>& files) {
   return {kReportManifest, std::move(lines)};
 }
 
-/// By path; nothing where there is no manifest.
+/// By path; nullopt if there is no manifest.
 std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report) {
   const std::optional<std::string> manifest = contentOf(report / kReportManifest);
   if (!manifest) return std::nullopt;
@@ -93,14 +93,14 @@ std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report)
   return sums;
 }
 
-/// Whether a folder is empty or a report as it was written, for which it may go; target: its name in messages.
+/// Whether a folder is empty or an unchanged report, so that it may be removed; target: its name in messages.
 Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
   std::error_code why;
   fs::recursive_directory_iterator entries(folder, why);
   if (why) return failure(target, systemMessage(why));
   if (entries == fs::recursive_directory_iterator()) return {};
   const std::optional<std::map<std::string, std::string>> sums = sumsOf(folder);
-  if (!sums) return failure(target, "the folder is not empty, and holds no earlier report");
+  if (!sums) return failure(target, "the folder is not empty and has no earlier report: name a new folder");
   for (; entries != fs::recursive_directory_iterator(); entries.increment(why)) {
     const std::string path = entries->path().lexically_relative(folder).generic_string();
     const fs::file_type type = entries->symlink_status(why).type();
@@ -109,11 +109,11 @@ Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
     const bool known = listed != sums->end() &&
                        (type == fs::file_type::directory ? listed->first.starts_with(path + "/")
                                                          : type == fs::file_type::regular && listed->first == path);
-    if (!known) return failure(target, fmt::format("it holds {} beside an earlier report: move that away", path));
+    if (!known) return failure(target, fmt::format("it has {} beside an earlier report: move that file away", path));
     if (type == fs::file_type::directory) continue;
     const std::optional<std::string> bytes = contentOf(entries->path());
     if (!bytes || sumOf(*bytes) != listed->second)
-      return failure(target, fmt::format("{} in it was changed since the report was made: move that away", path));
+      return failure(target, fmt::format("{} in it has changed since the report was made: move that file away", path));
   }
   if (why) return failure(target, systemMessage(why));
   return {};
@@ -126,17 +126,16 @@ Result<void> exchange(const fs::path& a, const fs::path& b, const fs::path& targ
   errno = ENOSYS;
 #endif
   const bool cannot = errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
-  return failure(target, cannot ? "its file system cannot exchange it for a new one: remove it first"
-                                : std::generic_category().message(errno));
+  return failure(target, cannot ? "its file system cannot exchange folders: remove it first" : systemMessage(errno));
 }
 
-/// Whether something is there that a report would be exchanged for.
+/// Whether a report must be exchanged for an existing target.
 Result<bool> checkTarget(const fs::path& target) {
   std::error_code why;
   const fs::file_status status = fs::symlink_status(target, why);
   if (status.type() == fs::file_type::not_found) return false;
   if (status.type() == fs::file_type::none) return failure(target, systemMessage(why));
-  if (status.type() != fs::file_type::directory) return failure(target, "it is there, and no folder");
+  if (status.type() != fs::file_type::directory) return failure(target, "it exists and is not a folder: name another");
   if (const Result<void> fits = checkReplaceable(target, target); !fits) return fits.error();
   const bool empty = fs::is_empty(target, why);
   if (why) return failure(target, systemMessage(why));
@@ -153,7 +152,7 @@ Result<void> writeFile(const fs::path& path, const std::string& bytes) {
   return file->commit();
 }
 
-/// The new folder takes the target's name.
+/// Gives the new folder the target's name.
 Result<void> takePlace(Beside& made, const fs::path& target) {
   std::error_code why;
   fs::permissions(made.path(),
@@ -161,20 +160,20 @@ Result<void> takePlace(Beside& made, const fs::path& target) {
                       fs::perms::others_exec,
                   why);
   if (why) return failure(target, systemMessage(why));
-  // An empty folder is replaced by renaming alone.
+  // Renaming suffices to replace an empty folder.
   fs::rename(made.path(), target, why);
   if (!why) {
     made.keep();
     return {};
   }
   if (const Result<void> exchanged = exchange(made.path(), target, target); !exchanged) return exchanged.error();
-  // Somebody may have put something there since it was looked at.
+  // The target may have changed since the check.
   const Result<void> replaceable = checkReplaceable(made.path(), target);
   if (!replaceable) {
     if (const Result<void> back = exchange(made.path(), target, target); !back) {
       const std::string place = made.path().string();
       made.keep();
-      return failure(target, fmt::format("{}; what was there is now {}", replaceable.error().message, place));
+      return failure(target, fmt::format("{}; its previous content is now {}", replaceable.error().message, place));
     }
   }
   return replaceable;

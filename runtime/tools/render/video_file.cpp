@@ -1,4 +1,5 @@
 #include "tools/render/video_file.h"
+#include "base/plain_text.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -22,11 +23,9 @@ namespace {
 constexpr const char* kEncoder = "ffmpeg";
 constexpr size_t kLastWords = 300;
 
-Error ioError(int code) {
-  return {Code::io, std::string("cannot start ffmpeg: ") + std::generic_category().message(code)};
-}
+Error ioError(int code) { return {Code::io, std::string("cannot start ffmpeg: ") + systemMessage(code)}; }
 
-/// The last line that was written to a file.
+/// The last line in a file.
 std::string lastLine(std::FILE* file) {
   std::string text(4096, '\0');
   const off_t size = lseek(fileno(file), 0, SEEK_END);
@@ -52,7 +51,7 @@ Result<std::unique_ptr<VideoFile>> VideoFile::begin(const std::string& target, U
 Result<void> VideoFile::start(const Format& format) {
   words_ = std::tmpfile();
   if (words_ == nullptr) return ioError(errno);
-  // A socket and no pipe: an encoder that ends early is then an error, and no signal.
+  // A socket instead of a pipe: if the encoder ends early, writing fails without SIGPIPE.
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return ioError(errno);
   pictures_ = ends[0];

@@ -1,4 +1,5 @@
 #include "tools/support/program_output.h"
+#include "base/plain_text.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -15,8 +16,7 @@ namespace sgm::cli {
 
 Result<ProgramOutput> outputOf(const std::vector<std::string>& command) {
   const auto failure = [&](int code) {
-    return Error{code == ENOENT ? Code::unsupported : Code::io,
-                 command[0] + " cannot be run: " + std::generic_category().message(code)};
+    return Error{code == ENOENT ? Code::unsupported : Code::io, command[0] + " cannot be run: " + systemMessage(code)};
   };
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return failure(errno);

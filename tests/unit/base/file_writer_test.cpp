@@ -13,19 +13,14 @@
 #include <optional>
 
 #include "catch.h"
+#include "temporary_folder.h"
 
 using namespace sgm;
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sgm_writer_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const fs::directory_entry& entry : fs::directory_iterator(path)) names.push_back(entry.path().filename());
@@ -33,11 +28,6 @@ struct Folder {
     return names;
   }
 };
-
-std::string contentOf(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 unsigned modeOf(const fs::path& path) {
   struct stat there {};
