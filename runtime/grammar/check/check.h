@@ -1,8 +1,8 @@
 #pragma once
-// Names, arguments, dimensions and stages: turns what was parsed into a resolved Program.
+// Checks names, arguments, dimensions and stages: turns the parser's result into a resolved Program.
 //
-// Parameters of rules have one type each, found from the first call; lets and fields are checked anew for each tuple of
-// argument types (and that is remembered), so that one `fbm` serves lengths and ratios alike.
+// A parameter of a rule has one type, found from the first call. Lets and fields are checked anew for each tuple of
+// argument types (with cached results), so that one `fbm` works for both lengths and ratios.
 
 #include <cstdint>
 #include <map>
@@ -22,7 +22,7 @@
 
 namespace sgm {
 
-/// A scale around a call; `copied`: as often as there are copies.
+/// A scale around a call; `copied`: applied once for each copy.
 struct ScaleAround {
   ExprId factor = kNoId;
   bool copied = false;
@@ -33,8 +33,8 @@ struct RuleCall {
   uint32_t from = 0, alternative = 0;
   uint32_t to = 0;
   ExprId call = kNoId;
-  bool escape = false;  ///< of depth or minsize
-  bool shrunk = false;  ///< inside size
+  bool escape = false;  ///< for depth or minsize
+  bool shrunk = false;  ///< inside of size
   std::vector<ScaleAround> scales;
 };
 
@@ -43,7 +43,7 @@ struct AskedLayer {
   uint32_t rule = 0;
   uint32_t layer = 0;
   Span span;
-  std::string_view verb;  ///< what the rule does to the layer: `probes`
+  std::string_view verb;  ///< the action of the rule on the layer: `probes`
 };
 
 struct WrittenPath;
@@ -51,15 +51,15 @@ struct WrittenStep;
 
 class Checker {
  public:
-  /// library: the root is a file for others to import, and derives nothing.
+  /// library: the root is a file for import, and derives nothing.
   Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& syntax, const CompileLimits& limits,
           DiagnosticSink& sink, bool library);
 
-  /// All checks but recursion and reach. What failed is in the sink.
+  /// Runs all checks except recursion and reach. Errors go to the sink.
   void run();
 
   const std::vector<RuleCall>& calls() const { return calls_; }
-  /// Whether something that is used may be declared in a part of the text that was not parsed.
+  /// Whether a used name may be declared in a part of the text that was not parsed.
   bool usesWhatIsLost() const { return uses_lost_; }
 
  private:
@@ -75,23 +75,23 @@ class Checker {
     uint32_t slot = 0;
     Type type;
     uint32_t field = kNoId;  ///< a local field instead of a value
-    size_t depth = 0;        ///< of a field: how many locals stood before it
+    size_t depth = 0;        ///< for a field: the number of locals before it
   };
-  /// Where an expression stands.
+  /// The context of an expression.
   struct Scope {
     uint32_t module = 0;
-    bool rule = false;   ///< cell and scope are known, rand needs no key
+    bool rule = false;   ///< cell and scope are known, and rand needs no key
     bool field = false;  ///< in the body of a field
     std::vector<Local> locals;
     uint32_t next_slot = 0;
     uint32_t slot_count = 0;
-    uint32_t* draws = nullptr;  ///< counter of rand and chance
+    uint32_t* draws = nullptr;  ///< the counter of rand and chance
   };
   using Key = std::tuple<Ref, uint32_t, std::vector<std::tuple<int, int, int, bool, bool>>>;
 
   // check_collect.cpp
   void collect();
-  /// Whether a name that is not known in a module may be declared in a part of it that was not parsed.
+  /// Whether a name unknown in a module may be declared in a part of it that was not parsed.
   bool mayBeLost(uint32_t module, NameId name);
   /// Whether parts of a statement may be missing because they were not parsed.
   bool isLossy(const StmtNode& s) const { return !syntax_[s.span.file].complete; }
@@ -99,7 +99,7 @@ class Checker {
   uint16_t tableIndex(std::pmr::vector<std::pmr::string>& table, NameId name, const Span& span);
 
   // check_domain.cpp
-  /// A range, and whether a default lies in it; none and false with an error.
+  /// The ends of a range; rangeOf gives nullopt, and defaultLies false, after an error.
   struct Ends {
     double low = 0, high = 0;
   };
@@ -135,7 +135,7 @@ class Checker {
   void partStatements(const StmtNode& node);
   // check_treemap.cpp
   void treemap(const StmtNode& node);
-  /// Whether it names two rooms.
+  /// Returns whether it names two rooms.
   bool link(const StmtNode& node, const std::vector<NameId>& rooms);
   // check_wfc.cpp
   void wave(const StmtNode& node);
@@ -155,7 +155,7 @@ class Checker {
   bool sumLeaf(StmtId id);
 
   // check_below.cpp
-  /// The layer of that name, asked about by the rule or override that is being checked; kNoId with an error.
+  /// Finds the layer by name, queried by the current rule or override; kNoId after an error.
   uint32_t layerBelow(NameId name, const Span& span, std::string_view verb);
   Type query(ExprId id);
   void layersAsked();
@@ -171,7 +171,7 @@ class Checker {
   void roof(const StmtNode& node);
   void planOf(const StmtNode& node);
   bool planUnknown(ExprId plan);
-  /// demand() of a number, which must lie in a range if it is constant.
+  /// Like demand() for a number; a constant must also lie in a range.
   void demandRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range);
 
   // check_overrides.cpp
@@ -199,18 +199,18 @@ class Checker {
     bool required = true;
     bool named_only = false;
   };
-  /// Positions and names to one list; false with an error.
+  /// Combine positional and named arguments to one list; bind returns false after an error.
   NameId meantByDifference(const ArgNode& arg, const std::vector<FormalView>& formals) const;
   bool bind(ExprId call, std::string_view callee, const std::vector<FormalView>& formals, bool variadic,
             std::vector<uint32_t>& bound);
   std::vector<FormalView> viewOf(IdRange formals) const;
-  /// What is known of formals before anything is given to them: the dimension of those with a range.
+  /// The types of formals before arguments are known: the dimension of those with a range.
   std::vector<Type> typesOf(IdRange formals) const;
-  /// Demands of what is given to formals that it has the dimension of their ranges, and goes on as if it had: one
-  /// fault is told once.
+  /// Requires that arguments have the dimension of their formal's range; continues as if they had, so that one error is
+  /// reported once.
   void demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types, std::string_view callee);
   std::vector<FormalView> viewOf(std::span<const BuiltinParam> params) const;
-  /// The written arguments of a transform or area, by position or name, to up to three expressions.
+  /// Binds the written arguments of a transform or area, by position or name, to up to three expressions.
   bool bindWords(IdRange args, const Span& span, std::string_view callee, std::initializer_list<std::string_view> words,
                  size_t required, ExprId* out);
   bool resolveCallee(ExprId call, bool shape);
@@ -233,19 +233,18 @@ class Checker {
   Type localFieldUse(ExprId id, const Local& local);
   void primitiveCall(ExprId id);
   Type unify(const Type& a, const Type& b, bool& good) const;
-  /// Checks arguments against a builtin's parameters, each expression once; gives the dimension that those of any
-  /// dimension have in common, or none where all are a literal 0.
+  /// Checks arguments against a builtin's parameters, each expression once. Returns the common dimension of the
+  /// parameters of any dimension; nullopt if all these arguments are a literal 0.
   std::optional<Dim> arguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
                                std::string_view callee);
-  /// expression() with demands: the kind, the dimension and the stage. what: "the radius of ...".
+  /// Like expression(), but requires a kind, a dimension and a stage. what: "the radius of ...".
   Type demand(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
-  /// The same for an expression whose type is already known: no expression is checked twice, so that nesting costs
-  /// nothing.
+  /// The same for an expression with a known type: no expression is checked twice, so that nesting stays cheap.
   void demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
   bool literal(ExprId id) const;
   bool agrees(const Type& type, ValueKind kind, Dim dim) const;
   void deriveOnly(ExprId id, std::string_view what);
-  /// The innermost part of an expression that makes it sample-time.
+  /// The innermost part of an expression that makes it a sample-time one.
   ExprId culprit(ExprId id) const;
   std::string unitHint(ExprId id, const Type& type, Dim wanted) const;
 
@@ -262,48 +261,48 @@ class Checker {
   DiagnosticSink& sink_;
   std::vector<std::map<NameId, Symbol>> symbols_;
   Scope scope_;
-  std::map<Key, Type> known_;        ///< results of lets and global fields
-  std::map<Key, Type> known_local_;  ///< of local fields, within one alternative
+  std::map<Key, Type> known_;        ///< cached results of lets and global fields
+  std::map<Key, Type> known_local_;  ///< the same for local fields, within one alternative
   std::vector<std::pair<Ref, uint32_t>> open_;
   std::vector<std::vector<Type>> rule_types_;
   std::vector<uint8_t> rule_state_;  ///< 0 not reached, 1 waiting, 2 checked
   std::vector<uint32_t> waiting_;
   size_t next_waiting_ = 0;
-  std::set<uint32_t> checked_;  ///< rules, at least once
+  std::set<uint32_t> checked_;  ///< rules that were checked at least once
   std::vector<RuleCall> calls_;
-  std::vector<ScaleAround> scales_;    ///< around the statement that is being checked
-  std::map<uint32_t, double> folded_;  ///< of lets
+  std::vector<ScaleAround> scales_;    ///< around the statement being checked
+  std::map<uint32_t, double> folded_;  ///< cached values of lets
   std::vector<AskedLayer> asked_;
   std::vector<bool> start_rules_;
-  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;  ///< of each rule: rules, and of what import
-  std::vector<std::vector<uint32_t>> override_calls_;           ///< of each override: rules
-  std::vector<std::vector<AskedLayer>> override_asked_;         ///< of each override; their rule is not known yet
-  std::set<uint32_t> level_overrides_;                          ///< those that may stand at the level of a layer
-  std::set<uint32_t> room_overrides_;                           ///< those that may stand in a treemap's room
+  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;  ///< for each rule: rules, and their import
+  std::vector<std::vector<uint32_t>> override_calls_;           ///< for each override: rules
+  std::vector<std::vector<AskedLayer>> override_asked_;         ///< for each override; its rule is not known yet
+  std::set<uint32_t> level_overrides_;                          ///< those that may be used at the level of a layer
+  std::set<uint32_t> room_overrides_;                           ///< those that may be used in a treemap's room
   uint32_t rule_ = 0, alternative_ = 0;
-  uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
+  uint32_t override_ = kNoId;  ///< the override whose block is checked, if it is not a rule's
   uint32_t ordinal_ = 0, draws_ = 0;
   int expression_depth_ = 0;
   const bool library_;
-  const uint32_t errors_before_;  ///< those of loading and parsing
-  const bool lossy_;              ///< they are some: not all of the text is here
+  const uint32_t errors_before_;  ///< errors of loading and parsing
+  const bool lossy_;              ///< there were such errors: a part of the text is missing
   bool uses_lost_ = false;
-  bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
+  bool layers_known_ = false;  ///< if false, messages about layers would only follow from another error
 };
 
-/// Error for every rule that may call itself without end. Fills ExprNode::circular.
+/// Reports an error for every rule that may call itself without end. Sets ExprNode::circular.
 void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
                     DiagnosticSink& sink);
 
-/// Of every call, derived or not, that gives a rule, let or field what does not lie in its range, as far as that does
-/// not depend on the frame. What does is checkReach()'s, where the frame is known.
+/// Checks every call, derived or not, whose arguments lie outside of the ranges of a rule, let or field, if that does
+/// not depend on the frame. checkReach() checks the rest, where the frame is known.
 void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
-/// Proves how far each layer's shapes may extend from their cell, fills Layer::bound and a finite domain's box where it
-/// is not written.
+/// Proves how far each layer's shapes may extend from their cell; sets Layer::bound, and a finite domain's box if it is
+/// not written.
 void checkReach(Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
-/// Fills Layer::coarsest_cell and Layer::anchors. Precondition: the program has no errors.
+/// Sets Layer::coarsest_cell and Layer::anchors. Precondition: the program has no errors.
 void findLayerContents(Program& program, const CompileLimits& limits);
 
 }  // namespace sgm

@@ -1,4 +1,4 @@
-// What rules ask of the layers below: probes and queries.
+// Queries of the layers below: probes and queries.
 
 #include <algorithm>
 
@@ -38,13 +38,14 @@ Type Checker::query(ExprId id) {
                   "such as `query clear 2m of`");
   }
   if (scope_.field) {
-    sink_.error(n.span, codes::kStage, "a query is answered once, where shapes are derived, and a field at every point",
-                "ask in the rule, `let open = query ...;`, and hand that to the field as an argument");
+    sink_.error(n.span, codes::kStage,
+                "a query is answered once, when shapes are derived, and a field is evaluated at every point",
+                "ask in the rule, `let open = query ...;`, and pass that to the field as an argument");
     return answer;
   }
   if (!scope_.rule) {
     sink_.error(n.span, codes::kWrongUse, "a query is known inside rules only: it asks about the scope's place",
-                "ask in a rule, and hand the answer to a let as an argument");
+                "ask in a rule, and pass the answer to a let as an argument");
     return answer;
   }
   const uint32_t layer = layerBelow(n.name, n.span, "queries");
@@ -53,7 +54,7 @@ Type Checker::query(ExprId id) {
   return answer;
 }
 
-/// A rule that asks about a layer may be derived only in layers that use it.
+/// A rule that queries a layer may be derived only in layers that use it.
 void Checker::layersAsked() {
   if (asked_.empty()) return;
   for (const Layer& layer : program_.layers) {

@@ -55,7 +55,7 @@ std::vector<Checker::FormalView> Checker::viewOf(std::span<const BuiltinParam> p
   return out;
 }
 
-/// Of `salt -3`, which is a difference: `salt`, where that is nothing but a parameter of the callee.
+/// For `salt -3`, which is parsed as a difference: `salt`, if that is only a parameter name of the callee.
 NameId Checker::meantByDifference(const ArgNode& arg, const std::vector<FormalView>& formals) const {
   const ExprNode& value = node(arg.value);
   if (arg.name != kNoId || value.kind != ExprKind::binary || value.binary != BinaryOp::subtract) return kNoId;
@@ -81,7 +81,7 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
   for (uint32_t i = 0; i < n.args.count; ++i) {
     ArgNode& arg = program_.ast.args[n.args.first + i];
     if (const NameId name = meantByDifference(arg, formals); name != kNoId) {
-      sink_.error(arg.span, codes::kArgumentName, join({"this is `", text(name), "` less something"}),
+      sink_.error(arg.span, codes::kArgumentName, join({"this is `", text(name), "` minus something"}),
                   join({"to give `", text(name), "` a value below 0, write `", text(name), " = -...`"}));
       arg.value = child(node(arg.value), 1);
       named = true;
@@ -116,7 +116,7 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
       continue;
     }
     if (named) {
-      sink_.error(arg.span, codes::kArgumentName, "an argument without a name behind one with a name",
+      sink_.error(arg.span, codes::kArgumentName, "an argument without a name follows an argument with a name",
                   join({"it is ", signature()}));
       good = false;
       continue;
@@ -214,7 +214,7 @@ void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) 
                                        : join({"add `let ", word, " = ...;`, or `param ", word, " = ...;`"})));
 }
 
-/// Whether something is asked of an import that is missing: an error then.
+/// Reports an error if the receiver is a missing import, and returns whether it is.
 bool Checker::notImported(const ExprNode& receiver, bool shape) {
   const std::string_view word = text(receiver.name);
   if (isValueWord(word)) return false;
@@ -231,7 +231,7 @@ bool Checker::notImported(const ExprNode& receiver, bool shape) {
   return true;
 }
 
-/// Fills ref, id and qualifier of a call or a name; a receiver that is a module is taken off.
+/// Sets ref, id and qualifier of a call or a name; removes a receiver that is a module.
 bool Checker::resolveCallee(ExprId call, bool shape) {
   ExprNode& n = node(call);
   if (n.ref != Ref::none) return true;
@@ -294,7 +294,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
     n.id = static_cast<uint32_t>(builtin->id);
     return true;
   }
-  // A name is marked alone, without its arguments.
+  // Mark only the name, without its arguments.
   span.end = span.begin + static_cast<uint32_t>(text(n.name).size());
   span.end_line = span.line;
   span.end_column = span.column + static_cast<int>(text(n.name).size());

@@ -15,7 +15,7 @@ constexpr size_t kDeepestCalls = 48;
 
 Type Checker::callValue(ExprId id) {
   ExprNode& n = node(id);
-  // A local field hides what has its name outside.
+  // A local field hides an outer declaration of the same name.
   for (auto local = scope_.locals.rbegin(); n.children.count == 0 && local != scope_.locals.rend(); ++local) {
     if (local->name != n.name || n.ref != Ref::none) continue;
     if (local->field == kNoId) break;
@@ -166,7 +166,7 @@ Type Checker::builtinCall(ExprId id) {
   return out;
 }
 
-/// Constants are judged here, what is known later where it is derived.
+/// Checks constants; other values are checked at derivation.
 void Checker::branchRanges(const std::vector<uint32_t>& bound) {
   for (size_t i = 0; i < bound.size(); ++i) {
     const BuiltinParam& param = builtinTable()[static_cast<size_t>(Builtin::branch)].params[i];
@@ -222,12 +222,12 @@ Type Checker::method(ExprId id) {
   return {ValueKind::vector, kLength, false, false};
 }
 
-/// False, with an error, where lets and fields are used within each other too deep.
+/// Returns false, after an error, if uses of lets and fields are nested too deep.
 bool Checker::fitsDeeper(ExprId id) {
   if (open_.size() < kDeepestCalls) return true;
   sink_.error(node(id).span, codes::kTooDeep,
               join({"lets and fields use each other more than ", std::to_string(kDeepestCalls), " deep"}),
-              "put some of them together");
+              "combine some of them");
   return false;
 }
 
@@ -249,7 +249,8 @@ Type Checker::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<T
   }
   constexpr size_t kMostInstances = 20000;
   if (known_.size() >= kMostInstances) {
-    sink_.error(node(id).span, codes::kTooLarge, "more than 20000 lets and fields, one for each kind of its arguments",
+    sink_.error(node(id).span, codes::kTooLarge,
+                "the program has more than 20000 lets and fields, counted once for each kind of arguments",
                 "write fewer of them, or call them with arguments of fewer kinds");
     return {ValueKind::unknown, kRatio, sample, false};
   }
@@ -300,7 +301,7 @@ Type Checker::localFieldUse(ExprId id, const Local& local) {
   if (known != known_local_.end()) return known->second;
   if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, true, false};
   open_.emplace_back(Ref::field, local.field);
-  // The body sees what stood before the field, and the field's own parameters.
+  // The body sees the locals before the field, and the field's own parameters.
   std::vector<Local> outer = scope_.locals;
   scope_.locals.resize(local.depth);
   for (uint32_t i = 0; i < field.formals.count && i < args.size(); ++i) {
@@ -342,7 +343,7 @@ void Checker::primitiveCall(ExprId id) {
     sink_.error(n.span, codes::kArgumentCount, "`halfspace` takes either `below` or `above`",
                 "such as halfspace(below 2m)");
   if (primitive == Primitive::prism && bound.size() > 65)
-    sink_.error(n.span, codes::kArgumentCount, "a prism has 3 to 64 corners", "put it together of several prisms");
+    sink_.error(n.span, codes::kArgumentCount, "a prism has 3 to 64 corners", "build it from several prisms");
 }
 
 }  // namespace sgm

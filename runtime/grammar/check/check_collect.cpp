@@ -48,18 +48,18 @@ void Checker::declare(ModuleSyntax& module, NameId name, Symbol symbol) {
   const std::string_view word = text(name);
   if (!symbol.import && !symbol.asset && (findBuiltin(word) != nullptr || findPrimitive(word) != nullptr)) {
     sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is built in and cannot be declared again"}),
-                join({"another name, such as `", word, "_`"}));
+                join({"choose another name, such as `", word, "_`"}));
     return;
   }
   if (word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u") {
     sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}),
-                join({"another name, such as `", word, "_`"}));
+                join({"choose another name, such as `", word, "_`"}));
     return;
   }
   const auto [at, fresh] = symbols_[module.module].emplace(name, symbol);
   if (!fresh) {
     sink_.error(symbol.span, codes::kDuplicate, join({"`", word, "` is declared twice"}), "rename one of them")
-        .notes.push_back(join({"first at ", sink_.place(at->second.span)}));
+        .notes.push_back(join({"the first is at ", sink_.place(at->second.span)}));
   }
 }
 
@@ -70,7 +70,7 @@ void Checker::collect() {
                   "such as r = 2m or r = 3*0.5m");
     for (const ExprId end : {formal.low_expr, formal.high_expr})
       if (end != kNoId && !literal(end))
-        sink_.error(node(end).span, codes::kNotConstant, "the range of what a rule takes is made of numbers alone",
+        sink_.error(node(end).span, codes::kNotConstant, "the range of a parameter is made of numbers alone",
                     "such as r in 1m..60m");
   }
   auto rootOnly = [&](const ModuleSyntax& module, const Span& span, std::string_view what) {
@@ -153,8 +153,8 @@ uint16_t Checker::tableIndex(std::pmr::vector<std::pmr::string>& table, NameId n
     if (table[i] == word) return static_cast<uint16_t>(i);
   constexpr size_t kMost = 4096;
   if (table.size() >= kMost) {
-    sink_.error(span, codes::kTooLarge, "more than 4096 different names of one kind",
-                "materials, tags and anchors have so many names each; use some of them again");
+    sink_.error(span, codes::kTooLarge, "the program has more than 4096 different names of one kind",
+                "materials, tags and anchors may have that many names each; use some names again");
     return 0;
   }
   table.emplace_back(word);

@@ -14,7 +14,7 @@ constexpr int64_t kWidestEdge = int64_t{16} * 1000 * kUnitsPerMetre;
 
 }  // namespace
 
-/// Numbers, arithmetic and lets without parameters; each let once, however often it is used.
+/// Folds numbers, arithmetic and lets without parameters; each let once, however often it is used.
 std::optional<double> Checker::fold(ExprId id, int depth) {
   if (id == kNoId || depth > 400) return std::nullopt;
   const ExprNode& n = node(id);
@@ -61,7 +61,7 @@ std::optional<double> Checker::constant(ExprId id, Dim dim, std::string_view wha
   const auto value = fold(id, 0);
   if (!value || !std::isfinite(*value)) {
     sink_.error(node(id).span, codes::kNotConstant, join({what, " must be a constant"}),
-                "numbers, arithmetic and lets without parameters");
+                "use numbers, arithmetic and lets without parameters");
     return std::nullopt;
   }
   return value;
@@ -84,7 +84,7 @@ std::optional<Checker::Ends> Checker::rangeOf(ExprId low_expr, ExprId high_expr,
   const auto high = constant(high_expr, dim, "the high end of a range");
   if (!low || !high) return std::nullopt;
   if (*low <= *high) return Ends{*low, *high};
-  sink_.error(node(low_expr).span, codes::kParamRange, "the range is upside down", "write its low end first");
+  sink_.error(node(low_expr).span, codes::kParamRange, "the range is reversed", "write its low end first");
   return std::nullopt;
 }
 
@@ -97,7 +97,7 @@ bool Checker::defaultLies(const Ends& range, ExprId value_expr, double value, Di
   return false;
 }
 
-/// The ranges of what rules, lets and fields take.
+/// Evaluates the ranges of the formals of rules, lets and fields.
 void Checker::formalRanges() {
   for (size_t i = 0; i < program_.ast.formals.size(); ++i) {
     FormalNode& formal = program_.ast.formals[i];
@@ -137,8 +137,7 @@ void Checker::params() {
     if (!value) continue;
     param.value = param.low = param.high = *value;
     if (param.animated && !param.has_range) {
-      sink_.error(param.span, codes::kParamRange,
-                  join({"`", text(param.name), "` is animated, and nothing says between what"}),
+      sink_.error(param.span, codes::kParamRange, join({"`", text(param.name), "` is animated and has no range"}),
                   join({"write its range: `param ", text(param.name), " = ... in LOW..HIGH animated`"}));
       continue;
     }
@@ -165,7 +164,7 @@ void Checker::seedAndDomain() {
       program_.seed = hashText(text(seed.name));
     } else if (const auto value = constant(root.seed, kRatio, "a seed")) {
       if (*value < 0 || *value != std::floor(*value) || *value > 1e9)
-        sink_.error(seed.span, codes::kValueRange, "a seed is a whole number from 0 or a text",
+        sink_.error(seed.span, codes::kValueRange, "a seed is a whole number (0 or more) or a text",
                     "such as seed 7 or seed \"block-17\"");
       else
         program_.seed = static_cast<uint64_t>(*value);
@@ -229,13 +228,14 @@ void Checker::layers() {
                 "remove this start, or the layers");
   if (root.start != kNoId && decl.infinite)
     sink_.error(root.start_span, codes::kDomain, "an infinite domain is derived by layers",
-                "layer name cell 100m reach 50m { start Rule; }");
+                "add `layer name cell 100m reach 50m { start Rule; }`");
   if (!root.layers.empty() && !decl.infinite && !decl.box && !lossy_)
     sink_.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
                 "write `domain infinite;` or `domain finite box(...)`");
   if (root.layers.size() > kMostLayers)
     sink_.error(root.layers[kMostLayers].span, codes::kTooLarge,
-                join({"more than ", std::to_string(kMostLayers), " layers"}), "put rules of several layers into one");
+                join({"the program has more than ", std::to_string(kMostLayers), " layers"}),
+                "put rules of several layers into one");
   if (sink_.errorCount() > before) return;
   if (root.start != kNoId) {
     Layer main(memory);
@@ -262,10 +262,10 @@ void Checker::layers() {
     else if (reach && (*reach < 0 || *reach > kLargest))
       sink_.error(node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long", "such as reach 8m");
     else if (cell && reach) {
-      // Every chunk asks for all cells within reach: the cost of a sample grows with the cube of this.
+      // Every chunk loads all cells within reach: the cost of a sample grows with the cube of this.
       if (*reach > *cell * limits_.neighbours)
         sink_.error(node(l.reach).span, codes::kReachTooLarge,
-                    join({"a reach of more than ", std::to_string(limits_.neighbours), " cells"}),
+                    join({"the reach is more than ", std::to_string(limits_.neighbours), " cells"}),
                     join({"make the cell at least ",
                           metresText(static_cast<double>(*reach) / kUnitsPerMetre / limits_.neighbours), " long"}));
       layer.reach = static_cast<int32_t>(*reach);
@@ -273,7 +273,7 @@ void Checker::layers() {
         layer.cell[axis] = domain.axes[static_cast<size_t>(axis)] ? static_cast<int32_t>(*cell) : 0;
     }
     if (l.detail != kNoId) {
-      // A threshold, which need not be a whole number of units, as that of statements need not.
+      // A threshold need not be a whole number of units, here as in statements.
       std::optional<double> detail = constant(l.detail, kLength, "the detail of a layer");
       if (detail) detail = std::floor(*detail * kUnitsPerMetre + 0.5);
       if (detail && (*detail < 1 || *detail > kLargest))
@@ -284,7 +284,7 @@ void Checker::layers() {
     }
     for (const Layer& other : program_.layers)
       if (other.name == layer.name)
-        sink_.error(l.span, codes::kDuplicate, join({"a second layer `", text(layer.name), "`"}),
+        sink_.error(l.span, codes::kDuplicate, join({"layer `", text(layer.name), "` is declared twice"}),
                     "give it another name");
     program_.layers.push_back(std::move(layer));
   }
@@ -316,7 +316,7 @@ void Checker::sortLayers() {
         uses[l].push_back(found);
     }
   if (sink_.errorCount() > before) return;
-  // Repeatedly the first layer all of whose lower layers are placed: declaration order wherever it is free.
+  // Repeatedly take the first layer whose lower layers are all placed: so declaration order is kept if possible.
   std::vector<uint32_t> order, place(count, kNoId);
   while (order.size() < count) {
     uint32_t next = kNoId;
@@ -351,7 +351,7 @@ void Checker::sortLayers() {
   layers_known_ = true;
 }
 
-/// Who may derive whom, for whoever looks for the uses of one rule.
+/// Stores which rule may derive which, for searches of the uses of a rule.
 void Checker::keepCalls() {
   for (const RuleCall& call : calls_) program_.rules[call.from].calls.push_back(call.to);
   for (Rule& rule : program_.rules) {
@@ -371,7 +371,7 @@ void Checker::expectations() {
       sink_.error(e.span, codes::kSyntax, "an `expect` of a number needs something to compare with",
                   "such as == 1 or in 1..10");
     if (e.of != kNoId && e.measure != Measure::components)
-      sink_.error(e.span, codes::kWrongUse, "only components are of air or solid", "leave the parentheses out");
+      sink_.error(e.span, codes::kWrongUse, "only `components` takes `air` or `solid`", "leave the parentheses out");
     if (const auto above = e.above == kNoId ? std::nullopt : constant(e.above, kVolume, "the size of a piece")) {
       e.above_number = *above;
       if (*above < 0)

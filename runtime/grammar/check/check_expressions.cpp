@@ -30,7 +30,7 @@ constexpr const char* kVectorExample = "such as (1m, 2m, 3m)";
 
 std::string orElse(std::string_view hint, std::string_view other) { return std::string(hint.empty() ? other : hint); }
 
-/// A value of this kind and dimension as it is written.
+/// An example of how to write a value of this kind and dimension.
 std::string_view exampleOf(const Type& type) {
   switch (type.kind) {
     case ValueKind::number:
@@ -51,7 +51,7 @@ std::string_view exampleOf(const Type& type) {
   }
 }
 
-/// What both sides of an operator have to be.
+/// The requirement for both sides of an operator.
 std::string_view ruleOf(BinaryOp op) {
   switch (op) {
     case BinaryOp::add:
@@ -160,9 +160,9 @@ Type Checker::unify(const Type& a, const Type& b, bool& good) const {
 
 Type Checker::expression(ExprId id) {
   if (id == kNoId) return kUnknownType;
-  // Lets within lets add up; what a thread's stack holds must not depend on the text.
+  // Nested lets add up, but the stack depth must not depend on the text.
   if (expression_depth_ >= kDeepestExpressions) {
-    sink_.error(node(id).span, codes::kTooDeep, "lets, fields and expressions within each other go too deep",
+    sink_.error(node(id).span, codes::kTooDeep, "lets, fields and expressions are nested too deep",
                 "use fewer levels of lets");
     return kUnknownType;
   }
@@ -215,7 +215,7 @@ Type Checker::expression(ExprId id) {
       break;
     }
     case ExprKind::logical_not:
-      type = demand(child(n, 0), ValueKind::boolean, kRatio, "what `not` denies", true);
+      type = demand(child(n, 0), ValueKind::boolean, kRatio, "the operand of `not`", true);
       type.kind = ValueKind::boolean;
       break;
     case ExprKind::binary:
@@ -356,7 +356,7 @@ Type Checker::name(ExprId id) {
     value(word == "cell" ? BuiltinValue::cell : BuiltinValue::scope);
     if (!scope_.rule)
       sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is known inside rules only"}),
-                  "hand it to a let as an argument");
+                  "pass it to a let as an argument");
     return word == "cell" ? Type{ValueKind::cell, kRatio, false, false}
                           : Type{ValueKind::vector, kLength, false, false};
   }

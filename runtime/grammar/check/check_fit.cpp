@@ -20,8 +20,8 @@ void Checker::fit(const StmtNode& s) {
   FitNode& fit = program_.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
     const FitZoneNode& zone = program_.ast.fit_zones[fit.zones.first + i];
-    demand(zone.from, ValueKind::number, kLength, "where a zone begins");
-    demand(zone.to, ValueKind::number, kLength, "where a zone ends");
+    demand(zone.from, ValueKind::number, kLength, "the beginning of a zone");
+    demand(zone.to, ValueKind::number, kLength, "the end of a zone");
   }
   const auto& table = symbols_[scope_.module];
   const auto found = table.find(s.name);
@@ -33,8 +33,8 @@ void Checker::fit(const StmtNode& s) {
                            : found->second.import && found->second.id == kNoId && mayBeLost(kNoId, s.name))
     return;
   if (found != table.end()) {
-    sink_.error(fit.name_span, codes::kWrongUse, join({"`", text(s.name), "` is no asset"}),
-                "`fit` takes what is imported from a .glb file, such as `import \"bay.glb\" as bay;`");
+    sink_.error(fit.name_span, codes::kWrongUse, join({"`", text(s.name), "` is not an asset"}),
+                "`fit` takes an asset that is imported from a .glb file, such as `import \"bay.glb\" as bay;`");
     return;
   }
   Suggestion suggestion(text(s.name));

@@ -1,4 +1,4 @@
-// What stands behind a dot and is no call: parts of vectors, cells, faces and segments.
+// Members after a dot that are not calls: parts of vectors, cells, faces and segments.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-/// What a value has behind a dot. Parts of a vector have its dimension.
+/// A member of a kind of value. Parts of a vector have its dimension.
 struct MemberInfo {
   ValueKind of;
   std::string_view name;
@@ -39,7 +39,7 @@ constexpr std::array kMembers = {
     MemberInfo{ValueKind::segment, "depth", Member::depth, kRatioType},
 };
 
-/// The member that was meant, or all there are.
+/// Suggests the intended member, or lists all.
 std::string memberHint(std::string_view word, ValueKind of) {
   if (of == ValueKind::faces || of == ValueKind::segments) return "go through the list: for s in ...";
   Suggestion suggestion(word);

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kDeepestPath = 64;  // DeriveLimits::depth
 constexpr std::string_view kExample = "such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it";
 
-/// Where a part of an address stands in the source. Behind an escaped quote places would be off.
+/// The span of a part of an address in the source. After an escaped quote it would be wrong.
 Span spanIn(const Override& edit, const PathPlace& place) {
   Span span = edit.address_span;
   const uint32_t length = span.end - span.begin - 2;
@@ -25,7 +25,7 @@ Span spanIn(const Override& edit, const PathPlace& place) {
   return span;
 }
 
-/// Every statement of a body, in source order.
+/// Visits every statement of a body, in source order.
 template <class Visit>
 void forEachStatement(const Program& program, StmtId id, const Visit& visit) {
   if (id == kNoId) return;
@@ -35,8 +35,8 @@ void forEachStatement(const Program& program, StmtId id, const Visit& visit) {
   for (uint32_t i = 0; i < s.children.count; ++i) forEachStatement(program, program.idAt(s.children, i), visit);
 }
 
-/// What stands in each room of a treemap: its place in Ast::ids, and its tag, which is the room's name unless a block
-/// says another.
+/// Visits the content of each room of a treemap: its index in Ast::ids, and its tag, which is the room's name unless a
+/// block sets another.
 template <class Visit>
 void forEachRoom(const Program& program, const StmtNode& s, const Visit& visit) {
   for (uint32_t i = 0; s.kind == StmtKind::treemap && i < s.parts.count; ++i) {
@@ -56,13 +56,13 @@ std::set<uint16_t> tagsIn(const Program& program, StmtId body) {
   return tags;
 }
 
-/// The more special an override is, the higher.
+/// Higher for more specific overrides.
 int rankOf(const Override& edit) { return edit.by_tag ? 0 : edit.one_cell ? 2 : 1; }
 
 }  // namespace
 
-/// After all that starts lead to has been checked, so that what overrides name is known, and so that their own names of
-/// materials come last: numbers that the rest has stay as they are without the overrides.
+/// Runs after all rules reachable from starts are checked, so that the names in overrides are known, and so that
+/// materials first named in overrides come last: the other numbers are then the same as without overrides.
 void Checker::overrides() {
   const uint32_t before = sink_.errorCount();
   if (program_.overrides.empty()) return;
@@ -70,12 +70,12 @@ void Checker::overrides() {
   if (!layers_known_) {
     if (before == 0)
       sink_.error(program_.overrides[0].span, codes::kNoStart, "nothing is derived here that could be edited",
-                  "overrides stand in the file with the layers, or with the start");
+                  "put overrides into the file with the layers, or with the start");
     return;
   }
   callees_.assign(program_.rules.size(), {});
   for (const RuleCall& call : calls_) callees_[call.from].emplace(call.to, node(call.call).qualifier);
-  // Overrides of one address derive within each other: each has draws of its own.
+  // Overrides of one address derive within each other, so each needs its own random draws.
   std::map<std::pair<NameId, bool>, uint64_t> same;
   for (Override& edit : program_.overrides) {
     edit.hash = hashCombine(hashText(text(edit.address)), edit.by_tag);
@@ -91,7 +91,7 @@ void Checker::overrides() {
   for (uint32_t o = 0; o < program_.overrides.size() && !sink_.full(); ++o)
     if (program_.overrides[o].by_tag || program_.overrides[o].steps.count > 0) overrideBlock(o);
   checkWaiting();
-  // What rules derive, and which tags they give, may stand in a part of the text that was not parsed.
+  // The unparsed part of the text may have further rules and tags.
   if (sink_.errorCount() > before || lossy_) return;
   overrideTags();
   orderPaths();
@@ -111,7 +111,7 @@ uint32_t Checker::ruleOfStep(uint32_t module, const WrittenStep& step) {
   return rule != table->end() && rule->second.ref == Ref::rule ? rule->second.id : kNoId;
 }
 
-/// The tag that a path which leads nowhere most likely means; or empty.
+/// The tag most likely intended by a path that matches nothing; or empty.
 std::string Checker::tagMeant(std::string_view path) const {
   constexpr std::string_view kTag = "tag";
   if (path.starts_with(kTag) && path.size() > kTag.size() + 1 && (path[3] == ':' || path[3] == ' ' || path[3] == '='))
@@ -126,7 +126,7 @@ std::string Checker::tagMeant(std::string_view path) const {
 void Checker::overridePath(Override& edit) {
   const std::string path(text(edit.address));
   if (const std::string tag = tagMeant(path); !tag.empty()) {
-    sink_.error(edit.address_span, codes::kSyntax, join({"\"", path, "\" is no path of rules"}),
+    sink_.error(edit.address_span, codes::kSyntax, join({"\"", path, "\" is not a path of rules"}),
                 join({"write `override tag ", quoteText(tag), "` for the blocks with that tag"}));
     return;
   }
@@ -140,7 +140,7 @@ void Checker::overridePath(Override& edit) {
     return;
   }
   if (written.steps.size() > kDeepestPath) {
-    sink_.error(edit.address_span, codes::kTooDeep, "rules within rules end at 64 deep",
+    sink_.error(edit.address_span, codes::kTooDeep, "rules may be nested at most 64 deep",
                 "write a path of 64 rules at most");
     return;
   }
@@ -152,7 +152,7 @@ void Checker::overridePath(Override& edit) {
   };
   const auto unknown = [&](const WrittenStep& step, std::string_view who, const std::vector<std::string>& known) {
     if (lossy_) return;
-    // Messages name what is derived within an override by such a step.
+    // Messages use such a step for content derived within an override.
     if (step.name == "override") {
       sink_.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `override`"}),
                   "edit the block of that override");
@@ -233,7 +233,7 @@ bool Checker::overrideCell(Override& edit, const WrittenPath& written) {
   return true;
 }
 
-/// The block stands for every head of the rule, and knows its parameters by the names of the first.
+/// The block replaces every head of the rule, and uses the parameter names of the first.
 void Checker::headsAgree(const Override& edit, uint32_t rule, uint32_t parameter) {
   const auto& heads = program_.rules[rule].alternatives;
   const auto nameIn = [&](const Alternative& head) {
@@ -275,7 +275,7 @@ void Checker::overrideBlock(uint32_t index) {
   override_ = kNoId;
 }
 
-/// Which blocks overrides by tag stand for.
+/// Finds the blocks that overrides by tag replace.
 void Checker::overrideTags() {
   std::set<uint16_t> given;
   for (uint32_t r = 0; r < program_.rules.size(); ++r) {
@@ -305,9 +305,9 @@ void Checker::overrideTags() {
   if (!found.empty()) tagRooms();
 }
 
-/// What stands in a room whose name an override has becomes a block with that tag, as if it had been written.
+/// A room with an overridden name becomes a block with that tag, as if it had been written.
 void Checker::tagRooms() {
-  std::vector<std::pair<uint32_t, uint16_t>> rooms;  // places in Ast::ids
+  std::vector<std::pair<uint32_t, uint16_t>> rooms;  // indices in Ast::ids
   for (const StmtNode& s : program_.ast.stmts) {
     forEachRoom(program_, s, [&](uint32_t place, uint16_t tag) {
       if (program_.overridesOf(tag).count > 0) rooms.emplace_back(place, tag);
@@ -330,7 +330,7 @@ void Checker::tagRooms() {
   }
 }
 
-/// An override of the same address that derives nothing of an earlier one leaves that without any effect.
+/// Sorts the overrides by path by the rules and indices of their steps.
 void Checker::orderPaths() {
   std::pmr::vector<uint32_t>& order = program_.path_overrides;
   for (uint32_t o = 0; o < program_.overrides.size(); ++o)
@@ -344,6 +344,7 @@ void Checker::orderPaths() {
   });
 }
 
+/// Reports an override that does not derive `inner` of an earlier one with the same address, which then has no effect.
 void Checker::hiddenOverrides() {
   const auto same = [&](const Override& a, const Override& b) {
     if (a.by_tag != b.by_tag || a.layer != b.layer || a.one_cell != b.one_cell || a.cell != b.cell) return false;
@@ -367,16 +368,17 @@ void Checker::hiddenOverrides() {
     for (const uint32_t earlier : alike) {
       if (derives || !same(program_.overrides[earlier], edit)) continue;
       sink_
-          .error(edit.address_span, codes::kDuplicate, "this has an override already, which this one leaves out",
+          .error(edit.address_span, codes::kDuplicate,
+                 "this path or tag already has an override, which this one leaves out",
                  "derive it with `inner;`, or remove one of them")
-          .notes.push_back(join({"first at ", sink_.place(program_.overrides[earlier].address_span)}));
+          .notes.push_back(join({"the first is at ", sink_.place(program_.overrides[earlier].address_span)}));
       break;
     }
     alike.push_back(o);
   }
 }
 
-/// Gives each rule its overrides, what they call, and the layers they ask about.
+/// Assigns each rule its overrides, their calls, and the layers they query.
 void Checker::holdOverrides() {
   std::vector<std::set<uint16_t>> tags;
   std::vector<std::vector<uint32_t>> by_path(program_.rules.size());
@@ -396,7 +398,7 @@ void Checker::holdOverrides() {
       }
     };
     for (const Alternative& a : rule.alternatives) tagged(tagsIn(program_, a.body));
-    // The blocks of overrides may have tags as well.
+    // The blocks of overrides may have tags, too.
     while (!open.empty()) {
       const uint32_t o = open.back();
       open.pop_back();
@@ -410,7 +412,7 @@ void Checker::holdOverrides() {
   }
 }
 
-/// `inner` in an override's block is at the level of the layer where the block is and its cuts would be.
+/// `inner` in an override's block is at layer level if cuts in that place would be.
 void Checker::markOverrides(IdRange overrides, bool cuts) {
   for (uint32_t i = 0; i < overrides.count; ++i) markOverride(program_.idAt(overrides, i), cuts);
 }
@@ -421,8 +423,9 @@ void Checker::markOverride(uint32_t index, bool cuts) {
   if (!cuts) return;
   forEachStatement(program_, body, [&](const StmtNode& s) {
     if (s.kind == StmtKind::inner && !s.layer_level)
-      sink_.error(s.span, codes::kWrongUse, "what this derives cuts the domain, and cannot stand within another shape",
-                  "let `inner` stand in the override's own block, under transforms, loops and `detail` alone");
+      sink_.error(s.span, codes::kWrongUse,
+                  "`inner` derives a cut of the domain here, and cannot be inside another shape",
+                  "put `inner` into the override's own block, under transforms, loops and `detail` only");
   });
 }
 

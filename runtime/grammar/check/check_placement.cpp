@@ -1,4 +1,4 @@
-// Transforms, loops and point sets; what cuts take from.
+// Transforms, loops and point sets; the targets of cuts.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Coarse cells skip a detail: a name that is known behind it would have no value there.
+/// Coarse cells skip a detail, so a name declared in it would have no value after it.
 void Checker::detail(const StmtNode& s, bool shrunk) {
   demand(s.expr, ValueKind::number, kLength, "the size of a detail");
   const size_t known = scope_.locals.size();
@@ -34,7 +34,7 @@ void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
                 join({"`for` goes through a range, faces or segments, and this is a ", typeName(source)}),
                 "such as 0..4, cell.links(tree 3) or branch(12, step 6m, turn 25deg)");
   }
-  deriveOnly(s.expr, "what `for` goes through");
+  deriveOnly(s.expr, "the source of `for`");
   const uint32_t slot = scope_.next_slot++;
   program_.ast.stmts[id].slot = slot;
   const size_t locals = scope_.locals.size();
@@ -80,7 +80,7 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
     demand(scatter.distance, ValueKind::number, kLength, "the length of a probe");
     scatter.layer = layerBelow(scatter.layer_name, scatter.span, "probes");
   }
-  if (scatter.within != kNoId) demand(scatter.within, ValueKind::number, kLength, "the most that a gap may be");
+  if (scatter.within != kNoId) demand(scatter.within, ValueKind::number, kLength, "the limit of a gap");
   const size_t locals = scope_.locals.size();
   if (scatter.gap != kNoId) {
     const uint32_t slot = scope_.next_slot++;
@@ -92,7 +92,7 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
   scope_.locals.resize(std::min(locals, scope_.locals.size()));
 }
 
-/// Whether an axis is a name of nothing: an error then.
+/// Reports an error if the axis name is undeclared, and returns whether it is.
 bool Checker::unknownAxis(ExprId axis) {
   const NameId name = node(axis).name;
   const auto named = [name](const Local& local) { return local.name == name; };
@@ -100,7 +100,7 @@ bool Checker::unknownAxis(ExprId axis) {
       std::any_of(scope_.locals.begin(), scope_.locals.end(), named) || mayBeLost(scope_.module, name))
     return false;
   sink_.error(node(axis).span, codes::kUnknownName,
-              join({"the axis of `rot` is x, y, z or a vector, and `", text(name), "` is none"}),
+              join({"the axis of `rot` is x, y, z or a vector, and `", text(name), "` is none of these"}),
               "such as rot(y, 30deg)");
   return true;
 }
@@ -112,7 +112,7 @@ bool Checker::xforms(IdRange range, bool copied) {
     ExprId out[3] = {kNoId, kNoId, kNoId};
     auto axisOf = [&](ExprId id) -> uint8_t {
       const std::string_view word = node(id).kind == ExprKind::name ? text(node(id).name) : std::string_view();
-      // A number of that name, such as the width x of a board, is no axis and hides none.
+      // A number with that name, such as the width x of a board, is not an axis and hides none.
       const auto vector = [&](const Local& local) {
         return text(local.name) == word && local.type.kind == ValueKind::vector;
       };
@@ -124,7 +124,7 @@ bool Checker::xforms(IdRange range, bool copied) {
       case XformKind::at:
       case XformKind::size: {
         const bool at = x.kind == XformKind::at;
-        shrinks = shrinks || !at;  // a scope that does not shrink after all is found by the proof of reach
+        shrinks = shrinks || !at;  // the proof of reach finds scopes that do not shrink after all
         if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
         const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
         if (alone) {
@@ -173,7 +173,7 @@ bool Checker::xforms(IdRange range, bool copied) {
   return shrinks;
 }
 
-/// A cut that stands directly at the level of a layer's start rule takes from the domain.
+/// A cut directly at the level of a layer's start rule cuts from the domain.
 void Checker::markLayerLevel(StmtId id) {
   StmtNode& s = program_.ast.stmts[program_.innermost(id)];
   if (s.kind == StmtKind::cut || s.kind == StmtKind::inner) s.layer_level = true;
@@ -183,14 +183,14 @@ void Checker::markLayerLevel(StmtId id) {
   for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
 }
 
-/// Of a block that something stands before: what it adds to.
+/// For a block after other content, to which its statements add.
 void Checker::idleCutsIn(StmtId block) {
   const IdRange children = program_.stmt(block).children;
   for (uint32_t i = 0; i < children.count; ++i) idleCuts(program_.idAt(children, i), false);
 }
 
-/// A cut takes from what stands before it in its block; where nothing does, it does nothing. `first`: nothing has been
-/// added yet to the block that this statement adds to.
+/// A cut removes from the content before it in its block; without any it has no effect. `first`: the block to which
+/// this statement adds is still empty.
 void Checker::idleCuts(StmtId id, bool first) {
   if (id == kNoId || sink_.full()) return;
   const StmtNode& s = program_.stmt(id);
@@ -214,11 +214,11 @@ void Checker::idleCuts(StmtId id, bool first) {
       return;
     }
     case StmtKind::extrude:
-      // The piece itself stands before them.
+      // The piece itself comes before them.
       if (s.body != kNoId) idleCutsIn(s.body);
       return;
     case StmtKind::treemap:
-      // Rooms and corridors stand before what their blocks say.
+      // Rooms and corridors come before the content of their blocks.
       for (uint32_t i = 0; i < s.children.count; ++i) {
         const StmtId child = program_.idAt(s.children, i);
         const bool open = program_.ast.parts[s.parts.first + i].floor != FloorPart::facade;

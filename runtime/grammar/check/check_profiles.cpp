@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, and roofs.
+// Footprints, their extrusions, and roofs.
 
 #include <algorithm>
 
@@ -45,7 +45,7 @@ void Checker::footprint(StmtId id, const StmtNode& s) {
         sink_.error(plan.span, codes::kArgumentCount, "a polygon has 3 to 64 corners",
                     "such as polygon((0m, 0m), (8m, 0m), (8m, 6m))");
       if (plan.count != kNoId)
-        sink_.error(plan.span, codes::kWrongUse, "`merge` puts rectangles and regular polygons together",
+        sink_.error(plan.span, codes::kWrongUse, "`merge` takes rectangles and regular polygons only",
                     "give the polygon the corners of the whole outline, or merge `rect` or `regular`");
       if (plan.bound.count == 0) plan.bound = store(corners);
       break;
@@ -57,7 +57,7 @@ void Checker::footprint(StmtId id, const StmtNode& s) {
   declareLocal(s.name, s.span, {s.name, slot, {ValueKind::plan, kRatio, false, false}, kNoId, 0});
 }
 
-/// Whether there is nothing of the plan's name here: an error then.
+/// Reports an error if the plan's name is undeclared, and returns whether it is.
 bool Checker::planUnknown(ExprId id) {
   const ExprNode& plan = node(id);
   const auto named = [&](const Local& local) { return local.name == plan.name; };
@@ -73,12 +73,12 @@ bool Checker::planUnknown(ExprId id) {
     if (s.kind != StmtKind::footprint || s.name != plan.name || s.span.file != plan.span.file) continue;
     if (s.span.begin >= here.begin && s.span.end <= here.end) {
       hint = s.span.begin > plan.span.begin
-                 ? "it is known behind its footprint: put that first"
+                 ? "it is known after its footprint: put that first"
                  : "it is known in the block of its footprint: put that into a block around both";
       break;
     }
-    hint = join({"the one of another rule is known here where it is handed over: `rule Name(", word,
-                 ") { ... }` and `Name(", word, ");`"});
+    hint =
+        join({"pass the plan of another rule as an argument: `rule Name(", word, ") { ... }` and `Name(", word, ");`"});
   }
   Suggestion suggestion(word);
   for (const Local& local : scope_.locals)

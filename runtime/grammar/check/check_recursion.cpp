@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-/// Decides which calls of a rule by itself bring an end nearer.
+/// Decides which calls of a rule make progress towards an end by themselves.
 class RecursionCheck {
  public:
   RecursionCheck(const Program& program, const std::vector<RuleCall>& calls, uint32_t steps, DiagnosticSink& sink)
@@ -27,7 +27,7 @@ class RecursionCheck {
     components();
     for (const RuleCall& call : calls_)
       marked.ast.exprs[call.call].circular = component_[call.from] == component_[call.to];
-    // What is left without the calls that bring an end nearer must have no circle.
+    // Without the calls that make progress, no cycle may be left.
     std::vector<uint8_t> mark(program_.rules.size(), 0);
     for (uint32_t root = 0; root < program_.rules.size(); ++root) {
       if (mark[root] != 0) continue;
@@ -102,19 +102,19 @@ class RecursionCheck {
     return frame;
   }
 
-  /// By how much the scales around a call enlarge it, at most.
+  /// An upper bound of the factor by which the scales around a call enlarge it.
   double enlarged(const RuleCall& call, const RangeFrame& frame) {
     double most = 1;
     for (const ScaleAround& scale : call.scales) {
       const double factor = scaleFactor(values_.number(scale.factor, frame)).hi;
-      // The first of the copies stands as it is.
+      // The first copy is not scaled.
       most *= !scale.copied ? factor : factor <= 1 ? 1 : kInfinity;
     }
     return most;
   }
 
-  /// a * f, f * a or a / f with f under 1 (or over, for /): at least halfway certain to shrink. `larger`: what the
-  /// scales around make of it.
+  /// a * f, f * a or a / f with f below 1 (above 1 for /): must certainly shrink at least halfway. `larger`: the factor
+  /// of the scales around it.
   bool shrinks(ExprId id, uint32_t slot, const Alternative& head, double larger = 1) {
     const ExprNode& n = program_.expr(id);
     constexpr double kSurely = 0.999;
@@ -129,7 +129,7 @@ class RecursionCheck {
     return n.binary == BinaryOp::subtract && isSlot(left) && larger <= 1 && values_.number(right, frame).lo > 1e-3;
   }
 
-  /// The condition bounds the slot from below by something that does not fall with it.
+  /// Whether the condition bounds the slot from below by a value that does not decrease with it.
   bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) {
     const ExprNode& n = program_.expr(id);
     if (n.kind != ExprKind::binary) return false;
@@ -154,7 +154,7 @@ class RecursionCheck {
     if (call.from != call.to) return false;
     const ExprNode& n = program_.expr(call.call);
     if (head.minsize != kNoId) {
-      // The size as it comes out is what counts: with all the scales around it.
+      // The final size counts, with all scales around it.
       const double larger = enlarged(call, freeFrame(head));
       if (head.size_slot == kNoId && (larger < 0.999 || (call.shrunk && larger <= 1))) return true;
       if (head.size_slot != kNoId && head.size_slot < n.bound.count &&
@@ -166,13 +166,13 @@ class RecursionCheck {
       bool positive = false;
       const ExprId arg = program_.idAt(n.bound, slot);
       if (!bounds(head.when, slot, positive, head) || !shrinks(arg, slot, head)) continue;
-      // A product comes to rest at 0, so that the bound must lie above it.
+      // A product may converge to 0, so the bound must be above 0.
       if (program_.expr(arg).binary == BinaryOp::subtract || positive) return true;
     }
     return false;
   }
 
-  /// What to write instead.
+  /// A suggestion for the message.
   std::string remedy(const RuleCall& call, const std::string& name) const {
     if (call.from != call.to) return join({"bound it: `rule ", name, " ... depth 8 -> Leaf`"});
     const Alternative& head = program_.rules[call.from].alternatives[call.alternative];
@@ -181,7 +181,7 @@ class RecursionCheck {
                    " ... depth 8 -> Leaf`, `minsize 1m -> Leaf`, or a guard `when n > 0` with n - 1"});
     if (head.size_slot == kNoId)
       return "`minsize` ends it where the scope becomes smaller with each call: put it into a part of a split, or "
-             "behind `size` or `scale(0.7)`; else bound it by `depth 8 -> Leaf`";
+             "after `size` or `scale(0.7)`; else bound it by `depth 8 -> Leaf`";
     const std::string_view size = program_.text(program_.ast.formals[head.formals.first + head.size_slot].name);
     return join({"`minsize` ends it where `", size, "` becomes smaller with each call, such as 0.7*", size,
                  "; else bound it by `depth 8 -> Leaf`"});
@@ -197,7 +197,7 @@ class RecursionCheck {
     if (call.from != call.to)
       d.notes.push_back("only `depth` bounds rules that call each other");
     else if (call.escape)
-      d.notes.push_back("what stands behind `->` must not lead back");
+      d.notes.push_back("the call after `->` must not lead back");
   }
 
   const Program& program_;
@@ -205,7 +205,7 @@ class RecursionCheck {
   DiagnosticSink& sink_;
   std::vector<std::vector<uint32_t>> out_;
   std::vector<uint32_t> component_;
-  uint32_t steps_;  ///< left, of all questions together
+  uint32_t steps_;  ///< the rest of the budget for all queries
   RangeEvaluator values_;
 };
 

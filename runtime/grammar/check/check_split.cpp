@@ -1,4 +1,4 @@
-// Scopes in parts: split and comp.
+// Parts of scopes: split and comp.
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ void Checker::snapStatement(const StmtNode& s, bool shrunk) {
 }
 
 void Checker::splitStatement(const StmtNode& s) {
-  demandRange(s.amount, kLength, "how far the lines of a split snap", kSnapReachRange);
+  demandRange(s.amount, kLength, "the snap reach of a split", kSnapReachRange);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = program_.ast.parts[s.parts.first + i];
     const ExprId size = part.size;
@@ -23,7 +23,7 @@ void Checker::splitStatement(const StmtNode& s) {
     part.relative = !part.flexible && type.kind == ValueKind::number && !type.any_dim && type.dim == kRatio;
     demandType(size, type, ValueKind::number, part.relative ? kRatio : kLength,
                part.flexible ? "a flexible size" : "the size of a part");
-    // Most likely a length without its unit.
+    // Probably a length without its unit.
     if (part.relative && node(size).kind == ExprKind::number && node(size).value > 1)
       sink_.error(node(size).span, codes::kValueRange, "a part cannot be more than 100% of the scope",
                   "write a length, such as 2m, or a share, such as 25%");
@@ -33,7 +33,7 @@ void Checker::splitStatement(const StmtNode& s) {
 
 namespace {
 
-/// The first `box(scope)` of a statement that stands in the scope around it.
+/// The first `box(scope)` of a statement in its enclosing scope.
 ExprId boxOfScope(const Program& program, StmtId id) {
   const StmtNode& s = program.stmt(id);
   if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {
@@ -51,7 +51,7 @@ ExprId boxOfScope(const Program& program, StmtId id) {
   return scope ? s.expr : kNoId;
 }
 
-/// The face of a box, or the outer wall of a room.
+/// Whether the part is a face of a box, or the outer wall of a room.
 bool isFlat(const StmtNode& s, const PartNode& part) {
   if (s.kind == StmtKind::treemap) return part.floor == FloorPart::facade;
   return s.kind == StmtKind::comp && part.of != BoxPart::edges && part.of != BoxPart::inside;

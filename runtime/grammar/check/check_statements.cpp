@@ -9,10 +9,10 @@ namespace sgm {
 
 namespace {
 
-constexpr const char* kWeightHint = "write how often this head comes beside the others, such as weight 2";
+constexpr const char* kWeightHint = "write how often this head is drawn relative to the others, such as weight 2";
 constexpr const char* kShapeHint = "write a shape such as sphere(2m), or a rule";
 
-/// Distance fields are joined by such functions elsewhere.
+/// Other languages combine distance fields with such functions.
 std::string_view shapeHint(const ExprNode& call) {
   if (call.ref != Ref::builtin) return kShapeHint;
   switch (static_cast<Builtin>(call.id)) {
@@ -52,7 +52,7 @@ void Checker::checkRules() {
                          rule.alternatives[0].formals.count == 1 ? " parameter" : " parameters",
                          " in its first head and ", std::to_string(a.formals.count), " in this one"}),
                    "the heads of a rule have the same parameters")
-            .notes.push_back(join({"first at ", sink_.place(rule.alternatives[0].span)}));
+            .notes.push_back(join({"the first is at ", sink_.place(rule.alternatives[0].span)}));
       else
         headRanges(rule, a);
     }
@@ -64,7 +64,7 @@ void Checker::checkRules() {
   }
   if (sink_.errorCount() > before) return;
 
-  // Starts first, then what they call, in order of the first call: types flow from callers to callees.
+  // Starts first, then their callees, in order of the first call: types flow from callers to callees.
   auto startAt = [&](ExprId call) {
     scope_ = {};
     callRule(call, false, false);
@@ -75,7 +75,7 @@ void Checker::checkRules() {
   for (const LayerDecl& layer : syntax_[0].layers) startAt(layer.start);
   checkWaiting();
   overrides();
-  // What a statement with an error would have called is not known.
+  // The calls of a statement with an error are unknown.
   const bool calls_known = sink_.errorCount() == 0;
   for (uint32_t r = 0; r < program_.rules.size() && !sink_.full(); ++r) {
     if (rule_state_[r] != 0) continue;
@@ -96,7 +96,7 @@ void Checker::checkRules() {
     const auto& heads = program_.rules[program_.path_steps[steps.first].rule].alternatives;
     markOverride(o, std::any_of(heads.begin(), heads.end(), [&](const Alternative& a) { return cutsDomain(a.body); }));
   }
-  if (sink_.errorCount() > 0) return;  // what is not understood has nothing before it
+  if (sink_.errorCount() > 0) return;  // cannot be judged after errors
   for (const Rule& rule : program_.rules)
     for (const Alternative& a : rule.alternatives) idleCuts(a.body, false);
   for (uint32_t o = 0; o < program_.overrides.size(); ++o) {
@@ -105,7 +105,7 @@ void Checker::checkRules() {
   }
 }
 
-/// Callers give the same values to all heads: one range holds for them.
+/// Callers give the same values to all heads, so one range applies to them.
 void Checker::headRanges(const Rule& rule, const Alternative& head) {
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     const FormalNode& first = program_.ast.formals[rule.alternatives[0].formals.first + i];
@@ -115,9 +115,9 @@ void Checker::headRanges(const Rule& rule, const Alternative& head) {
     const std::string what = join({"`", text(here.name), "` of `", text(rule.name), "`"});
     sink_
         .error(here.span, codes::kParamRange,
-               first.ranged ? join({"the range of ", what, " is another one than in the first head"})
+               first.ranged ? join({"the range of ", what, " differs from that in the first head"})
                             : join({what, " has a range here and none in the first head"}),
-               "the first head has the range for all of them")
+               "the range in the first head holds for all heads")
         .notes.push_back(join({"the first head is at ", sink_.place(rule.alternatives[0].span)}));
   }
 }
@@ -126,7 +126,7 @@ void Checker::checkWaiting() {
   for (; next_waiting_ < waiting_.size() && !sink_.full(); ++next_waiting_) checkRule(waiting_[next_waiting_]);
 }
 
-/// Lets and fields that nothing uses are right or wrong all the same.
+/// Checks unused lets and fields as well.
 void Checker::checkUnusedValues() {
   std::set<std::pair<Ref, uint32_t>> used;
   for (const auto& [key, type] : known_) used.emplace(std::get<0>(key), std::get<1>(key));
@@ -142,7 +142,7 @@ void Checker::checkUnusedValues() {
 
 void Checker::checkRule(uint32_t rule) {
   rule_state_[rule] = 2;
-  // A rule that is checked again, with a dimension found later, leaves its calls once.
+  // If a rule is checked again, with a dimension found later, drop its earlier calls.
   if (!checked_.insert(rule).second) {
     std::erase_if(calls_, [&](const RuleCall& call) { return call.from == rule; });
     std::erase_if(asked_, [&](const AskedLayer& asked) { return asked.rule == rule; });
@@ -155,7 +155,7 @@ void Checker::checkRule(uint32_t rule) {
   });
   if (never)
     sink_.error(node(heads[0].weight).span, codes::kValueRange,
-                join({"all heads of `", text(program_.rules[rule].name), "` have weight 0, so that none ever comes"}),
+                join({"all heads of `", text(program_.rules[rule].name), "` have weight 0, so none is ever drawn"}),
                 "give one of them a weight above 0");
 }
 
@@ -168,7 +168,7 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
   scope_.rule = true;
   scope_.draws = &draws_;
   Alternative& head = program_.rules[rule].alternatives[alternative];
-  head.size_slot = kNoId;  // a rule that is checked again may know better which parameter is a length
+  head.size_slot = kNoId;  // a second check may know better which parameter is a length
   scales_.clear();
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     FormalNode& formal = program_.ast.formals[head.formals.first + i];
@@ -188,7 +188,7 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
   if (head.depth != kNoId) demand(head.depth, ValueKind::number, kRatio, "a depth");
   constexpr double kDeepest = 64;  // DeriveLimits::depth
   if (head.depth != kNoId && node(head.depth).kind == ExprKind::number && node(head.depth).value > kDeepest)
-    sink_.warning(node(head.depth).span, codes::kValueRange, "rules within rules end at 64 deep",
+    sink_.warning(node(head.depth).span, codes::kValueRange, "rules may be nested at most 64 deep",
                   "a cell that goes deeper is not derived at all");
   if (head.depth_call != kNoId) callRule(head.depth_call, true, false);
   if (head.minsize != kNoId) demand(head.minsize, ValueKind::number, kLength, "a least size");
@@ -202,7 +202,7 @@ void Checker::declareLocal(NameId name, const Span& span, Local local) {
   const std::string_view word = text(name);
   if (word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u") {
     sink_.error(span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}),
-                join({"another name, such as `", word, "_`"}));
+                join({"choose another name, such as `", word, "_`"}));
     return;
   }
   for (const Local& known : scope_.locals)
@@ -217,14 +217,14 @@ void Checker::declareLocal(NameId name, const Span& span, Local local) {
 void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   ExprNode& n = node(call);
   if (n.children.count > 0 && !resolveCallee(call, true)) {
-    sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is no shape"}), kShapeHint);
+    sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is not a shape"}), kShapeHint);
     return;
   }
   resolveCallee(call, true);
   if (n.ref == Ref::primitive) return primitiveCall(call);
   if (n.ref != Ref::rule) {
     if (n.ref != Ref::none)
-      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}),
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is not a shape"}),
                   std::string(shapeHint(n)));
     for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
     return;
@@ -250,7 +250,7 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   }
   if (!good) return;
   if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk, scales_});
-  // It brings no circle of calls: below its own block no override holds again.
+  // It adds no cycle of calls: in its own block no override applies again.
   if (override_ != kNoId) override_calls_[override_].push_back(rule);
   if (rule_state_[rule] == 0) {
     rule_state_[rule] = 1;
@@ -297,7 +297,7 @@ void Checker::statement(StmtId id, bool shrunk) {
         if (*slot != 0)
           sink_.error(
               child_node.span, codes::kDuplicate,
-              child_node.kind == StmtKind::mat ? "a second `mat` in this block" : "a second `tag` in this block",
+              child_node.kind == StmtKind::mat ? "this block has a second `mat`" : "this block has a second `tag`",
               "it holds for the whole block; open another block for the other");
         *slot = static_cast<uint16_t>(child_node.extra);
       }
@@ -411,7 +411,7 @@ bool Checker::sumLeaf(StmtId id) {
 }
 
 void Checker::morphStatement(const StmtNode& node_in, bool shrunk) {
-  demand(node_in.expr, ValueKind::number, kRatio, "how far to morph", true);
+  demand(node_in.expr, ValueKind::number, kRatio, "the t of a morph", true);
   for (uint32_t i = 0; i < 2; ++i) {
     const StmtId operand = program_.idAt(node_in.children, i);
     statement(operand, shrunk);
@@ -435,7 +435,7 @@ void Checker::localField(const StmtNode& s) {
   scope_.slot_count = std::max(scope_.slot_count, scope_.next_slot);
   field.slot_count = scope_.slot_count;
   if (field.formals.count > 0) return;
-  // Without parameters it can be checked where it stands, used or not.
+  // Without parameters it can be checked here, used or not.
   const size_t locals = scope_.locals.size();
   scope_.locals.resize(local.depth);
   const bool in_field = std::exchange(scope_.field, true);

@@ -1,4 +1,4 @@
-// Floors in rooms: treemap and the links in it.
+// Floor plans: treemap and its links.
 
 #include <algorithm>
 
@@ -29,7 +29,7 @@ void Checker::treemap(const StmtNode& s) {
       demandRange(part.size, kRatio, "the area of a room", kRoomAreaRange);
       part.tag = tableIndex(program_.tags, part.label, part.span);
       if (std::find(rooms.begin(), rooms.end(), part.label) != rooms.end())
-        sink_.error(part.span, codes::kDuplicate, join({"a second room `", text(part.label), "` in this treemap"}),
+        sink_.error(part.span, codes::kDuplicate, join({"this treemap has a second room `", text(part.label), "`"}),
                     "give each room a name of its own");
       rooms.push_back(part.label);
     }
@@ -37,7 +37,7 @@ void Checker::treemap(const StmtNode& s) {
       sink_.error(
           part.span, codes::kDuplicate,
           join({"`", part.floor == FloorPart::corridor ? "corridor" : "facade", "` stands twice in this treemap"}),
-          "put both into one block behind it");
+          "put both into one block after it");
   }
   if ((rooms.empty() && !isLossy(s)) || rooms.size() > kMostRooms)
     sink_.error(s.span, codes::kArgumentCount, "a treemap has 1 to 32 rooms", "such as `living 28: Room;`");
@@ -51,7 +51,7 @@ void Checker::treemap(const StmtNode& s) {
     if (std::find(linked.begin(), linked.end(), std::pair<uint32_t, uint32_t>(pair)) != linked.end())
       sink_.error(door.span, codes::kDuplicate,
                   join({"`", text(door.name), "` and `", text(door.name2), "` are linked twice"}),
-                  "one door between two rooms, as wide as the widest of these");
+                  "keep one door between two rooms, as wide as the widest of these");
     linked.emplace_back(pair);
   }
   partStatements(s);

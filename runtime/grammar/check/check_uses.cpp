@@ -1,4 +1,4 @@
-// How often a rule can derive another: overrides of uses that never come are told of.
+// Counts how often a rule can derive another, to report overrides of uses that never occur.
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,7 @@ constexpr uint32_t kAnyNumber = std::numeric_limits<uint32_t>::max();
 
 uint32_t sum(uint32_t a, uint32_t b) { return a > kAnyNumber - b ? kAnyNumber : a + b; }
 
-/// How often a part of a split, a comp or a treemap may stand there.
+/// The most instances of a part of a split, a comp or a treemap.
 uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   switch (s.kind) {
     case StmtKind::split:
@@ -27,7 +27,7 @@ uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   }
 }
 
-/// How often one run of a statement comes to those that count, at most; kAnyNumber where loops or point sets repeat it.
+/// The most counted statements that one run of a statement reaches; kAnyNumber if loops or point sets repeat them.
 template <typename Counts>
 uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   if (id == kNoId) return 0;
@@ -60,14 +60,14 @@ uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   }
 }
 
-/// The most uses of a rule that one run of a statement derives itself.
+/// The most uses of a rule that one run of a statement derives directly.
 uint32_t usesIn(const Program& program, StmtId id, uint32_t rule) {
   return timesIn(program, id, [&](const StmtNode& s) {
     return s.kind == StmtKind::call && program.expr(s.expr).ref == Ref::rule && program.expr(s.expr).id == rule;
   });
 }
 
-/// Whether the block of an override may derive more than once what was there.
+/// Whether the block of an override may derive the replaced content more than once.
 bool copies(const Program& program, const Override& edit) {
   return timesIn(program, edit.body, [](const StmtNode& s) { return s.kind == StmtKind::inner; }) > 1;
 }
@@ -76,8 +76,7 @@ uint32_t usesInCall(const Program& program, ExprId call, uint32_t rule) {
   return call != kNoId && program.expr(call).ref == Ref::rule && program.expr(call).id == rule ? 1 : 0;
 }
 
-/// The most uses of a rule below one use of another. One head is taken of those without `lod`, and one of those with
-/// each.
+/// The most uses of a rule below one use of another. One head without `lod` is derived, and one head of each `lod`.
 uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
   uint32_t plain = 0, by_level = 0;
   for (const Alternative& head : parent.alternatives) {
@@ -109,7 +108,7 @@ void Checker::usesThatNeverCome() {
       sink_.warning(edit.address_span, codes::kIdleOverride,
                     join({"`", text(program_.rules[parent].name), "` derives `", name, "` ",
                           most == 1 ? "once" : std::to_string(most) + " times", " at most: `", name, "[",
-                          std::to_string(step.index), "]` never comes"}),
+                          std::to_string(step.index), "]` is never derived"}),
                     join({"the last is `", name, "[", std::to_string(most - 1), "]`"}));
       break;
     }

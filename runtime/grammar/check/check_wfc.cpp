@@ -1,4 +1,4 @@
-// Lattices of tiles: labels, and whether every side can be met.
+// Lattices of tiles: labels, and whether every side has a match.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ constexpr size_t kUpright = 4;
 
 size_t opposite(size_t side) { return side < kUpright ? (side + 2) % kUpright : 9 - side; }
 
-/// Whether a socket says what this side has to meet.
+/// Whether a socket applies to this side.
 bool saysSide(const SocketNode& socket, size_t side) {
   return static_cast<size_t>(socket.of) == side || (socket.of == BoxPart::side && side < kUpright);
 }
@@ -53,13 +53,13 @@ void Checker::wave(const StmtNode& s) {
     const PartNode& part = program_.ast.parts[s.parts.first + i];
     if (part.label == kNoId) {
       if (borders++ > 0)
-        sink_.error(part.span, codes::kDuplicate, "a second border in this wfc",
+        sink_.error(part.span, codes::kDuplicate, "this wfc has a second border",
                     "put its sides into the first one, with a `,` between them");
       continue;
     }
     demandRange(part.size, kRatio, "the weight of a tile", kTileWeightRange);
     if (std::find(tiles.begin(), tiles.end(), part.label) != tiles.end())
-      sink_.error(part.span, codes::kDuplicate, join({"a second tile `", text(part.label), "` in this wfc"}),
+      sink_.error(part.span, codes::kDuplicate, join({"this wfc has a second tile `", text(part.label), "`"}),
                   "give each tile a name of its own");
     tiles.push_back(part.label);
   }
@@ -115,14 +115,14 @@ void Checker::waveSides(const StmtNode& s) {
   program_.ast.side_kinds.insert(program_.ast.side_kinds.end(), kinds.begin(), kinds.end());
 }
 
-/// A side that nothing meets, however tiles stand, is most likely misspelt.
+/// A side without any match, in any rotation of the tiles, is probably misspelt.
 void Checker::waveAnswers(const StmtNode& s) {
   if (sink_.errorCount() > 0) return;
   const WaveNode& wave = program_.ast.waves[s.extra];
   const SideKind* kinds = program_.ast.side_kinds.data() + wave.kinds.first;
   const auto turnsOf = [](const TileNode& tile, size_t side) { return tile.turns && side < kUpright ? kUpright : 1; };
   const auto turned = [](size_t side, size_t turn) { return side < kUpright ? (side + turn) % kUpright : side; };
-  // A border that is not named meets anything, but is no answer: most places do not lie there.
+  // An unnamed border matches anything, but does not count: most places do not lie there.
   std::array<std::vector<SideKind>, kSides> tiles, border;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = program_.ast.parts[s.parts.first + i];
@@ -163,7 +163,7 @@ void Checker::waveAnswers(const StmtNode& s) {
   }
 }
 
-/// there: labels of what stands across, for one that was meant.
+/// there: labels on the opposite side, one of which may be intended.
 void Checker::unmetSide(const PartNode& part, const SocketNode& socket, size_t side, uint64_t there,
                         const WaveNode& wave) {
   const IdRange meets = socket.meets.count > 0 ? socket.meets : socket.labels;
@@ -175,7 +175,7 @@ void Checker::unmetSide(const PartNode& part, const SocketNode& socket, size_t s
   const std::string also = socket.meets.count > 0 ? join({", and let it meet ", labelsText(socket.labels)}) : "";
   if (part.label == kNoId)
     sink_.error(socket.span, codes::kUnknownName,
-                join({"no tile has ", wanted, " on its ", word, ", as this border demands"}),
+                join({"no tile has ", wanted, " on its ", word, ", as this border requires"}),
                 suggestion.hintOr(join({"give a tile that label there", also})));
   else
     sink_.error(socket.span, codes::kUnknownName,

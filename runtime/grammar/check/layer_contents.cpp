@@ -1,5 +1,5 @@
-// What a layer gives at all: the levels at which it shows, which are those whose cells are not larger than every
-// `detail` around what it derives, and whether it has anchors. Layers that give nothing need not be derived.
+// The content of a layer: the levels at which it is visible, that is, those with cells no larger than every `detail`
+// around its content, and whether it has anchors. Layers without content need not be derived.
 
 #include <algorithm>
 #include <limits>
@@ -14,7 +14,7 @@ namespace sgm {
 namespace {
 
 struct Contents {
-  int32_t coarsest_cell = 0;  ///< as in Layer; 0: shows nothing
+  int32_t coarsest_cell = 0;  ///< as in Layer; 0: invisible
   bool by_level = false;      ///< as in Layer
   bool anchors = false;
 
@@ -27,7 +27,7 @@ struct Contents {
   friend bool operator==(const Contents&, const Contents&) = default;
 };
 
-/// Of each rule the least contents that agree with each other, found from below, so that rules may call each other.
+/// The least consistent contents of each rule, found bottom-up, so that rules may call each other.
 class RuleContents {
  public:
   RuleContents(const Program& program, uint32_t steps)
@@ -61,7 +61,7 @@ class RuleContents {
   }
 
  private:
-  /// Rules after those that they call, as far as they do not call each other: then one pass finds all, and one
+  /// Orders rules after those that they call, unless they call each other: then one pass finds all, and a second one
   /// confirms.
   void orderFrom(ExprId start) {
     if (start == kNoId || program_.expr(start).ref != Ref::rule || ordered_[program_.expr(start).id]) return;
@@ -115,7 +115,7 @@ class RuleContents {
     return all;
   }
 
-  /// The most that a length may be, in units, at least 1.
+  /// An upper bound of a length, in units, at least 1.
   int32_t mostOf(ExprId length) {
     const double most = values_.number(length, frame_).hi * kUnitsPerMetre + 1;
     constexpr int32_t kLargest = std::numeric_limits<int32_t>::max();
@@ -126,7 +126,7 @@ class RuleContents {
   const Program& program_;
   uint32_t steps_;
   RangeEvaluator values_;
-  RangeFrame frame_;  ///< in which nothing is known of arguments, scopes, places and cells
+  RangeFrame frame_;  ///< without knowledge of arguments, scopes, places and cells
   std::vector<Contents> of_rule_;
   std::vector<bool> ordered_;
   std::vector<uint32_t> order_;

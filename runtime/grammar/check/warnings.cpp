@@ -12,7 +12,7 @@
 namespace sgm {
 namespace {
 
-/// What the root's text refers to.
+/// The declarations that the root's text uses.
 struct Uses {
   std::set<std::pair<Ref, uint32_t>> values;
   std::set<NameId> qualifiers;
@@ -76,7 +76,7 @@ class Unused {
     sink_.warning(span, codes::kUnusedValue, join({"nothing uses the ", what, " `", program_.text(name), "`"}), hint);
   }
 
-  /// Paths of overrides name rules of imports too.
+  /// Paths of overrides also name rules of imports.
   bool inPaths(uint32_t module) const {
     return std::any_of(program_.path_steps.begin(), program_.path_steps.end(),
                        [&](const PathStep& step) { return program_.rules[step.rule].module == module; });
@@ -100,14 +100,14 @@ class Unused {
   const Uses uses_;
 };
 
-/// The values of one expression with which a guard holds: low to high, ends as said.
+/// The values of one expression for which a guard holds: low to high, with open or closed ends.
 struct GuardRange {
   ExprId asked = kNoId;
   double low = -kInfinity, high = kInfinity;
   bool low_open = false, high_open = false;
 };
 
-/// A number as it is written, its unit counted.
+/// The value of a literal, with its unit.
 std::optional<double> literalValue(const Program& program, ExprId id) {
   const ExprNode& n = program.expr(id);
   if (n.kind == ExprKind::number) return n.value;
@@ -148,8 +148,8 @@ std::optional<GuardRange> rangeOf(const Program& program, ExprId guard) {
   }
 }
 
-/// Whether two expressions are the same name, or the same member of the same value. Parameters of a rule are told by
-/// their place: heads may call one parameter by different names.
+/// Whether two expressions are the same name, or the same member of the same value. Parameters of a rule are compared
+/// by position: heads may use different names for one parameter.
 bool sameValue(const Program& program, ExprId a, ExprId b) {
   const ExprNode &l = program.expr(a), &r = program.expr(b);
   if (l.kind != r.kind || l.ref != r.ref || l.member != r.member) return false;
@@ -158,7 +158,7 @@ bool sameValue(const Program& program, ExprId a, ExprId b) {
   return l.kind == ExprKind::name && l.id == r.id;
 }
 
-/// Which values are whole numbers, whatever the parameters are and wherever rules are called.
+/// Finds values that are always whole numbers, for all parameters and calls.
 class WholeNumbers {
  public:
   explicit WholeNumbers(const Program& program) : program_(program) {
@@ -181,7 +181,7 @@ class WholeNumbers {
   }
 
  private:
-  /// What the locals of an expression are slots of.
+  /// The owner of the slots of an expression's locals.
   struct Frame {
     uint32_t rule;
     Span head;
@@ -215,7 +215,7 @@ class WholeNumbers {
     return false;
   }
 
-  /// Of a rule that calls itself: whole unless another call says otherwise.
+  /// For recursive rules: whole unless another call contradicts.
   bool isWholeFormal(uint32_t rule, uint32_t formal) {
     if (!formals_.emplace(rule, formal).second) return true;
     const std::vector<ExprId>& calls = calls_[rule];
@@ -225,7 +225,7 @@ class WholeNumbers {
     });
   }
 
-  /// The variable of a loop, or a let, with that slot.
+  /// For the variable of a loop, or a let, in that slot.
   bool isWholeIn(StmtId id, uint32_t slot) {
     if (id == kNoId) return false;
     const StmtNode& s = program_.stmt(id);
@@ -240,10 +240,10 @@ class WholeNumbers {
   const Program& program_;
   std::vector<Frame> frames_;
   std::map<uint32_t, std::vector<ExprId>> calls_;    ///< by rule
-  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< that are being asked about
+  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< being evaluated
 };
 
-/// The whole numbers of a range.
+/// The whole numbers in a range.
 GuardRange wholeOf(GuardRange range) {
   range.low = range.low_open ? std::floor(range.low) + 1 : std::ceil(range.low);
   range.high = range.high_open ? std::ceil(range.high) - 1 : std::floor(range.high);
@@ -274,8 +274,8 @@ namespace {
 
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Whether one has a letter more than the other, or two neighbours the other way round: `bric` and `brick`. Another
-/// letter alone may be another word, such as glass and grass.
+/// Whether one has an additional letter, or two neighbouring letters swapped: `bric` and `brick`. A different letter
+/// may make another word, such as glass and grass.
 bool misspelt(std::string_view a, std::string_view b) {
   if (a.size() > b.size()) std::swap(a, b);
   if (a.size() < 4 || b.size() > a.size() + 1) return false;
@@ -295,19 +295,19 @@ void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
     ++uses[s.extra];
     if (s.span.file == 0) first.emplace(s.extra, s.span);
   }
-  // What imports, assets and the domain say is right; of two that are used as often, the earlier one in the text.
+  // Names in imports, assets and the domain are right; of two equally frequent names, the earlier one in the text.
   const auto rank = [&](uint32_t material) {
     const auto place = first.find(material);
     return place == first.end() ? std::pair(SIZE_MAX, int64_t{0})
                                 : std::pair(uses[material], -int64_t{place->second.begin});
   };
   for (const auto& [material, span] : first) {
-    if (material == 0) continue;  // of a rule that nothing derives
+    if (material == 0) continue;  // used only in a rule that is never derived
     for (uint32_t other = 1; other < program.materials.size(); ++other) {
       const std::string_view name(program.materials[material]), theirs(program.materials[other]);
       if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;
       sink.warning(span, codes::kNearName,
-                   join({"the material `", name, "` is spelt almost as `", theirs, "`, which is here as well"}),
+                   join({"the material `", name, "` is spelt almost like `", theirs, "`, which is used as well"}),
                    join({"did you mean `", theirs, "`?"}));
       break;
     }
@@ -327,10 +327,10 @@ void warnOfOverlaps(const Program& program, DiagnosticSink& sink) {
       for (const auto& [other, theirs] : before) {
         if (!sameValue(program, range->asked, theirs.asked) || !overlap(*range, theirs)) continue;
         sink.warning(program.expr(head.when).span, codes::kGuards,
-                     join({"this guard of `", program.text(rule.name), "` and an earlier one can hold together"}),
+                     join({"this guard of `", program.text(rule.name), "` and an earlier one can both hold"}),
                      "one of their heads is drawn then: let one exclude the other, or give both a `weight` if that is "
                      "meant")
-            .notes.push_back(join({"the earlier one at ", sink.place(program.expr(other->when).span)}));
+            .notes.push_back(join({"the earlier one is at ", sink.place(program.expr(other->when).span)}));
         break;
       }
       before.emplace_back(&head, *range);

@@ -1,5 +1,5 @@
 #pragma once
-// What is right, and yet hardly meant: names that nothing uses, heads of a rule that come together.
+// Warns of valid but probably unintended code: unused names, overlapping heads of a rule.
 
 #include <span>
 
@@ -9,16 +9,16 @@
 
 namespace sgm {
 
-/// Of a checked program without errors: parameters, lets, fields and imports of the root that nothing uses. A root
-/// without layers or start is there to be imported: it is not warned of.
+/// Warns of unused parameters, lets, fields and imports of the root. Precondition: a checked program without errors. A
+/// root without layers or start is meant for import, and not warned of.
 void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, DiagnosticSink& sink);
 
-/// Of a checked program without errors: heads of a rule without `weight` whose guards ask about the same value, and
-/// that can hold together, so that one of them is drawn by chance. Guards that ask for more are not understood.
+/// Warns of heads of a rule without `weight` whose guards test the same value and can hold together, so that one of
+/// them is drawn by chance. Understands only simple guards. Precondition: a checked program without errors.
 void warnOfOverlaps(const Program& program, DiagnosticSink& sink);
 
-/// Of a checked program without errors: materials of the root that are spelt almost as another one is, which is used as
-/// often or more. Materials have no list: they are what the host makes of their names.
+/// Warns of materials of the root whose names are almost equal to another one, which is used as often or more often.
+/// Materials have no declaration: the host interprets their names. Precondition: a checked program without errors.
 void warnOfMaterials(const Program& program, DiagnosticSink& sink);
 
 }  // namespace sgm

@@ -1,28 +1,28 @@
-// Ranges of what rules, lets and fields take: what is given to them is held against these where its range is known.
+// Compares arguments of rules, lets and fields with the declared ranges, if the range of the argument is known.
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "base/math.h"
-#include "grammar/check/check.h"
 #include "grammar/range/argument_ranges.h"
 #include "grammar/text/codes.h"
+#include "grammar/text/limits.h"
 
 namespace sgm {
 
 namespace {
 
-constexpr double kSlack = 1e-9;  ///< of the size of an end: what intervals are widened by when they are computed
+constexpr double kSlack = 1e-9;  ///< relative: the widening of intervals during their computation
 
-/// A unit of numbers as they are written, behind them.
+/// A unit as written after a number.
 struct Unit {
   std::string_view name;
   Dim dim;
   double value;
 };
 
-/// The first of each dimension stands where the range has none of them.
+/// The first unit of each dimension is used if the range has none.
 constexpr Unit kUnits[] = {{"m", kLength, 1},     {"cm", kLength, 0.01},      {"mm", kLength, 0.001},
                            {"km", kLength, 1000}, {"deg", kAngle, kPi / 180}, {"rad", kAngle, 1},
                            {"m2", kArea, 1},      {"m3", kVolume, 1},         {"", kRatio, 1},
@@ -33,12 +33,12 @@ std::string_view sourceText(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// What stands behind the digits of a number.
+/// The text after the digits of a number.
 std::string_view unitName(std::string_view number) {
   return number.substr(std::min(number.find_last_of("0123456789.)") + 1, number.size()));
 }
 
-/// The unit of both ends of a range, or the first one of its dimension.
+/// The unit used by both ends of a range, or the first one of its dimension.
 Unit unitOf(const Program& program, const FormalNode& formal) {
   const std::string_view name = unitName(sourceText(program, formal.high_expr));
   const bool both = unitName(sourceText(program, formal.low_expr)) == name;
@@ -51,7 +51,7 @@ Unit unitOf(const Program& program, const FormalNode& formal) {
   return first != nullptr ? *first : Unit{"", formal.dim, 1};
 }
 
-/// A value outside of the range as a person writes it: of six digits where these do not bring it into the range.
+/// A value outside of the range for a message: with six digits, unless these would bring it into the range.
 std::string valueText(double value, const FormalNode& formal, const Unit& unit) {
   const double exact = value / unit.value;
   char digits[40];
@@ -71,7 +71,7 @@ std::string intervalText(Interval given, const FormalNode& formal, const Unit& u
   return join({text(given.lo), "..", text(given.hi)});
 }
 
-/// "`karst.Hall`", as the caller writes it.
+/// "`karst.Hall`", as written by the caller.
 std::string calleeName(const Program& program, const ExprNode& call) {
   if (call.qualifier == kNoId) return join({"`", program.text(call.name), "`"});
   return join({"`", program.text(call.qualifier), ".", program.text(call.name), "`"});
@@ -126,7 +126,7 @@ void RangeEvaluator::judge(ExprId id, IdRange formals, std::span<const RangeValu
     const std::pair key(argument, caller);
     if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
     if (value.lo >= low && value.hi <= high) continue;
-    // Of what has no bound nothing is known, and nobody can bound what the library computes.
+    // Nothing is known of an unbounded value, and the author cannot bound values that the library computes.
     if (!certain && (loose_ > 0 || !value.bounded() || caller != kNoId)) continue;
     const Misfit misfit{argument, id, caller, formals.first + i, value, certain, loose_ > 0};
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
@@ -146,7 +146,7 @@ std::vector<Misfit> RangeEvaluator::takeMisfits() {
   std::set<ExprId> callers;
   for (const Misfit& misfit : misfits_) {
     if (misfit.loose && loosely_fitting_.contains({misfit.argument, misfit.caller})) continue;
-    // Of a library's caller one fault is enough: what is given to it makes the others.
+    // Report one misfit for each caller of the library: its arguments cause the others.
     if (misfit.caller == kNoId || callers.insert(misfit.caller).second) out.push_back(misfit);
   }
   misfits_.clear();

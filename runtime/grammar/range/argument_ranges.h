@@ -1,5 +1,5 @@
 #pragma once
-// What is said of arguments that do not lie in the range of what they are given to.
+// Reports arguments outside of the ranges of their parameters.
 
 #include <span>
 
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// Errors for what is certain, warnings for the rest: at the argument, or at the library's caller.
+/// Reports certain misfits as errors, others as warnings: at the argument, or at the library's caller.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
 
 }  // namespace sgm

@@ -12,7 +12,7 @@ namespace {
 
 using Limits = AutomatonLimits;
 
-/// Also where one of them is not a number.
+/// True also if one end is NaN.
 bool liesOutside(Interval v, double least, double most) { return !(v.lo <= most && v.hi >= least); }
 
 std::string fromTo(int32_t least, int32_t most) {
@@ -39,7 +39,7 @@ std::optional<AutomatonFault> faultOf(const AutomatonArguments& a, int32_t cell)
     return AutomatonFault{3, "the threshold of `ca` is from 0% to 100%", "such as threshold 50%"};
   }
   if (liesOutside(a.radius, 1, Limits::most_radius)) {
-    return AutomatonFault{4, join({"the radius of `ca` is ", fromTo(1, Limits::most_radius), " voxels, a number"}),
+    return AutomatonFault{4, join({"the radius of `ca` is a number, ", fromTo(1, Limits::most_radius), " voxels"}),
                           "such as radius 1"};
   }
   if (a.rounds.lo * a.radius.lo > Limits::most_halo) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the arguments of `ca` may be, for the compiler, which knows ranges, and for derivation, which knows values.
+// The valid arguments of `ca`, for the compiler, which knows ranges, and for derivation, which knows values.
 
 #include <optional>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace sgm {
 
-/// In the order in which they are written. The voxel in metres; counts already whole.
+/// In the order of writing. The voxel is in metres; counts are already whole.
 struct AutomatonArguments {
   Interval voxel, fill, rounds, threshold, radius;
 };
 
 struct AutomatonFault {
-  uint32_t argument = 0;  ///< which of those
+  uint32_t argument = 0;  ///< index of the argument
   std::string message, hint;
 };
 
-/// The first that is wrong for sure. cell: edge of the layer's cell in units, greater than 0.
+/// The first argument that is certainly wrong. cell: edge of the layer's cell in units, above 0.
 std::optional<AutomatonFault> faultOf(const AutomatonArguments& arguments, int32_t cell);
 
 }  // namespace sgm

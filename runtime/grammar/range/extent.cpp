@@ -17,8 +17,8 @@ double boxRadius(const IntervalVector& box) {
   return std::sqrt(sum) * (1 + 1e-12);
 }
 
-/// By how much a sum of at most `count` shapes may be displaced: its field ends at the kernel's threshold, in units of
-/// the kernel's slope at the largest leaf. derive/bounds.cpp keeps room for rounding with every shape.
+/// The largest displacement of a sum of at most `count` shapes: its field ends at the kernel's threshold, in units of
+/// the kernel's slope at the largest leaf. derive/bounds.cpp adds room for rounding with every shape.
 double sumLimit(double inner, double count) {
   constexpr double kInverse = 1 / (kSupport * kSupport), kBase = 1 - kInverse;
   const double left = kBase * kBase * kBase - 1e-6 * (count + 1);
@@ -47,7 +47,7 @@ Hull Hull::everywhere() {
 }
 
 void Hull::merge(const Hull& other) {
-  // Both are within the smaller ball about a core that takes in the rest of the larger one.
+  // Both lie within the smaller ball around a core that includes the rest of the larger ball.
   const double least = std::min(ball, other.ball);
   const IntervalVector mine = grown(core, ball - least), theirs = grown(other.core, other.ball - least);
   for (size_t i = 0; i < 3; ++i) {
@@ -85,7 +85,7 @@ void Hull::rotate(int axis, Interval angle) {
   core[a] = within(c * x - s * y);
   core[b] = within(s * x + c * y);
   may = grown(core, ball);
-  may[static_cast<size_t>(axis)] = along;  // a turn leaves heights along its axis
+  may[static_cast<size_t>(axis)] = along;  // rotation keeps heights along its axis
 }
 
 void Hull::scale(Interval factor) {
@@ -124,7 +124,7 @@ Extent Extent::leaf(const IntervalVector& lower, const IntervalVector& upper, do
   for (size_t i = 0; i < 3; ++i) {
     e.at.may[i] = {std::min(lower[i].lo, upper[i].lo), std::max(lower[i].hi, upper[i].hi)};
     e.at.core[i] = {e.at.may[i].lo + ball, e.at.may[i].hi - ball};
-    // The ends less the ball meet in the middle but for rounding.
+    // The ends minus the ball meet in the middle, except for rounding.
     if (e.at.core[i].lo > e.at.core[i].hi) e.at.core[i] = Interval::exactly((e.at.may[i].lo + e.at.may[i].hi) / 2);
     e.sure_lo[i] = lower[i].hi;
     e.sure_hi[i] = upper[i].lo;
@@ -143,7 +143,7 @@ double Extent::size() const {
 }
 
 void Extent::blame(ExprId call) {
-  // What has no bound at all is best shown where it starts, anything else where the layer's own rule calls it.
+  // An unbounded extent is best shown where it starts, any other where the layer's own rule calls it.
   if (culprit != kNoId && !std::isfinite(culprit_size)) return;
   culprit = call;
   inside = kNoId;
@@ -205,10 +205,10 @@ void Extent::intersect(const Extent& other) {
   IntervalVector both;
   for (size_t i = 0; i < 3; ++i) {
     both[i] = {std::max(at.may[i].lo, other.at.may[i].lo), std::min(at.may[i].hi, other.at.may[i].hi)};
-    // Apart, they may meet once they are displaced: in what lies between.
+    // Separate operands may meet after displacement, in the space between.
     if (both[i].lo > both[i].hi) both[i] = {both[i].hi, both[i].lo};
   }
-  // Turned, each operand has a box of its own and the smallest must do.
+  // If turned, each operand has its own box; use the smallest.
   if (other.at.core_radius + other.at.ball < at.core_radius + at.ball) {
     at = other.at;
     turned_spread = other.turned_spread;
@@ -237,7 +237,7 @@ void Extent::grow(double margin) {
 }
 
 void Extent::smooth(double radius) {
-  // Where the operands are beyond the radius, a round union is what a sharp one is.
+  // Where the operands are beyond the radius, a round union equals a sharp one.
   const double before = limit;
   grow(radius);
   if (radius < before) limit = before;
@@ -321,7 +321,7 @@ void Extent::repeat(Interval times) {
 void Extent::summed() {
   if (empty) return;
   at = in_sum;
-  // No level under the limit reaches farther than the kernels do.
+  // No level below the limit reaches farther than the kernels.
   spread = turned_spread = 0;
   limit = sumLimit(inner_low, count);
   count = 1;

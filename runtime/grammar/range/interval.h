@@ -1,5 +1,5 @@
 #pragma once
-// Closed intervals of doubles for the proof of reach; every operation rounds outwards.
+// Closed intervals of doubles for the proof of reach. Every operation rounds outwards.
 
 #include <array>
 
@@ -13,8 +13,8 @@ struct Interval {
   bool exact() const { return lo == hi; }
   bool holds(double v) const { return lo <= v && v <= hi; }
   bool bounded() const;
-  double magnitude() const;  ///< the largest absolute value in it
-  double mignitude() const;  ///< the smallest
+  double magnitude() const;  ///< the largest absolute value
+  double mignitude() const;  ///< the smallest absolute value
   friend bool operator==(const Interval&, const Interval&) = default;
   friend bool operator<(const Interval& a, const Interval& b) { return a.lo != b.lo ? a.lo < b.lo : a.hi < b.hi; }
 };
@@ -23,16 +23,16 @@ Interval operator+(Interval a, Interval b);
 Interval operator-(Interval a, Interval b);
 Interval operator-(Interval a);
 Interval operator*(Interval a, Interval b);
-Interval operator/(Interval a, Interval b);  ///< everything where b holds 0
+Interval operator/(Interval a, Interval b);  ///< everything if b contains 0
 Interval hull(Interval a, Interval b);
 Interval minimum(Interval a, Interval b);
 Interval maximum(Interval a, Interval b);
 Interval absolute(Interval a);
-Interval squareRoot(Interval a);  ///< of the part from 0
+Interval squareRoot(Interval a);  ///< of the part from 0 on
 Interval floorOf(Interval a);
 Interval sine(Interval a);
 Interval cosine(Interval a);
-Interval power(Interval a, Interval b);  ///< a from 0
+Interval power(Interval a, Interval b);  ///< for a from 0 on
 Interval smoothStep(Interval low, Interval high, Interval x);
 
 using IntervalVector = std::array<Interval, 3>;

@@ -11,12 +11,12 @@ namespace sgm {
 namespace {
 
 constexpr Interval kHalf{0.5, 0.5};
-constexpr double kLargestSize = 1e5;  ///< metres; what is larger may be left out, scaled
+constexpr double kLargestSize = 1e5;  ///< metres; larger shapes may be omitted after scaling
 
-// A size below zero is no size: derivation rejects it.
+// Derivation rejects negative sizes.
 Interval positive(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
 
-/// One call of a terminal.
+/// A call of a terminal.
 class Terminal {
  public:
   Terminal(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame)
@@ -28,7 +28,7 @@ class Terminal {
   ExprId arg(uint32_t i) const { return i < call_.bound.count ? program_.idAt(call_.bound, i) : kNoId; }
   Interval in(uint32_t i) { return arg(i) == kNoId ? Interval{} : values_.number(arg(i), frame_); }
 
-  /// Derived for sure where all its sizes are; `inner`: its inner radius.
+  /// It is certainly derived if all its sizes are positive; `inner`: its inner radius.
   static void sized(Extent& e, std::initializer_list<Interval> sizes, Interval inner) {
     e.inner = positive(inner).hi;
     e.inner_low = positive(inner).lo;
@@ -43,7 +43,7 @@ class Terminal {
     return e;
   }
 
-  /// What part of a local value (a parameter) an expression is: r, 0.6*r, r*n, r/2; nothing where it is none of these.
+  /// Which part of a local value (a parameter) an expression is: r, 0.6*r, r*n, r/2; nullopt for other forms.
   std::optional<std::pair<uint32_t, Interval>> partOf(ExprId id) {
     const ExprNode& n = program_.expr(id);
     if (n.ref == Ref::local) return std::pair{n.id, Interval{1, 1}};
@@ -57,14 +57,14 @@ class Terminal {
     return std::pair{program_.expr(left).id, n.binary == BinaryOp::multiply ? by : Interval{1, 1} / by};
   }
 
-  /// The ratio of the largest radius to the smallest, at most.
+  /// An upper bound of the ratio of the largest radius to the smallest.
   double ratio(bool scalar, double most, double least) {
     const double apart = least > 0 ? most / least : kInfinity;
     const ExprNode& n = program_.expr(arg(0));
     const bool vector = n.kind == ExprKind::vector && n.children.count == 3;
     if (scalar && arg(1) == kNoId) return 1;
     if (!scalar && !vector) return apart;
-    // Parts of one value rise and fall together.
+    // Parts of one value increase and decrease together.
     double high = 0, low = kInfinity;
     uint32_t slot = kNoId;
     for (uint32_t i = 0; i < 3; ++i) {
@@ -78,13 +78,13 @@ class Terminal {
     return std::min(apart, high / low * (1 + 1e-9));
   }
 
-  /// Its field grows with the smallest radius, and its levels with the largest.
+  /// The field grows with the smallest radius, its levels with the largest.
   Extent radial(const IntervalVector& v, bool scalar, bool round) {
     Extent e = centred(v[0], v[1], v[2]);
     if (round) e.at.core_radius = e.size();  // an ellipsoid does not fill the corners of its box
     e.spread = ratio(scalar, e.size(), e.inner_low);
     e.turned_spread = e.spread * (round ? 1 : 1.7320508075688774);
-    // A sum's kernel takes of every radius what it takes of the smallest.
+    // A sum's kernel extends every radius by the same factor as the smallest.
     e.in_sum = e.at;
     e.in_sum.scale({1, 1.6});
     return e;
@@ -97,14 +97,14 @@ class Terminal {
     if (first.kind != ValueKind::vector) {
       const Interval x = in(0);
       v = {x, arg(1) == kNoId ? x : in(1), arg(2) == kNoId ? x : in(2)};
-      // A superquadric's second argument is how square it is.
+      // A superquadric's second argument is its squareness.
       if (kind == Primitive::superq) v = {x, x, x};
     }
     if (kind == Primitive::box) return centred(v[0] * kHalf, v[1] * kHalf, v[2] * kHalf);
     return radial(v, first.kind != ValueKind::vector, kind == Primitive::ellipsoid);
   }
 
-  /// Between two points: a radius, and a ball about the line that holds the shape.
+  /// A shape between two points: a radius, and a ball around the line that contains the shape.
   Extent around(Interval radius, double ball, bool certain) {
     const IntervalVector a = values_.vector(arg(0), frame_), b = values_.vector(arg(1), frame_);
     IntervalVector lower, upper;
@@ -137,7 +137,7 @@ class Terminal {
     Extent e = Extent::leaf(lower, upper);
     e.inner = std::min(h.hi, e.at.core_radius);
     e.node();
-    return e;  // corners may fall together: not certain
+    return e;  // corners may coincide: not certain
   }
 
   const Program& program_;
@@ -164,7 +164,7 @@ Extent Terminal::extent() {
     case Primitive::truncone: {
       const Interval top = in(1), bottom = in(2), widest = maximum(positive(top), positive(bottom));
       Extent e = centred(widest, in(0) * kHalf, widest);
-      // One radius may be 0; one below leaves the cone out.
+      // One radius may be 0; a negative one omits the cone.
       e.certain = e.certain && top.lo >= 0 && bottom.lo >= 0;
       return e;
     }
@@ -176,10 +176,10 @@ Extent Terminal::extent() {
     }
     case Primitive::capsule:
       return around(positive(in(2)), positive(in(2)).hi, true);
-    // Ends that fall together leave both out.
+    // Coincident ends omit both shapes.
     case Primitive::tube:
       return around(positive(in(2)), positive(in(2)).hi + positive(in(3)).hi, false);
-    // The corner of a square section at an end: as far along as across.
+    // The corner of a square section at an end extends as far along as across.
     case Primitive::beam:
       return around(positive(in(2)), positive(in(2)).hi * 1.7320508075688774 + positive(in(3)).hi, false);
     case Primitive::halfspace: {
@@ -194,7 +194,7 @@ Extent Terminal::extent() {
     case Primitive::prism:
       return prism();
     case Primitive::ca:
-      break;  // of a cell, not of a scope: ReachCheck::automaton()
+      break;  // depends on a cell, not a scope: ReachCheck::automaton()
   }
   return Extent::unbounded();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How far the terminals extend.
+// The extents of terminals.
 
 #include "grammar/range/extent.h"
 #include "grammar/syntax/builtins.h"
@@ -9,7 +9,7 @@ namespace sgm {
 /// The extent of a terminal with its arguments.
 Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame);
 
-/// Solids in a box with these edges about the scope's middle, which may be left out.
+/// Solids in a box with these edges around the scope's middle, which may be absent.
 Extent solidIn(const IntervalVector& edges);
 
 }  // namespace sgm

@@ -9,8 +9,8 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepestPiece = 8;    // cuts of one argument's range in two
-constexpr int kDeepestValue = 600;  // frames of this evaluation on the stack
+constexpr int kDeepestPiece = 8;    // halvings of one argument's range
+constexpr int kDeepestValue = 600;  // stack frames of this evaluation
 constexpr Interval kEither{0, 1};
 constexpr Interval kTrue{1, 1};
 constexpr Interval kFalse{0, 0};
@@ -36,7 +36,7 @@ Interval compare(BinaryOp op, Interval a, Interval b) {
   }
 }
 
-/// The field computes with floats: where a step lies at a whole number, it may fall on either side.
+/// The field computes with floats: if a step lies at a whole number, the value may fall on either side.
 Interval sampledFloats(Interval v) {
   auto whole = [](double x) { return x == std::floor(x) && std::fabs(x) < 1e6; };
   return {whole(v.lo) ? v.lo : v.lo - 1e-6 * std::fabs(v.lo) - 1e-9,
@@ -66,7 +66,7 @@ double middleOf(Interval range) {
 
 RangeEvaluator::RangeEvaluator(const Program& program, uint32_t& steps)
     : program_(program), steps_(steps), asked_parameters_(program.params.size(), false) {
-  // Without a range the host may set any number.
+  // Without a declared range the host may set any number.
   for (const Param& param : program.params)
     parameters_.push_back(param.has_range ? Interval{param.low, param.high} : Interval::everything());
 }
@@ -106,7 +106,7 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
   ++depth_;
   const uint32_t before = std::exchange(loss_, 0);
   RangeValue out = valueOf(id, frame);
-  // What a value is made of is to blame only while it has no bound itself.
+  // A bounded value does not inherit the losses of its operands.
   if (out.bounded())
     out.loss = 0;
   else if (out.loss == 0)
@@ -341,7 +341,7 @@ RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
       return RangeValue::vector(cell_);
     case Member::center: {
       if (!place) return RangeValue::unknown();
-      // Of a face: on the side between its cells, half way along the others.
+      // For a face: on the side between its cells, half way along the others.
       const Interval share = of.kind == ValueKind::face ? Interval{0.5, 1} : Interval{0.5, 0.5};
       return point({of.v[0] + share, of.v[1] + share, of.v[2] + share}, frame);
     }
@@ -380,7 +380,8 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::mix: {
       const Interval a = in(0), b = in(1), t = in(2);
       const Interval line = a + (b - a) * t, both = hull(a, b);
-      // Between the ends for t in 0..1, whatever a and b have in common; the line is tighter where t is known.
+      // For t in 0..1 the value lies between the ends, whatever a and b have in common; the line is tighter if t is
+      // known.
       if (t.lo >= 0 && t.hi <= 1) return RangeValue::number({std::max(line.lo, both.lo), std::min(line.hi, both.hi)});
       return RangeValue::number(line);
     }
@@ -389,7 +390,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::smoothstep:
       return RangeValue::number(smoothStep(in(0), in(1), in(2)));
     case Builtin::fract:
-      in(0);  // what is divided in it
+      in(0);  // the queries in its operand
       return RangeValue::number({0, 1});
     case Builtin::sin:
       return RangeValue::number(sine(in(0)));
@@ -430,7 +431,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
       const double half = jitter.hi / 2;
       Interval spread{0.5 - half, 0.5 + half};
-      // A point of a face lies on the side between its cells in one axis.
+      // On one axis a point of a face lies on the side between its cells.
       if (of.kind == ValueKind::face) spread.hi = 1;
       return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
     }
@@ -439,7 +440,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::position:
       return RangeValue::vector({in(0), in(1), in(2)});
     case Builtin::branch: {
-      // Ends are not farther than all steps in a line, with room for the rounding of each.
+      // Ends are no farther than all steps in a straight line, with room for the rounding of each.
       const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
       const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
       return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};
@@ -476,7 +477,7 @@ void RangeEvaluator::refine(ExprId id, bool holds, RangeFrame& frame) {
       continue;
     const Interval other = number(child(n, 1 - side), frame);
     const bool less = n.binary == BinaryOp::less || n.binary == BinaryOp::less_equal;
-    const bool below = (less == (side == 0)) == holds;  // the local is on the small side
+    const bool below = (less == (side == 0)) == holds;  // the local is on the smaller side
     Interval& value = frame.slots[local.id].v[0];
     if (below && other.hi < value.hi) value.hi = std::max(other.hi, value.lo);
     if (!below && other.lo > value.lo) value.lo = std::min(other.lo, value.hi);

@@ -1,5 +1,5 @@
 #pragma once
-// Expressions over intervals: what a value may be, for all seeds, cells and settings of the parameters.
+// Evaluates expressions over intervals: their possible values for all seeds, cells and parameter settings.
 
 #include <cstdint>
 #include <optional>
@@ -13,16 +13,16 @@
 
 namespace sgm {
 
-/// A number or condition is v[0]; a vector or pair v; a cell its offset from the cell being derived, in cells, a face
-/// that of its lower cell; a segment (and a list of them) the coordinates of its ends in v[0] and its depth in v[1];
-/// a plan the edges of its pieces' boxes, and in `at` where their middles lie.
+/// By kind: a number or condition uses v[0]; a vector or pair uses v. A cell is its offset from the derived cell, in
+/// cells, and a face that of its lower cell. A segment (or a list of them) has the coordinates of its ends in v[0] and
+/// its depth in v[1]. A plan has the edges of its pieces' boxes in v, and the places of their middles in `at`.
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
   IntervalVector at{};
-  uint32_t loss = 0;  ///< why it has no bound, into RangeEvaluator::losses(); 0: it has one, or nothing is known
+  uint32_t loss = 0;  ///< why it has no bound: index in RangeEvaluator::losses(); 0: it has one, or unknown
 
-  bool bounded() const;  ///< or no number, vector or pair
+  bool bounded() const;  ///< or not a number, vector or pair
 
   static RangeValue number(Interval i) { return {ValueKind::number, {i, {}, {}}, {}}; }
   static RangeValue condition(Interval i) { return {ValueKind::boolean, {i, {}, {}}, {}}; }
@@ -30,34 +30,34 @@ struct RangeValue {
   static RangeValue unknown() { return {}; }
 };
 
-/// Where a scope may lie: metres from the cell's low corner.
+/// The possible places of a scope: metres from the cell's low corner.
 struct PlaceRange {
   IntervalVector offset{};
   Interval scale{1, 1};
-  bool turned = false;  ///< in whatever way
+  bool turned = false;  ///< in any direction
 
   void move(const IntervalVector& by);
   friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
 };
 
-/// What a frame's expressions may refer to.
+/// The context of a frame's expressions.
 struct RangeFrame {
   std::vector<RangeValue> slots;
   IntervalVector scope{};  ///< edges of the scope's box
   PlaceRange place;        ///< of the statement
   PlaceRange start;        ///< of the rule
-  bool top = false;        ///< the layer's own use of its start rule, in which a cut takes from the domain
+  bool top = false;        ///< the layer's own use of its start rule, where a cut applies to the domain
 };
 
-/// Where a value loses its bound.
+/// The place where a value loses its bound.
 struct BoundLoss {
   enum class Cause : uint8_t { none, divisor, parameter } cause = Cause::none;
   ExprId expr = kNoId;    ///< the quotient, or the use of the parameter
-  ExprId caller = kNoId;  ///< the innermost call around it that the library does not make; or kNoId
+  ExprId caller = kNoId;  ///< the innermost call around it outside of the library, or kNoId
   Interval divisor;
 };
 
-/// What is given to a formal and does not lie in its range.
+/// An argument outside of its formal's range.
 struct Misfit {
   ExprId argument = kNoId;
   ExprId call = kNoId;
@@ -65,86 +65,87 @@ struct Misfit {
   uint32_t formal = 0;    ///< into Ast::formals
   Interval given;
   bool certain = false;  ///< all of it lies outside
-  bool loose = false;    ///< found where scopes are larger than they may be
+  bool loose = false;    ///< found while scopes were overestimated
 };
 
-/// Whether a file (Span::file) is a part of the standard library that another file imports.
+/// Whether a file (Span::file) belongs to the standard library and was imported.
 bool isStandard(const Program& program, uint32_t file);
 
-/// What is wide enough to be proven piece by piece: a number with a finite range.
+/// Whether the value can be divided for a proof in pieces: a number with a finite range.
 bool hasPieces(const RangeValue& value);
-/// Where to cut such a range: by ratio where all of it is positive, as sizes are.
+/// The place to divide such a range: by ratio if all of it is positive, as for sizes.
 double middleOf(Interval range);
 
-/// Any vector as long as one of these.
+/// Any vector with the length of one of these.
 IntervalVector anyDirection(const IntervalVector& v);
 
 class RangeEvaluator {
  public:
-  /// steps: what is left of the caller's budget; at 0 every value is unknown.
+  /// steps: the rest of the caller's budget; at 0 every value is unknown.
   RangeEvaluator(const Program& program, uint32_t& steps);
 
-  /// The edges of a cell; `centred`: it lies about the origin of the start's scope, otherwise that is its low corner.
+  /// Sets the edges of a cell. centred: it lies around the origin of the start's scope, otherwise its low corner is
+  /// there.
   void setCell(const IntervalVector& edges, bool centred) {
     cell_ = edges;
     low_ = centred ? -0.5 : 0.0;
   }
 
-  /// What has been asked since it was cleared: where a rule stands, and how it is scaled. Ranges of other places or
-  /// scales are the same where it was not.
+  /// What was queried since this was cleared: the place of a rule, and its scale. Without such a query, results are the
+  /// same for other places or scales.
   struct Asked {
     bool place = false, scale = false;
   };
   Asked& asked() { return asked_; }
 
-  /// How far from the cell queries look, along the axes that are cut into cells, and which looks farthest.
+  /// The longest reach of queries out of the cell, along axes that are cut into cells, and the query responsible.
   struct Sight {
     double far = 0;
     ExprId query = kNoId;
   };
   Sight& sight() { return sight_; }
 
-  /// The calls of rules around what is evaluated, for what is told of its values.
+  /// The rule calls around the current evaluation, for messages.
   void enter(ExprId call) { callers_.push_back(call); }
   void leave() { callers_.pop_back(); }
-  /// Of what stands in the standard library: the innermost call around it that does not; otherwise kNoId.
+  /// For an expression in the standard library: the innermost call around it outside of the library; else kNoId.
   ExprId callerOf(ExprId id) const;
-  /// Index 0 stands for none.
+  /// Index 0 is none.
   const std::vector<BoundLoss>& losses() const { return losses_; }
-  /// The loss of what has been evaluated since it was taken; 0 if all of it has a bound.
+  /// Takes the loss of evaluations since the last call; 0 if all of them are bounded.
   uint32_t takeLoss() { return std::exchange(loss_, 0); }
-  /// After others were taken between: of what had been evaluated before.
+  /// Restores an earlier loss after others were taken in between.
   void giveBackLoss(uint32_t loss) {
     if (loss != 0) loss_ = loss;
   }
-  /// Divisions by what is 0 for certain.
+  /// Divisions by a value that is certainly 0.
   const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
 
-  /// Whether what is given to formals is held against their ranges.
+  /// Sets whether arguments are compared with the ranges of their formals.
   void judgeArguments(bool judges) { judges_ = judges; }
-  /// What a call gives to its formals; `given` is what the bound arguments are.
+  /// Compares the arguments of a call with its formals; `given`: values of the bound arguments.
   void judge(ExprId call, IdRange formals, std::span<const RangeValue> given);
-  /// In parts of scopes whose sizes have ranges wider than they are, or parts of these ranges, one by one: what may lie
-  /// outside there says nothing, and what does is certain only where it does in all of them.
+  /// Marks evaluation with overestimated scope sizes, or for pieces of ranges one by one: an argument that may lie
+  /// outside then proves nothing, and one that certainly does counts only if it does in all pieces.
   void enterLoose() { ++loose_; }
   void leaveLoose() { --loose_; }
-  /// What did not fit since they were taken; of one argument, or of one caller of the library, once.
+  /// Takes the misfits since the last call; one for each argument, or for each caller of the library.
   std::vector<Misfit> takeMisfits();
 
-  /// What a parameter may be; at first all of its range.
+  /// The possible values of a parameter; at first its whole range.
   Interval& parameter(uint32_t index) { return parameters_[index]; }
   const std::vector<bool>& askedParameters() const { return asked_parameters_; }
-  /// Whether functions without a bound are followed piece by piece of their arguments.
+  /// Sets whether functions without a bound are evaluated in pieces of their arguments.
   void takePieces(bool takes) { pieces_ = takes; }
 
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
   Interval number(ExprId id, const RangeFrame& frame);
   IntervalVector vector(ExprId id, const RangeFrame& frame);
-  /// [0, 0] false, [1, 1] true, otherwise either.
+  /// [0, 0]: false, [1, 1]: true, otherwise either.
   Interval condition(ExprId id, const RangeFrame& frame);
 
-  /// Narrows the slots of a frame to where a condition holds (or does not): comparisons of a local with a value, joined
-  /// by `and` (or, denied, `or`).
+  /// Narrows the slots of a frame to values for which a condition holds (or not): comparisons of a local with a value,
+  /// joined by `and` (if negated, by `or`).
   void refine(ExprId condition, bool holds, RangeFrame& frame);
 
  private:
@@ -154,11 +155,11 @@ class RangeEvaluator {
   RangeValue call(ExprId id, const RangeFrame& frame);
   RangeValue builtin(const ExprNode& n, const RangeFrame& frame);
   RangeValue applied(ExprId id, const RangeFrame& frame);
-  /// A function's value over a range of one argument, piece by piece; nothing if a piece has no bound either.
+  /// Evaluates a function in pieces of one argument's range; nullopt if a piece has no bound either.
   std::optional<RangeValue> inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range, int depth);
   void lose(BoundLoss::Cause cause, ExprId id, Interval divisor);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
-  /// A point of the cell, in the scope that the rule starts with.
+  /// A point of the cell, relative to the scope with which the rule starts.
   RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
   uint32_t child(const ExprNode& n, uint32_t i) const { return program_.idAt(n.children, i); }
 
@@ -172,8 +173,8 @@ class RangeEvaluator {
   bool pieces_ = false;
   bool judges_ = false;
   int loose_ = 0;
-  std::vector<Misfit> misfits_;                          ///< one of each argument and caller
-  std::set<std::pair<ExprId, ExprId>> loosely_fitting_;  ///< what may lie in its range where scopes are loose
+  std::vector<Misfit> misfits_;                          ///< one for each argument and caller
+  std::set<std::pair<ExprId, ExprId>> loosely_fitting_;  ///< those that may be in range when scopes are overestimated
   std::vector<Interval> parameters_;
   std::vector<bool> asked_parameters_;
   std::vector<ExprId> callers_;
