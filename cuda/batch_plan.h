@@ -1,5 +1,5 @@
 #pragma once
-// What one submission meshes, as the arrays that its kernels read.
+// The plan of one submission: the arrays that its kernels read.
 
 #include <array>
 #include <memory_resource>
@@ -11,19 +11,19 @@
 
 namespace sgm::cuda {
 
-/// Chunks of one submission, at most.
+/// The most chunks in one submission.
 inline constexpr uint32_t kMostChunks = 256;
 
-/// How much of its result a batch has room for, by chunk; and how many bytes of scratch and parameters it takes at
-/// most, unless one chunk alone takes more.
+/// The space for a batch's results, per chunk; and limits for its scratch and parameters, which only a single chunk may
+/// exceed.
 struct Room {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
   uint64_t scratch_bytes = uint64_t{512} << 20;
-  uint64_t pool_bytes = uint64_t{128} << 20;  ///< of these, for what pruning leaves, at most
+  uint64_t pool_bytes = uint64_t{128} << 20;  ///< limit for the part of these that holds pruned programs
 };
 
-/// Reused from batch to batch: grows, and then takes no more memory.
+/// Reused from batch to batch: grows, then allocates no more memory.
 struct Plan {
   explicit Plan(std::pmr::memory_resource* memory)
       : instrs(memory),
@@ -36,11 +36,11 @@ struct Plan {
         chunks_of(memory),
         uniform(memory) {}
 
-  /// Where the meshes of a job will be.
+  /// The indices of a job's meshes.
   struct Parts {
     uint32_t job = 0;
     uint32_t body = kNone;
-    std::array<uint32_t, 6> seams{};  ///< by Face; kNone: not asked for
+    std::array<uint32_t, 6> seams{};  ///< by Face; kNone: not requested
   };
 
   std::pmr::vector<Instr> instrs;
@@ -50,20 +50,20 @@ struct Plan {
   std::pmr::vector<Chunk> chunks;
   std::pmr::vector<Seam> seams;
   std::pmr::vector<PruneJob> jobs;
-  std::pmr::vector<Parts> chunks_of;   ///< as chunks
-  std::pmr::vector<uint32_t> uniform;  ///< numbers of jobs whose programs have no group: nothing is to be done
+  std::pmr::vector<Parts> chunks_of;   ///< one for each of `chunks`
+  std::pmr::vector<uint32_t> uniform;  ///< indices of jobs whose programs have no group: nothing to do
   uint32_t part_count = 0;
-  bool meshes = false, sums = false;  ///< whether a job wants its mesh; whether one wants sums alone
-  uint64_t marks = 0, bounds = 0;     ///< entries: an instruction, or group, of one box
+  bool meshes = false, sums = false;  ///< whether a job wants its mesh; whether a job wants only sums
+  uint64_t marks = 0, bounds = 0;     ///< number of entries, one for each instruction (or group) and box
 };
 
-/// How much pruning may leave in all boxes, in instructions and groups: all of them, as far as there is room.
+/// The space for pruned programs in all boxes, in instructions and groups: for all of them, up to the limit.
 struct PoolSize {
   uint64_t instrs, groups;
 };
 PoolSize poolOf(uint64_t marks, uint64_t bounds, const Room& room);
 
-/// Plans jobs for one submission; how many of them were taken up, from the first on. At least one is. Throws
+/// Plans jobs for one submission. Returns the number of planned jobs, counted from the first; at least one. Throws
 /// std::bad_alloc.
 size_t planBatch(std::span<const ChunkJob> jobs, const Room& room, Plan& plan);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Chunks on an NVIDIA GPU, in batches; the CPU takes what the GPU cannot, or loses (backend/device_batch.h).
+// Meshes chunks on an NVIDIA GPU, in batches; the CPU meshes those that the GPU cannot, or loses
+// (backend/device_batch.h).
 
 #include <functional>
 #include <memory>
@@ -13,16 +14,17 @@
 namespace sgm {
 
 struct CudaBackendOptions {
-  /// Opens the device, anew after a loss; an error then means that the CPU does all. Called by one thread at a time.
+  /// Opens the device, also after a loss; then an error means that the CPU does all. Called by one thread at a time.
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
-  std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn; also of a store that is lost
+  std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn; also receives the loss of
+                                                           ///< `store`
   cuda::Room room;
   std::shared_ptr<MeshStore> store =
-      nullptr;                         ///< where meshes stay; null: in a borrowed device's own memory, or nowhere
-  uint64_t resident_cap = UINT64_MAX;  ///< of a borrowed device: the most bytes of meshes that stay on it
+      nullptr;                         ///< where meshes stay; null: in an external context's own memory, or nowhere
+  uint64_t resident_cap = UINT64_MAX;  ///< for an external context: limit for meshes that stay on the device, bytes
 };
 
-/// Errors, where the device cannot even be opened: as options.open and cuda::Mesher::create.
+/// Errors if the device cannot be opened at first: as options.open and cuda::Mesher::create.
 Result<std::unique_ptr<Backend>> makeCudaBackend(const CudaBackendOptions& options, std::unique_ptr<Backend> cpu,
                                                  std::pmr::memory_resource* memory, const Profiler& profiler);
 

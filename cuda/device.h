@@ -1,5 +1,5 @@
 #pragma once
-// Where kernels run: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
+// The devices that run kernels: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
 
 #include <bit>
 #include <cstddef>
@@ -32,61 +32,61 @@ enum class Kernel : uint8_t {
 struct DeviceInfo {
   std::string name;
   int capability_major = 0, capability_minor = 0;
-  int driver = 0;           ///< CUDA's version that it speaks: 1000 * major + 10 * minor; 0: no driver
+  int driver = 0;           ///< supported CUDA version: 1000 * major + 10 * minor; 0: no driver
   uint64_t memory = 0;      ///< bytes
-  int clock = 0;            ///< of its multiprocessors at most, kHz
+  int clock = 0;            ///< the highest of its multiprocessors, kHz
   uint32_t processors = 1;  ///< multiprocessors
-  int memory_pools = 0;     ///< 1: memory can be had in a stream's order
+  int memory_pools = 0;     ///< 1: supports stream-ordered allocation
   DeviceId id{};
-  std::string ails;  ///< why the driver tells no more of it; empty: it does
+  std::string ails;  ///< the problem if the driver cannot describe the device; else empty
 };
 
-inline constexpr size_t kAlignment = 256;  ///< of what is taken from a device's memory
+inline constexpr size_t kAlignment = 256;  ///< alignment of allocated device memory
 
 enum class MemoryKind : uint8_t {
   device,
-  pinned  ///< the host's, which the device copies from and to while the host goes on
+  pinned  ///< host memory for asynchronous copies
 };
 
-/// Work in order, each piece after those before it; the caller's thread goes on. One thread at a time. Its end waits
-/// for what it was given, frees apart. Errors of all that can fail: out_of_memory, device_lost, unsupported.
+/// A queue of work that runs in order and asynchronously. One thread at a time. Its destructor waits for the work,
+/// except for frees. Errors of all functions: out_of_memory, device_lost, unsupported.
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Bytes at a multiple of kAlignment. What of the device's is freed may be in use by what the stream was given
-  /// before; pinned memory is waited for.
+  /// Returns memory aligned to kAlignment. Device memory may be freed while earlier work in the stream uses it; free()
+  /// waits for pinned memory.
   virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
   virtual void free(MemoryKind kind, void* memory) noexcept = 0;
-  /// Between pinned memory and the device's, which stay as they are until the end of the copy.
+  /// Copy between pinned and device memory; neither may change until the end of the copy.
   virtual Result<void> copyIn(void* device, const void* pinned, size_t bytes) = 0;
   virtual Result<void> copyOut(void* pinned, const void* device, size_t bytes) = 0;
-  /// From one place of the device's to another.
+  /// Copies within the device's memory.
   virtual Result<void> copy(void* to, const void* from, size_t bytes) = 0;
   virtual Result<void> clear(void* device, size_t bytes) = 0;
   /// blocks: at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// What was given until now is what ended() and wait() speak of, until more is given: a stream of the engine's goes
-  /// on with the engine's work.
+  /// Marks the end of the work so far, for ended() and wait(), until more is added: an engine's stream continues with
+  /// the engine's work.
   virtual Result<void> mark() = 0;
-  /// Whether that has ended; does not wait.
+  /// Whether the marked work has ended; does not wait.
   virtual Result<bool> ended() = 0;
   virtual Result<void> wait() = 0;
 };
 
 enum class StreamUse : uint8_t {
-  own,      ///< nobody else's work is in it
-  batches,  ///< where an engine lent a stream, that one
+  own,      ///< contains only our work
+  batches,  ///< the engine's stream, if it passed one
 };
 
-/// Another API's memory where the device's kernels and copies reach it. Its end, which does not wait for them, must not
-/// come before theirs.
+/// Another API's memory, accessible to the device's kernels and copies. Its destructor does not wait for them, and must
+/// run after their end.
 class ImportedMemory {
  public:
   virtual ~ImportedMemory() = default;
   virtual std::byte* data() const = 0;
 };
 
-/// Any thread may use it. Outlives its streams; what it has imported may outlive it.
+/// Thread-safe. Must outlive its streams; imported memory may outlive it.
 class Device {
  public:
   virtual ~Device() = default;
@@ -94,15 +94,15 @@ class Device {
   virtual Result<std::unique_ptr<Stream>> makeStream(StreamUse use = StreamUse::own) = 0;
   /// Errors: unsupported, out_of_memory, device_lost, and those of SharedBlock::descriptor().
   virtual Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock&) {
-    return Error{Code::unsupported, info().name + " imports no other API's memory"};
+    return Error{Code::unsupported, info().name + " cannot import memory of other APIs"};
   }
-  /// Whether an engine lent it, and reads its memory.
+  /// Whether it is an engine's (external), which reads its memory.
   virtual bool borrowed() const { return false; }
-  /// Whether something has failed for good: nothing in its memory can be read any more.
+  /// Whether a permanent failure occurred: nothing in its memory can be read any more.
   virtual bool lost() const { return false; }
 };
 
-/// Memory of a stream, which it does not outlive.
+/// Memory from a stream, which must outlive it.
 class Memory {
  public:
   Memory() = default;
@@ -110,12 +110,12 @@ class Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() { reset(); }
 
-  /// At least so many bytes; what was there is lost where it was not enough.
+  /// Provides at least this many bytes; loses the content if it must grow.
   Result<void> grow(Stream& stream, MemoryKind kind, size_t bytes) {
     if (bytes <= bytes_) return {};
     reset();
-    // A quarter more: batches that come after one another are much alike. Pinned memory keeps the whole device waiting
-    // when it is taken, and so is taken seldom.
+    // With a margin, since successive batches are similar. Allocating pinned memory blocks the whole device, so do it
+    // rarely.
     bytes = kind == MemoryKind::pinned ? std::bit_ceil(bytes) : bytes + bytes / 4;
     Result<void*> made = stream.allocate(kind, bytes);
     if (!made) return made.error();

@@ -1,6 +1,6 @@
 #pragma once
-// What is used of the CUDA driver's interface, found at run time: the library loads where there is no driver, and is
-// built where there is no toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp compares).
+// The used part of the CUDA driver's interface, loaded at run time: the library works without a driver, and builds
+// without the toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp compares them).
 
 #include <cstddef>
 #include <cstdint>
@@ -32,13 +32,13 @@ struct CuPoolProperties {
   int location_type = 1;  ///< a device,
   int location = 0;       ///< of this number
   void* security = nullptr;
-  size_t most_bytes = 0;  ///< 0: as the system sees fit
+  size_t most_bytes = 0;  ///< 0: chosen by the system
   unsigned char reserved[56] = {};
 };
 
 /// CUDA_EXTERNAL_MEMORY_HANDLE_DESC.
 struct CuSharedMemory {
-  int type = 1;  ///< a file descriptor, the driver's once it has taken the memory
+  int type = 1;  ///< a file descriptor, which the driver owns after the import
   union {
     int descriptor;
     void* names[2];
@@ -65,10 +65,11 @@ inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
 inline constexpr int kCuClock = 13, kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76,
                      kCuMemoryPools = 115;
-inline constexpr int kCuPoolThreshold = 4;  ///< of a pool: how many free bytes it keeps
+inline constexpr int kCuPoolThreshold = 4;  ///< of a pool: the free bytes that it keeps
 inline constexpr unsigned kCuNonBlockingStream = 1;
-inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: who waits sleeps, as an engine needs the processors
-inline constexpr unsigned kCuEventBlocks = 1;    ///< of an event: likewise
+inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: waiting threads sleep, since an engine needs the
+                                                 ///< processors
+inline constexpr unsigned kCuEventBlocks = 1;    ///< of an event: same as above
 inline constexpr unsigned kCuEventUntimed = 2;
 
 /// SGM_CU(entry of the table, name in the driver, parameters)

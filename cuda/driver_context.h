@@ -1,5 +1,5 @@
 #pragma once
-// A context of the driver's with the kernels in it, our own or an engine's, and what its calls' results mean.
+// A driver context with the kernels, our own or the engine's, and the conversion of its results to errors.
 
 #include <array>
 #include <atomic>
@@ -10,10 +10,10 @@
 
 namespace sgm::cuda {
 
-/// What a result other than success says. out_of_memory, unsupported, device_lost.
+/// Converts a result other than success: out_of_memory, unsupported or device_lost.
 Error errorOf(const DriverTable& driver, CuResult result, const std::string& what);
 
-/// Makes a context this thread's for as long as it lives.
+/// Makes a context current for this thread during its lifetime.
 class Current {
  public:
   Current(const DriverTable& driver, CuContext context)
@@ -24,7 +24,7 @@ class Current {
   }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
-  /// Where not, another's context would take the call.
+  /// If false, a call would run in another context.
   explicit operator bool() const { return pushed_; }
   static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
 
@@ -33,16 +33,16 @@ class Current {
   const bool pushed_;
 };
 
-/// What streams, and what was imported, share with their device.
+/// The state that streams and imported memory share with their device.
 struct Opened {
   const DriverTable driver;
   DeviceInfo info;
   CuContext context = nullptr;
-  CuStream stream = nullptr;  ///< the engine's, for all batches; null: each has one of our own
+  CuStream stream = nullptr;  ///< the engine's, for all batches; null: each has its own
   bool borrowed = false;      ///< the context is the engine's
   mutable std::atomic<bool> lost{false};
   CuModule module = nullptr;
-  /// Our own: the device's is shared with the engine, and gives nothing back when a context is lost.
+  /// Our own pool: the device's default pool is shared with the engine, and is not freed when a context is lost.
   CuPool pool = nullptr;
   std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
 
@@ -50,7 +50,7 @@ struct Opened {
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
   ~Opened();
-  /// Notes a loss.
+  /// Converts a result, and records a loss.
   Result<void> check(CuResult result, const char* what) const;
 };
 

@@ -9,7 +9,7 @@ namespace sgm::cuda {
 
 namespace {
 
-constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // of what is free, bytes: some batches' worth
+constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // for free memory, bytes: some batches' worth
 
 class DriverDevice final : public Device {
  public:
@@ -45,10 +45,10 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
   for (const auto& one : attributes) {
     if (result == kCuSuccess) result = driver.deviceGetAttribute(one.value, one.attribute, device);
   }
-  if (result != kCuSuccess) return errorOf(driver, result, "asking for the CUDA devices");
+  if (result != kCuSuccess) return errorOf(driver, result, "querying the CUDA devices");
   info.name = name;
   info.memory = bytes;
-  // Who draws elsewhere asks for it; one without is no other API's GPU.
+  // The drawing device is matched by this id; a device without one cannot be another API's GPU.
   CuId id{};
   if (driver.deviceGetUuid(&id, device) == kCuSuccess) {
     std::copy(std::begin(id.bytes), std::end(id.bytes), info.id.begin());
@@ -59,14 +59,14 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
 
 Result<void> makeContext(Opened& opened, CuDevice device) {
   const CuResult result = opened.driver.ctxCreate(&opened.context, kCuBlockingWaits, device);
-  if (Result<void> made = opened.check(result, "making a context"); !made) return made;
-  // A new context is the thread's; the engine's comes back.
+  if (Result<void> made = opened.check(result, "creating a context"); !made) return made;
+  // A new context becomes current; restore the engine's.
   CuContext popped = nullptr;
   opened.driver.ctxPopCurrent(&popped);
   return {};
 }
 
-/// What batches need in the context.
+/// Prepares the context for batches.
 Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::byte> image) {
   const DriverTable& driver = opened.driver;
   const Current current(driver, opened.context);
@@ -78,8 +78,8 @@ Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::b
   CuPoolProperties properties;
   properties.location = device;
   const CuResult pooled = driver.memPoolCreate(&opened.pool, &properties);
-  if (Result<void> made = opened.check(pooled, "making a memory pool"); !made) return made;
-  // What one batch gives back the next one takes: not by way of the system, at every wait of anyone.
+  if (Result<void> made = opened.check(pooled, "creating a memory pool"); !made) return made;
+  // Keep freed memory for the next batch instead of returning it to the system at every wait.
   uint64_t kept_bytes = kPoolKeeps;
   const CuResult told = driver.memPoolSetAttribute(opened.pool, kCuPoolThreshold, &kept_bytes);
   if (Result<void> set = opened.check(told, "setting up a memory pool"); !set) return set;
@@ -97,10 +97,10 @@ Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::b
 }
 
 Error noKernels() {
-  return {Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
+  return {Code::unsupported, "this build has no CUDA kernels: build it with nvcc installed and SGM_CUDA=ON"};
 }
 
-/// Before it is open there is no device to be lost: another holds it for itself, say.
+/// Before the device is open it cannot be lost: another process may hold it exclusively, for example.
 Error unusable(const Error& error) {
   return {error.code == Code::device_lost ? Code::unsupported : error.code, error.message};
 }
@@ -111,7 +111,7 @@ std::string lackOf(const DeviceInfo& info) {
   if (!info.ails.empty()) return info.ails;
   if (10 * info.capability_major + info.capability_minor < 75) {
     return "it has compute capability " + std::to_string(info.capability_major) + "." +
-           std::to_string(info.capability_minor) + ", and 7.5 is the least that works";
+           std::to_string(info.capability_minor) + ", but needs at least 7.5";
   }
   if (info.memory_pools == 0) return "it has no memory pools (cuMemAllocAsync)";
   return {};
@@ -120,7 +120,7 @@ std::string lackOf(const DeviceInfo& info) {
 Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver) {
   int version = 0, count = 0;
   if (const CuResult result = driver.driverGetVersion(&version); result != kCuSuccess) {
-    return errorOf(driver, result, "asking for the CUDA driver's version");
+    return errorOf(driver, result, "querying the CUDA driver's version");
   }
   const CuResult counted = driver.deviceGetCount(&count);
   if (counted != kCuSuccess) return errorOf(driver, counted, "counting the CUDA devices");
@@ -128,9 +128,9 @@ Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver) {
   for (int i = 0; i < count; ++i) {
     CuDevice device = 0;
     const CuResult got = driver.deviceGet(&device, i);
-    if (got != kCuSuccess) return errorOf(driver, got, "asking for the CUDA devices");
+    if (got != kCuSuccess) return errorOf(driver, got, "querying the CUDA devices");
     Result<DeviceInfo> info = describe(driver, device, version);
-    // One that is sick keeps nobody from the others.
+    // A faulty device must not hide the others.
     if (info) {
       infos.push_back(std::move(*info));
     } else {
@@ -152,7 +152,7 @@ Result<int> findDevice(const DriverTable& driver, const DeviceId& id) {
   for (size_t i = 0; i < infos->size() && id != DeviceId{}; ++i) {
     if ((*infos)[i].ails.empty() && (*infos)[i].id == id) return static_cast<int>(i);
   }
-  return Error{Code::unsupported, "the GPU that draws is none of the CUDA driver's"};
+  return Error{Code::unsupported, "the drawing GPU is not a device of the CUDA driver"};
 }
 
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index) {
@@ -187,7 +187,7 @@ Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::spa
   opened->borrowed = true;
   opened->context = lent.context;
   opened->stream = lent.stream;
-  opened->info.name = "the lent CUDA context";
+  opened->info.name = "the external CUDA context";
   CuDevice device = 0;
   int version = 0;
   {
@@ -195,11 +195,11 @@ Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::spa
     if (!current) return unusable(Current::refused());
     CuResult result = driver.ctxGetDevice(&device);
     if (result == kCuSuccess) result = driver.driverGetVersion(&version);
-    if (Result<void> got = opened->check(result, "asking for the device"); !got) return unusable(got.error());
+    if (Result<void> got = opened->check(result, "querying the device"); !got) return unusable(got.error());
     CuContext of_stream = lent.context;
     if (lent.stream != nullptr) result = driver.streamGetCtx(lent.stream, &of_stream);
     if (result != kCuSuccess || of_stream != lent.context) {
-      return Error{Code::invalid_argument, "the lent stream is none of the lent context's"};
+      return Error{Code::invalid_argument, "the external stream belongs to another context"};
     }
   }
   Result<DeviceInfo> info = describe(driver, device, version);

@@ -1,5 +1,5 @@
 #pragma once
-// The CUDA devices of this machine, by the driver's interface.
+// The CUDA devices of this machine, through the driver.
 
 #include <functional>
 #include <memory>
@@ -11,41 +11,41 @@
 
 namespace sgm::cuda {
 
-/// Whether this machine has an NVIDIA driver, be it of use or not.
+/// Whether this machine has an NVIDIA driver, usable or not.
 bool haveDriver();
 
-/// The machine's driver, initialised. unsupported: there is none, or it is too old, and what to do.
+/// Opens and initialises the driver. unsupported: missing or too old; the message says what to do.
 Result<DriverTable> openDriver();
 
-/// The kernels as this build has them for GPUs; empty: it was made without nvcc.
+/// The GPU kernels in this build; empty if it was built without nvcc.
 std::span<const std::byte> kernelImage();
 
-/// Why the device cannot mesh, in one sentence; empty: it can. Pure.
+/// The reason why the device cannot mesh, as a sentence; empty if it can. Pure.
 std::string lackOf(const DeviceInfo& info);
 
-/// Every device of the driver, those that cannot be used too. Errors: device_lost, unsupported.
+/// All devices of the driver, including unusable ones. Errors: device_lost, unsupported.
 Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver);
 
-/// As openDriver() and listDevices().
+/// Like openDriver() and listDevices().
 Result<std::vector<DeviceInfo>> listDevices();
 
-/// The engine's. Both outlive the device.
+/// The engine's context and stream, which must outlive the device.
 struct BorrowedContext {
   CuContext context = nullptr;
-  CuStream stream = nullptr;         ///< for all batches; null: streams of our own
-  uint64_t mesh_bytes = UINT64_MAX;  ///< the most for meshes that stay on the device
+  CuStream stream = nullptr;         ///< for all batches; null: create streams
+  uint64_t mesh_bytes = UINT64_MAX;  ///< limit for meshes that stay on the device
 };
 
-/// Opens a device in the engine's context, which stays the engine's; a thread's current context is as before after
-/// every call. Errors: as openDevice().
+/// Opens a device in the engine's context, which the engine keeps; each call restores the thread's current context.
+/// Errors: as openDevice().
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
                                              const BorrowedContext& lent);
 
-/// The number of the GPU, as listed. unsupported: it is none of the driver's. Other errors: as listDevices().
+/// The index of the GPU in the list. unsupported: the driver does not have it. Other errors: as listDevices().
 Result<int> findDevice(const DriverTable& driver, const DeviceId& id);
 
-/// Opens a device with a context of its own, so that what fails in it is nobody else's loss. index: as listed; -1: the
-/// first that can be used. image: the kernels, as nvcc makes them. Errors: unsupported, out_of_memory, device_lost.
+/// Opens a device with its own context, so that its failures affect no other one. index: in the list; -1: the first
+/// usable device. image: the kernels as compiled by nvcc. Errors: unsupported, out_of_memory, device_lost.
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index = -1);
 
 }  // namespace sgm::cuda

@@ -34,9 +34,9 @@ class DriverStream final : public Stream {
     if (use == StreamUse::batches) stream_ = device_.stream;
     if (stream_ == nullptr) {
       const CuResult result = driver_.streamCreate(&stream_, kCuNonBlockingStream);
-      if (Result<void> made = device_.check(result, "making a stream"); !made) return made;
+      if (Result<void> made = device_.check(result, "creating a stream"); !made) return made;
     }
-    return device_.check(driver_.eventCreate(&event_, kCuEventBlocks | kCuEventUntimed), "making an event");
+    return device_.check(driver_.eventCreate(&event_, kCuEventBlocks | kCuEventUntimed), "creating an event");
   }
   ~DriverStream() override {
     if (event_ != nullptr) waited();
@@ -65,7 +65,7 @@ class DriverStream final : public Stream {
   void free(MemoryKind kind, void* memory) noexcept override {
     const Current current(driver_, device_.context);
     if (!current) return;
-    // Copies may be under way in it. Where nobody can say that they have ended, it is left to the context's end.
+    // Copies may be using it. If their end cannot be determined, it is freed only with the context.
     if (device_.lost.load() || (kind == MemoryKind::pinned && !waited())) return;
     if (kind == MemoryKind::pinned) {
       driver_.memFreeHost(memory);
@@ -89,7 +89,7 @@ class DriverStream final : public Stream {
     const Current current(driver_, device_.context);
     if (!current) return refused();
     marked_ = false;
-    return device_.check(driver_.memcpyDtoDAsync(pointerOf(to), pointerOf(from), bytes, stream_), "keeping meshes");
+    return device_.check(driver_.memcpyDtoDAsync(pointerOf(to), pointerOf(from), bytes, stream_), "storing meshes");
   }
   Result<void> clear(void* device, size_t bytes) override {
     const Current current(driver_, device_.context);
@@ -101,7 +101,7 @@ class DriverStream final : public Stream {
     const Current current(driver_, device_.context);
     if (!current) return refused();
     marked_ = false;
-    // The driver copies the parameters before it returns.
+    // The driver copies the parameters before the call returns.
     Batch copy = batch;
     void* parameters[] = {&copy};
     return device_.check(driver_.launchKernel(device_.functions[static_cast<size_t>(kernel)], blocks, 1, 1,
@@ -122,7 +122,7 @@ class DriverStream final : public Stream {
     if (!current) return refused();
     const CuResult result = driver_.eventQuery(event_);
     if (result == kCuNotReady) return false;
-    if (const Result<void> asked = device_.check(result, "asking for the batch"); !asked) return asked.error();
+    if (const Result<void> asked = device_.check(result, "querying the batch"); !asked) return asked.error();
     return true;
   }
   Result<void> wait() override {
@@ -138,13 +138,13 @@ class DriverStream final : public Stream {
     device_.lost.store(true);
     return Current::refused();
   }
-  /// Who cannot be waited for may write for ever: nothing on the device is to be trusted any more.
+  /// If waiting fails, the work may write for ever: then no memory of the device can be trusted any more.
   Error unsure(const Error& why) const {
     device_.lost.store(true);
     return {Code::device_lost, why.message};
   }
 
-  /// As wait(), where there is nobody to catch what its message may throw.
+  /// As wait(), for callers that cannot catch exceptions of its message.
   bool waited() noexcept {
     try {
       return static_cast<bool>(wait());
@@ -158,7 +158,7 @@ class DriverStream final : public Stream {
   const DriverTable& driver_;
   CuStream stream_ = nullptr;
   CuEvent event_ = nullptr;
-  bool marked_ = true;  ///< the event stands behind all that was given; where that is nothing, it need not
+  bool marked_ = true;  ///< whether the event follows all work; true if there is none
 };
 
 class DriverImport final : public ImportedMemory {
@@ -166,7 +166,7 @@ class DriverImport final : public ImportedMemory {
   explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
   ~DriverImport() override {
     const Current current(device_->driver, device_->context);
-    // Where nobody can say that copies have ended it is left to the context's end, as memory is.
+    // If the end of copies cannot be determined, it is freed only with the context, as other memory is.
     if (!current || device_->lost.load()) return;
     if (memory_ != 0) device_->driver.memFree(memory_);
     if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
@@ -199,7 +199,7 @@ class DriverImport final : public ImportedMemory {
   }
 
  private:
-  /// Memory that cannot be imported harms no context.
+  /// A failed import does not harm the context.
   Error refused(CuResult result) const {
     Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
     if (error.code == Code::device_lost) error.code = Code::unsupported;

@@ -1,5 +1,5 @@
 #pragma once
-// Streams of an opened context, and other APIs' memory in it.
+// Streams of an opened context, and memory of other APIs imported into it.
 
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// As Device::makeStream. The device outlives it.
+/// As Device::makeStream. The device must outlive it.
 Result<std::unique_ptr<Stream>> makeDriverStream(const Opened& device, StreamUse use);
 
 /// As Device::import.

@@ -15,7 +15,7 @@ size_t bytesOf(const PartSource& source) {
   return aligned(source.vertex_count * sizeof(Vertex)) + aligned(source.index_count * sizeof(uint32_t));
 }
 
-/// What was copied to is given back by another stream: where something fails, only once the copies have ended.
+/// Copied parts are freed by another stream: so on failure, wait for the copies first.
 class WaitUnlessKept {
  public:
   explicit WaitUnlessKept(Stream& stream) : stream_(stream) {}
@@ -24,7 +24,7 @@ class WaitUnlessKept {
     try {
       static_cast<void>(stream_.wait());
     } catch (const std::bad_alloc&) {
-      // Of its message; it has waited, or the device is lost.
+      // From the message; the wait is done, or the device is lost.
     }
   }
   WaitUnlessKept(const WaitUnlessKept&) = delete;

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes that stay on the device, for the engine that lent its context: parts copied out of a batch's memory, or
-// brought from the host, to memory of their own.
+// Meshes that stay on the device, for the engine that owns the context: parts are copied from a batch's memory, or
+// uploaded from the host, to memory of their own.
 
 #include <array>
 #include <atomic>
@@ -16,8 +16,8 @@ namespace sgm::cuda {
 
 class KeptMeshes;
 
-/// The memory of a chunk's parts, or of one that was brought. Its end gives it back, which must not come before
-/// that of what the engine has the device do with it.
+/// The memory of a chunk's parts, or of an uploaded part. Its destructor frees the memory, and must run after the
+/// engine's own work with it has ended.
 class KeptMemory {
  public:
   KeptMemory(std::shared_ptr<const void> owner, KeptMeshes& meshes, std::byte* data, size_t bytes)
@@ -30,7 +30,7 @@ class KeptMemory {
   const KeptMeshes& meshes() const { return meshes_; }
 
  private:
-  const std::shared_ptr<const void> owner_;  // what the memory is outlived by
+  const std::shared_ptr<const void> owner_;  // kept alive, since it owns the memory
   KeptMeshes& meshes_;
   std::byte* const data_;
   const size_t bytes_;
@@ -40,12 +40,12 @@ class KeptMemory {
 struct CudaPart final : DevicePart {
   BackendKind kind() const override { return BackendKind::cuda; }
   std::shared_ptr<const KeptMemory> memory;
-  const Vertex* vertices = nullptr;   ///< the device's, at a multiple of 256 bytes
-  const uint32_t* indices = nullptr;  ///< likewise
+  const Vertex* vertices = nullptr;   ///< in device memory, aligned to 256 bytes
+  const uint32_t* indices = nullptr;  ///< same as above
   uint32_t vertex_count = 0, index_count = 0;
 };
 
-/// Where a part lies before it is copied; nothing where it has no indices.
+/// The source of a copied part; empty without indices.
 struct PartSource {
   const Vertex* vertices = nullptr;
   const uint32_t* indices = nullptr;
@@ -53,29 +53,29 @@ struct PartSource {
 };
 using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
 
-/// Any thread may use it. Outlived by the device that it is given, and by its parts.
+/// Thread-safe. The device must outlive it and its parts.
 class KeptMeshes {
  public:
-  /// cap: the most bytes; a mesh that would be beyond is not kept.
+  /// cap: limit in bytes; meshes beyond it are not kept.
   static Result<std::unique_ptr<KeptMeshes>> create(Device& device, uint64_t cap);
 
-  /// Copies parts by the stream, in its own time, from the device's memory, or where `from_host` from pinned memory:
-  /// one DeviceParts a chunk, null where there is no source, and throughout a chunk that no memory is left for. They
-  /// are there once the stream has been waited for, and must not end before. owner keeps alive what this is outlived
-  /// by. Errors: as Stream::copy. Throws std::bad_alloc.
+  /// Copies parts asynchronously in the stream, from device memory or, if `from_host`, from pinned memory. Returns one
+  /// DeviceParts for each chunk: null for parts without a source, all null for a chunk without memory. The parts are
+  /// complete once the stream was waited for, and must live until then. owner is kept alive and must own this object.
+  /// Errors: as Stream::copy. Throws std::bad_alloc.
   Result<std::vector<DeviceParts>> keep(const std::shared_ptr<const void>& owner, Stream& stream,
                                         std::span<const PartSources> chunks, bool from_host = false);
-  /// Brings parts from the host, as Backend::upload; returns when they are there.
+  /// Uploads parts from the host, as Backend::upload; blocks until they are there.
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(const std::shared_ptr<const void>& owner,
                                                                 std::span<const MeshPart* const> parts);
-  /// Of parts that have not ended.
+  /// Bytes of living parts.
   uint64_t bytes() const { return bytes_.load(); }
   const Device& device() const { return device_; }
 
  private:
   friend class KeptMemory;
   KeptMeshes(Device& device, uint64_t cap) : device_(device), cap_(cap) {}
-  /// Null: there is no room. Errors: those of a device that is lost. Throws std::bad_alloc.
+  /// Null if there is no room. Errors: those of a lost device. Throws std::bad_alloc.
   Result<std::shared_ptr<const KeptMemory>> allocate(const std::shared_ptr<const void>& owner, Stream& stream,
                                                      size_t bytes);
   Result<DeviceParts> keepChunk(const std::shared_ptr<const void>& owner, Stream& stream, const PartSources& sources,
@@ -86,7 +86,7 @@ class KeptMeshes {
   const uint64_t cap_;
   std::atomic<uint64_t> bytes_{0};
   std::mutex ending_mutex_, bringing_mutex_;
-  std::unique_ptr<Stream> ending_;    ///< gives memory back
+  std::unique_ptr<Stream> ending_;    ///< frees memory
   std::unique_ptr<Stream> bringing_;  ///< copies from the host
   Memory staging_;
 };

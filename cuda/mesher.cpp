@@ -11,10 +11,10 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Blocks that a multiprocessor has at one time or soon after: of the kernels whose work only the device knows.
+/// Blocks per multiprocessor for kernels whose amount of work only the device knows: enough to keep it busy.
 constexpr uint32_t kBlocksAProcessor = 32;
 
-/// Arrays behind each other in one memory: first their sizes, then their places.
+/// Places arrays one after the other in one memory: first only to get their sizes, then their addresses.
 class Places {
  public:
   explicit Places(std::byte* begin) : begin_(begin) {}
@@ -38,7 +38,7 @@ size_t placeResult(const Plan& plan, std::byte* begin, Head*& head, Part*& parts
   return places.used();
 }
 
-/// What the host writes; copies it where there is a place for it.
+/// Places the host's input; copies it if `staging` is not null.
 size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch& batch) {
   Places to(staging), at(device);
   const auto put = [&](const auto& array, auto*& on_device) {
@@ -64,7 +64,7 @@ size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch
 size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   const uint64_t chunks = plan.chunks.size(), seams = plan.seams.size(), items = chunks * kBricks + 2 * seams;
   Places places(begin);
-  // First what must be zero.
+  // First the arrays that must be zero.
   places.put(batch.signs, chunks * kRows);
   places.put(batch.coarse_signs, seams * kCoarseSide);
   places.put(batch.marks, plan.marks);
@@ -81,7 +81,7 @@ size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   return places.used();
 }
 
-/// Of scratch, from its beginning.
+/// The size of the part of scratch to clear, from its beginning.
 size_t zeroBytes(const Plan& plan) {
   Batch batch{};
   Places places(nullptr);
@@ -136,7 +136,7 @@ Batch Mesher::sized(const Plan& plan) const {
   return batch;
 }
 
-/// Memory for it all, and the input in its place.
+/// Provides all memory, and places the input.
 Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   m.input_bytes = placeInput(plan, nullptr, nullptr, batch);
   m.result_bytes = placeResult(plan, nullptr, batch.head, batch.parts, batch.sums);
@@ -265,11 +265,11 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
                 reinterpret_cast<const uint64_t*>(m.signs_back.data())};
 }
 
-/// What did not come with the batch.
+/// Downloads the data that did not come with the batch.
 Result<void> Mesher::bringRest(const Head& head, BatchMemory& m) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex),
                  indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this one had: batches that come after one another lie side by side.
+  // A quarter more than this batch: successive batches are neighbours in the world.
   usual_vertices_.store(vertices + vertices / 4);
   usual_indices_.store(indices + indices / 4);
   if (vertices <= m.brought_vertices && indices <= m.brought_indices) return {};

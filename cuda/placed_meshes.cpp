@@ -5,16 +5,16 @@
 
 namespace sgm::cuda {
 
-/// What a block's memory is to one device; to another, after a loss, it is nothing.
+/// The import of a block's memory into one device; a device opened after a loss cannot use it.
 struct PlacedMeshes::Import {
-  std::mutex mutex;        ///< guards what follows
-  const PlacedMeshes* of;  ///< null once that has ended, so that it is nobody's who comes to lie there
+  std::mutex mutex;        ///< guards the following
+  const PlacedMeshes* of;  ///< null once that is destroyed, so that no later object at its address matches
   std::shared_ptr<const ImportedMemory> memory;
 };
 
 namespace {
 
-/// Nobody but us reads and writes what is copied: where something fails, only once the copies have ended.
+/// Only this code accesses copied parts: so on failure, wait for the copies first.
 class Writing {
  public:
   Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
@@ -23,7 +23,7 @@ class Writing {
     try {
       if (stream_.wait()) placement_.writing = false;
     } catch (const std::bad_alloc&) {
-      // Of its message: the device is lost.
+      // From the message: the device is lost.
     }
   }
   Writing(const Writing&) = delete;
@@ -46,14 +46,14 @@ PartSizes sizesOf(const PartSources& sources) {
 
 Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::shared_ptr<MeshStore> store) {
   if (store->device() != device.info().id) {
-    return Error{Code::unsupported, device.info().name + " is not the GPU that draws"};
+    return Error{Code::unsupported, device.info().name + " is not the drawing GPU"};
   }
   std::unique_ptr<PlacedMeshes> meshes(new PlacedMeshes(device, std::move(store)));
-  // One that cannot import would tell only when the first mesh has been made.
+  // Try an import now; otherwise failure would show only after the first mesh was made.
   PartSizes least{};
   least[0] = {1, 1};
   const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
-  if (trial->parts.empty()) return Error{Code::out_of_memory, "the device that draws has no memory for a single mesh"};
+  if (trial->parts.empty()) return Error{Code::out_of_memory, "the drawing device has no memory for a single mesh"};
   for (const PartPlace& part : trial->parts) {
     const auto imported = meshes->import(*part.block);
     if (imported) continue;
@@ -75,7 +75,7 @@ PlacedMeshes::~PlacedMeshes() {
 }
 
 Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
-  // After a loss two sessions may be at it, the old one with its last batches.
+  // After a loss two sessions may be doing this, the old one with its last batches.
   const std::scoped_lock lock(block.importing);
   if (const auto known = std::static_pointer_cast<Import>(block.imported)) {
     const std::scoped_lock of_import(known->mutex);
@@ -103,7 +103,7 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
   for (const PartPlace& part : placement->parts) {
     const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);
     if (!imported) {
-      // As where there is no room.
+      // Treat it like missing room.
       placement->chunks[part.chunk] = {};
       continue;
     }

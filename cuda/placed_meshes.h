@@ -1,5 +1,5 @@
 #pragma once
-// Meshes that stay in memory of another API's, on the device that draws them: copied there out of a batch's memory.
+// Meshes that stay in another API's memory, on the drawing device: copied there from a batch's memory.
 
 #include <memory>
 #include <mutex>
@@ -12,18 +12,18 @@
 
 namespace sgm::cuda {
 
-/// Any thread may use it. Outlived by the device.
+/// Thread-safe. The device must outlive it.
 class PlacedMeshes {
  public:
-  /// Errors: unsupported, the store is another GPU's or the device cannot import its memory; out_of_memory,
+  /// Errors: unsupported (the store is on another GPU, or the device cannot import its memory); out_of_memory,
   /// device_lost.
   static Result<std::unique_ptr<PlacedMeshes>> create(Device& device, std::shared_ptr<MeshStore> store);
 
-  /// Copies parts by the stream, in its own time. To be published once that has been waited for (Placement).
-  /// Errors: as Stream::copy; nothing is being copied any more then. Throws std::bad_alloc.
+  /// Copies parts asynchronously in the stream. Publish the result (Placement) after waiting for that. On error no copy
+  /// is running any more. Errors: as Stream::copy. Throws std::bad_alloc.
   Result<std::unique_ptr<Placement>> keep(Stream& stream, std::span<const PartSources> chunks);
-  /// Nothing that it gave is written to any more. Ends what it has imported, though blocks live on: that would keep a
-  /// lost device's memory.
+  /// Precondition: no placement is still being written. Releases the imported memory although its blocks live on, since
+  /// it would keep a lost device's memory alive.
   ~PlacedMeshes();
   PlacedMeshes(const PlacedMeshes&) = delete;
   PlacedMeshes& operator=(const PlacedMeshes&) = delete;
@@ -32,13 +32,13 @@ class PlacedMeshes {
  private:
   struct Import;
   PlacedMeshes(Device& device, std::shared_ptr<MeshStore> store) : device_(device), store_(std::move(store)) {}
-  /// The block as the device sees it.
+  /// Imports the block into the device.
   Result<std::shared_ptr<const ImportedMemory>> import(SharedBlock& block);
 
   Device& device_;
   const std::shared_ptr<MeshStore> store_;
-  std::mutex mutex_;                            ///< guards what follows
-  std::vector<std::weak_ptr<Import>> imports_;  ///< what blocks have of ours
+  std::mutex mutex_;                            ///< guards the following
+  std::vector<std::weak_ptr<Import>> imports_;  ///< our entries in the blocks
 };
 
 }  // namespace sgm::cuda

@@ -25,7 +25,7 @@ if (($# == 0)); then
   [[ -e $root/build/release/runtime/cmake_install.cmake ]] ||
     die "build/release is not built: cmake --preset release && cmake --build --preset release, or name a PREFIX"
   grep -q '^SGM_TOOLS:[A-Z]*=all' "$root/build/release/CMakeCache.txt" ||
-    die "build/release has the core commands alone: cmake --preset release && cmake --build --preset release"
+    die "build/release has only the core commands: cmake --preset release && cmake --build --preset release"
   quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
   # The tests bake with the command.
   quietly "installing the command" cmake --install "$root/build/release" --prefix "$prefix" --component command

@@ -22,9 +22,9 @@ found() { echo "get_godot: $2 ($1)" >&2; echo "$1"; exit 0; }
 
 if [[ -n ${GODOT:-} ]]; then
   program=$(command -v "$GODOT" || true)
-  [[ -n $program ]] || die "GODOT names '$GODOT', which is no program"
+  [[ -n $program ]] || die "GODOT names '$GODOT', which is not a program"
   is=$(version "$program")
-  new_enough "$is" || die "GODOT names '$GODOT', which is '${is:-no Godot that runs}'; the plugin needs Godot 4.3 or newer"
+  new_enough "$is" || die "GODOT names '$GODOT', which is '${is:-not a working Godot}'; the plugin needs Godot 4.3 or newer"
   found "$program" "$is"
 fi
 for name in godot4 godot; do
@@ -32,7 +32,7 @@ for name in godot4 godot; do
   [[ -n $program ]] || continue
   is=$(version "$program")
   new_enough "$is" && found "$program" "$is"
-  echo "get_godot: $program is '${is:-no Godot that runs}': not used" >&2
+  echo "get_godot: $program is '${is:-not a working Godot}': ignored" >&2
 done
 
 unpacked() {
@@ -43,10 +43,10 @@ unpacked() {
   return 1
 }
 unpacked || true
-[[ ${1:-} != --no-download ]] || die "there is no Godot here; without --no-download it is unpacked"
+[[ ${1:-} != --no-download ]] || die "there is no Godot; without --no-download this script unpacks one"
 help="set GODOT to a Godot 4.3 or newer (from godotengine.org), or leave its tests out: tests/run.sh --without godot"
 [[ $(dpkg --print-architecture 2>/dev/null) == amd64 ]] && command -v apt-get >/dev/null ||
-  die "there is no Godot here, and it can be unpacked on Debian amd64 alone; $help"
+  die "there is no Godot, and this script can unpack one only on Debian amd64; $help"
 
 mkdir -p "$(dirname "$cache")"
 exec 9>"$cache.lock"
@@ -56,7 +56,7 @@ unpacked || true
 sources=(/etc/apt/sources.list /etc/apt/sources.list.d/*)
 mirror=$(cat "${sources[@]}" 2>/dev/null | sed -n 's/^URIs: *\([^ ]*\).*/\1/p; s/^deb  *\(\[[^]]*\] *\)\{0,1\}\([^ ]*\).*/\2/p' |
   grep debian | grep -v security | head -n 1 || true)
-[[ -n $mirror ]] || die "apt's sources name no mirror of Debian; $help"
+[[ -n $mirror ]] || die "the sources of apt name no mirror of Debian; $help"
 new=$cache.unfinished
 trap 'rm -rf "$new"' EXIT
 rm -rf "$new"
@@ -70,7 +70,7 @@ apt() {
 }
 echo "get_godot: unpacking Godot below $cache" >&2
 apt update && apt install --no-install-recommends --download-only -y godot mesa-vulkan-drivers libgl1-mesa-dri ||
-  die "Godot could not be fetched (is the network there? apt's last words: $(tail -n 1 "$new/apt/log")); $help"
+  die "Godot could not be downloaded (is the network available? apt's last message: $(tail -n 1 "$new/apt/log")); $help"
 for package in "$new"/apt/cache/archives/*.deb; do
   dpkg-deb -x "$package" "$new/root" || die "a package could not be unpacked (is the disk full?); $help"
 done
@@ -90,7 +90,7 @@ exec "$lib/ld-linux-x86-64.so.2" --library-path "$lib:$lib/pulseaudio:$lib/blas:
 WRAPPER
 chmod +x "$new/godot"
 is=$(version "$new/godot")
-new_enough "$is" || die "what was unpacked is '${is:-no Godot that runs}'; $help"
+new_enough "$is" || die "the unpacked program is '${is:-not a working Godot}'; $help"
 rm -rf "$cache"
 mv "$new" "$cache"
 found "$cache/godot" "$is"

@@ -3,14 +3,14 @@
 #
 #   cmake -DSHADERS=FOLDER_OF_render -DOUTPUT=FOLDER -P editor_plugin/patterns.cmake
 #
-# Godot's shading language is GLSL without a conversion of whole numbers in constructors, and without #include of ours.
-# A line that is not known to be translated is an error, so that a change of the patterns shows here and not in an engine.
+# Godot's shading language is GLSL without integer conversions in constructors, and without our #include. A line that
+# cannot be translated is an error, so that a change of the patterns fails here and not in an engine.
 #
-# A file is written only where it would change, and in one step: several builds may share it, and an engine that is
-# open sees it whole.
+# A file is written only if it changes, and atomically: several builds may share it, and a running engine sees it
+# complete.
 cmake_minimum_required(VERSION 3.25)
 set(text "")
-# fail(FILE LINE WHAT): a line that this script does not know how to translate.
+# fail(FILE LINE WHAT): reports a line that this script cannot translate.
 function(fail file line what)
   string(REPLACE "@semicolon@" ";" line "${line}")
   string(REPLACE "@open@" "[" line "${line}")
@@ -18,14 +18,14 @@ function(fail file line what)
   message(FATAL_ERROR "${SHADERS}/${file}: ${what}:\n  ${line}\nWrite it as the lines around it are written, or teach "
     "editor_plugin/patterns.cmake to translate it.")
 endfunction()
-# take(FILE): appends it, and first what it includes, each once.
+# take(FILE): appends its includes and then the file, each once.
 set(taken "")
 function(take file)
   if(file IN_LIST taken)
     return()
   endif()
   list(APPEND taken ${file})
-  # Semicolons and brackets mean something in CMake's lists: they go by other names until the end.
+  # Semicolons and brackets have a meaning in CMake's lists: replace them until the end.
   file(READ ${SHADERS}/${file} source)
   if(source MATCHES "\\\\")
     fail(${file} "\\" "backslashes mean something in CMake's lists and are not translated")
@@ -39,7 +39,7 @@ function(take file)
       take(${CMAKE_MATCH_1})
       continue()
     endif()
-    # A pattern is compiled where a material of the world has it.
+    # A pattern is compiled if a material of the world uses it.
     if(line MATCHES "^( *)if \\(has\\(([0-9]+)u\\)\\) { if \\(pattern == ([0-9]+)u\\) (return .*) }$")
       if(NOT CMAKE_MATCH_2 EQUAL CMAKE_MATCH_3)
         fail(${file} "${line}" "it asks for two different patterns")
@@ -57,12 +57,12 @@ function(take file)
         line MATCHES "^#define has\\(pattern\\) \\(\\(kPatterns ")
       continue()
     elseif(file STREQUAL "render/patterns.h" AND line MATCHES "^const uint k([A-Za-z]+) = ([0-9]+)u@semicolon@$")
-      # A pattern that has a name: shaders ask for SGM_HAS_NAME, whether it is compiled.
+      # For a named pattern: shaders test SGM_HAS_NAME to know whether it is compiled.
       string(TOUPPER ${CMAKE_MATCH_1} name)
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
         "#define SGM_HAS_${name}\n#endif\n")
     endif()
-    # Loops have no attributes there: a bound that the compiler does not know does the same.
+    # Godot's loops have no attributes: a bound that the compiler does not know has the same effect.
     string(REGEX REPLACE "@open@@open@dont_unroll@close@@close@ for \\(int ([a-z]) = 0@semicolon@ [a-z] < ([0-9]+)@semicolon@"
       "for (int \\1 = 0@semicolon@ \\1 < \\2 * whole_loops@semicolon@" line "${line}")
     string(REGEX REPLACE "([^i]vec3)\\(([0-9]+), ([0-9]+), ([0-9]+)\\)" "\\1(\\2.0, \\3.0, \\4.0)" line "${line}")
@@ -81,7 +81,7 @@ function(take file)
   set(text "${text}" PARENT_SCOPE)
   set(taken "${taken}" PARENT_SCOPE)
 endfunction()
-# put(NAME WHAT): writes the text that was taken, and begins another one.
+# put(NAME WHAT): writes the collected text, and starts another one.
 function(put name what)
   string(REPLACE "@semicolon@" ";" text "${text}")
   string(REPLACE "@open@" "[" text "${text}")

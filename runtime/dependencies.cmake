@@ -1,4 +1,4 @@
-# What the library needs from outside, found once for every folder. A missing package is named as Debian calls it.
+# The library's dependencies, found once for all folders. A missing package is reported by its name in Debian.
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 set(SGM_CONFIG_DEPENDENCIES "find_dependency(Threads)")
@@ -12,13 +12,13 @@ if(NOT SGM_SCALAR)
   set(SGM_PC_REQUIRES libhwy)
 endif()
 
-# Its header alone: nothing of it is left to link.
+# Header-only: there is nothing to link.
 find_path(SGM_XXHASH_INCLUDE xxhash.h)
 if(NOT SGM_XXHASH_INCLUDE)
   message(FATAL_ERROR "xxhash.h is missing: install the package libxxhash-dev")
 endif()
 
-# Headers alone: the loader is looked for when a program runs. The command draws pictures with it.
+# Headers only: the loader is opened at run time. The command also draws pictures with it.
 if(SGM_VULKAN OR NOT SGM_TOOLS STREQUAL "off")
   find_path(SGM_VULKAN_INCLUDE vulkan/vulkan.h)
   if(NOT SGM_VULKAN_INCLUDE)
@@ -26,7 +26,7 @@ if(SGM_VULKAN OR NOT SGM_TOOLS STREQUAL "off")
   endif()
 endif()
 
-# Headers alone, likewise: libcurl is looked for when a store on a server is first read from.
+# Headers only: libcurl is opened when a store on a server is first read.
 if(SGM_HTTP_STORES)
   find_path(SGM_CURL_INCLUDE curl/curl.h)
   if(NOT SGM_CURL_INCLUDE)

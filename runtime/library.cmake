@@ -1,5 +1,5 @@
-# sgm::sgm, the library that others use: the objects of every module in one library, shared or static as
-# BUILD_SHARED_LIBS says, with the C interface as its only face.
+# sgm::sgm, the public library: the objects of every module in one library, shared or static as BUILD_SHARED_LIBS says,
+# which exports only the C interface.
 include(GNUInstallDirs)
 
 set(SGM_MODULES base asset asset_read grammar_text grammar_std grammar_syntax grammar_range grammar_parse grammar_print
@@ -28,7 +28,7 @@ get_target_property(SGM_LIBRARY_TYPE sgm TYPE)
 if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   target_compile_definitions(sgm INTERFACE SGM_STATIC)
 else()
-  # Hidden visibility leaves template instances of the standard library in the open; the map leaves the interface alone.
+  # Hidden visibility still exports template instances of the standard library; the map exports only the interface.
   target_link_options(sgm PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
   set_property(TARGET sgm APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
 endif()

@@ -1,11 +1,11 @@
-# Flags that every target of ours shares, and sgm_module(): one CMake target a folder.
+# Common flags of all our targets, and sgm_module(): one CMake target for each folder.
 
 set(SGM_RUNTIME ${CMAKE_CURRENT_LIST_DIR})
 
 set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast
-  # g++ 12 sees overlaps (GCC bug 105651) and null pointers in its own std::string and std::vector, once inlined.
-  # clang++ takes an explicit double{f} for a silent promotion.
+  # g++ 12 reports false overlaps (GCC bug 105651) and null pointers in its own inlined std::string and std::vector.
+  # clang++ reports an explicit double{f} as an implicit promotion.
   $<IF:$<CXX_COMPILER_ID:GNU>,-Wdouble-promotion;-Wno-restrict,-Wnull-dereference>)
 
 if(SGM_WERROR)
@@ -22,13 +22,13 @@ function(sgm_target_flags target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS}> ${SGM_EXACT_FLAGS})
   if(SGM_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumentation makes them cry wolf
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumentation causes false warnings
     target_link_options(${target} PUBLIC -fsanitize=${SGM_SANITIZE})
   endif()
 endfunction()
 
-# sgm_source_properties(FILES... PROPERTIES ...): set_source_files_properties, but a file that is not there is an error: the
-# property would be set for nothing.
+# sgm_source_properties(FILES... PROPERTIES ...): set_source_files_properties, but a missing file is an error, since
+# otherwise the property would have no effect.
 function(sgm_source_properties)
   cmake_parse_arguments(ARG "" "" "PROPERTIES" ${ARGN})
   foreach(file IN LISTS ARG_UNPARSED_ARGUMENTS)
@@ -39,8 +39,8 @@ function(sgm_source_properties)
   endforeach()
 endfunction()
 
-# sgm_include_root(TARGET): what includes the caller's folder by its path below runtime/ (the folder cuda by its name).
-# Folders in it with a CMakeLists.txt are modules of their own, and stay out of sight.
+# sgm_include_root(TARGET): lets files include the caller's folder by its path below runtime/ (the folder cuda by its
+# name). Subfolders with a CMakeLists.txt are separate modules, and not visible.
 function(sgm_include_root target)
   cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${SGM_RUNTIME} OUTPUT_VARIABLE path)
   if(path MATCHES "^\\.\\./")
@@ -65,11 +65,11 @@ function(sgm_include_root target)
   target_include_directories(${target} PUBLIC ${include_root})
 endfunction()
 
-# sgm_module(NAME [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include ...])
-# makes the static library sgm_NAME from the caller's folder. Headers are included by their path below runtime/. A folder
-# sees its own headers and those of the modules it names, nothing else. BATCH: so many files are one unit of a unity
-# build, where most of a unit's time goes to headers that they share; names in their unnamed namespaces differ then. mesh
-# does without: more functions in a unit change what is inlined.
+# sgm_module(NAME [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include
+# ...]) makes the static library sgm_NAME from the caller's folder. Headers are included by their path below runtime/. A
+# folder sees only its own headers and those of the modules that it names. BATCH: number of files in a unit of a unity
+# build, for modules where shared headers dominate the compile time; names in unnamed namespaces must then be unique.
+# mesh has no BATCH, since more functions in a unit change inlining.
 function(sgm_module name)
   cmake_parse_arguments(ARG "" "BATCH" "SOURCES;LINK;PUBLIC" ${ARGN})
   add_library(sgm_${name} STATIC ${ARG_SOURCES})

@@ -77,7 +77,7 @@ case ${1-} in
   names) names ;;
   missing) names | while read -r name; do [[ -f $images/$name.jpg ]] || echo "$name"; done ;;
   pictures)
-    [[ -x ${2-} ]] || { echo 'library.sh: error: pictures needs the command: samples/library.sh pictures SGM' >&2; exit 2; }
+    [[ -x ${2-} ]] || { echo 'library.sh: error: pictures needs the path of the command: samples/library.sh pictures SGM' >&2; exit 2; }
     draw_pictures "${@:2}"
     ;;
   *) sed -n '2,10s/^# \{0,1\}//p' "$0" && exit 2 ;;

@@ -44,7 +44,7 @@ sgm_missing() {
 
 sgm_setup() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "setup: this is no Debian system; going on without installing anything (needed: ${*%%=*})" >&2
+    echo "setup: this is not a Debian system; continuing without installing packages (needed: ${*%%=*})" >&2
     return 0
   fi
   local missing as_root=()
@@ -66,7 +66,7 @@ sgm_setup() {
   if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null; then
     mapfile -t missing < <(sgm_missing "$@")
-    echo "setup: error: could not install ${missing[*]} (is the network there? apt-get's words are in $log)" >&2
+    echo "setup: error: could not install ${missing[*]} (is the network available? the output of apt-get is in $log)" >&2
     return 1
   fi
   rm -f "$log"
@@ -97,7 +97,7 @@ sgm_setup_npm() {
   # All of them at once: npm takes away what it is not told of.
   if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --prefer-offline --fetch-retries=1 \
     --fetch-retry-mintimeout=1000 --loglevel=error "${wanted[@]}" >"$log" 2>&1 </dev/null; then
-    echo "setup: error: could not install npm packages ${missing%, } (is the network there? npm's words are in $log)" >&2
+    echo "setup: error: could not install npm packages ${missing%, } (is the network available? the output of npm is in $log)" >&2
     return 1
   fi
   rm -f "$log"

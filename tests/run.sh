@@ -57,9 +57,9 @@ while (($#)); do
   shift
 done
 modules=$(grep -l sgm_unit_test tests/*/CMakeLists.txt tests/unit/*/CMakeLists.txt | xargs -n 1 dirname | xargs -n 1 basename)
-[[ -z $module || " ${modules//$'\n'/ } " == *" $module "* ]] || die "no module '$module'; there are: ${modules//$'\n'/ }" 2
+[[ -z $module || " ${modules//$'\n'/ } " == *" $module "* ]] || die "there is no module '$module'; the modules are: ${modules//$'\n'/ }" 2
 [[ -z $module || $tier == quick ]] || die "--module runs one module's tests in the release build: leave the other options out" 2
-[[ $tier == all || ${#without[@]} == 0 ]] || die "--without goes with --all or --long" 2
+[[ $tier == all || ${#without[@]} == 0 ]] || die "--without needs --all or --long" 2
 [[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
@@ -139,7 +139,7 @@ mkdir -p build/all
 step "tests"
 known=" $(ctest --test-dir build/all --print-labels | sed -n 's/^  //p' | tr '\n' ' ') "
 for name in ${labels[@]+"${labels[@]}"} ${left_out_labels[@]+"${left_out_labels[@]}"}; do
-  [[ $known == *" $name "* ]] || die "no test has the label '$name'; there are:${known% }" 2
+  [[ $known == *" $name "* ]] || die "no test has the label '$name'; the labels are:${known% }" 2
 done
 joined() { local IFS='|'; echo "^($*)\$"; }
 filter=()

@@ -1,5 +1,5 @@
 #pragma once
-// What the kernels of one batch read and write. Plain words; places are counted from the beginning of their array.
+// The input and output of a batch's kernels. Plain words; offsets are relative to the beginning of their array.
 
 #include <cstdint>
 
@@ -20,7 +20,8 @@ inline constexpr uint32_t kCoarseSide = 17;                                  ///
 inline constexpr uint32_t kCoarsePlane = kCoarseSide * kCoarseSide;
 inline constexpr uint32_t kSeamCells = 16 * 16;
 
-/// Where a program lies in the batch's arrays. Its groups count instructions, and these parameters, from its own first.
+/// The location of a program in the batch's arrays. Its groups count instructions, and these count parameters, from its
+/// own first ones.
 struct Program {
   uint32_t first_instr, instrs, first_param, params, first_group, groups;
   float initial;
@@ -30,76 +31,76 @@ struct Program {
 
 struct Chunk {
   int32_t origin[3], cell;  ///< units
-  uint32_t body;            ///< number of its part; kNone: only seams are asked for
-  uint32_t faces;           ///< 0, or of a chunk without a body the faces that it has seams on, bit (1 << Face)
+  uint32_t body;            ///< index of its part; kNone: only seams are requested
+  uint32_t faces;           ///< for a chunk without a body: the faces with seams, bit (1 << Face); else 0
 };
 
 struct Seam {
   uint32_t chunk, face, part;
 };
 
-/// All boxes that one program is asked about, at most 64: the bricks of a chunk, or the planes of its seams.
+/// All boxes for which one program is pruned, at most 64: the bricks of a chunk, or the planes of its seams.
 struct PruneJob {
   enum Kind : uint32_t { bricks, own_planes, coarse_planes };
   uint32_t kind, chunk, program, first_seam, boxes;
-  uint64_t marks, bounds;  ///< places in scratch: for each instruction, and for each group, one for each box
+  uint64_t marks, bounds;  ///< offsets in scratch: one entry for each instruction (or group) and box
 };
 
 struct Mark {
   float lo, hi;
 };
 
-/// What decides about a group (field/prune_kernel.inl).
+/// The bounds that decide about a group (field/prune_kernel.inl).
 struct GroupBounds {
   Mark value;
   bool met, whole, live;
 };
 
-/// What pruning has left of a program in one box: of a brick by 64 * chunk + brick, then two for each seam, its plane
-/// by the chunk's own program and by that of the level above.
+/// A program pruned to one box. Index: 64 * chunk + brick for bricks; then two for each seam, its plane with the
+/// chunk's own program and with that of the level above.
 struct Item {
   enum State : uint32_t { mixed, solid, empty };
   uint32_t state;
   uint32_t program;
-  uint32_t pruned;  ///< 0: found no room, or is not sampled. The program as a whole holds everywhere
-  uint32_t first_instr, instrs, first_group, groups;  ///< where pruned
+  uint32_t pruned;  ///< 0: no room, or not sampled; then use the whole program, which is valid everywhere
+  uint32_t first_instr, instrs, first_group, groups;  ///< if pruned
   float initial;
   uint32_t initial_label;
 };
 
-/// Of a row of samples, what lies before it in its chunk.
+/// The counts of a chunk before a row of samples.
 struct Row {
   uint32_t vertices, indices, cells;
 };
 
-/// An active cell, x + 32 y + 1024 z, its case above, and the first of its indices in the part.
+/// An active cell, x + 32 y + 1024 z, with its case above these bits, and its first index in the part.
 struct Cell {
   uint32_t place, first_index;
 };
 
-/// The census of a seam. Rows: what lies before them.
+/// The census of a seam. Rows: the counts before them.
 struct SeamCensus {
   uint64_t plane[kSide];  ///< the chunk's signs on the face, bit a of row b
   uint32_t fine[kSide], coarse[kCoarseSide], lateral[kCoarseSide];
-  uint32_t first_coarse, first_lateral;  ///< vertices before them
-  uint32_t indices[kSeamCells];          ///< before each cell, a + 16 b
+  uint32_t first_coarse, first_lateral;  ///< number of vertices before them
+  uint32_t indices[kSeamCells];          ///< number before each cell, a + 16 b
 };
 
 struct Part {
   uint32_t vertices, indices;
-  uint32_t first_vertex, first_index;  ///< kNone: there is no room for it
+  uint32_t first_vertex, first_index;  ///< kNone: no room
   uint32_t hash[2];
 };
 
-/// Over a part's triangles, as mesh/part_sums.h has them.
+/// Sums over a part's triangles, as in mesh/part_sums.h.
 struct Sums {
   uint64_t area, cross[3], six_volumes;
 };
 
 struct Head {
-  uint32_t sampled;                   ///< entries of the list of items that are sampled
-  uint32_t pool_instrs, pool_groups;  ///< taken, or asked for in vain
-  uint32_t vertices, indices;         ///< up to the end of the last part that has room
+  uint32_t sampled;                   ///< length of the list of sampled items
+  uint32_t pool_instrs, pool_groups;  ///< entries taken, or requested without success
+  uint32_t vertices, indices;         ///< up to the end of the last part with room
 };
 
 /// The case tables (mesh/tables.h).
@@ -114,10 +115,10 @@ struct CaseTables {
   uint16_t seam_edge_faces[kSeamEdges];
 };
 
-/// A kernel's one argument.
+/// The only argument of a kernel.
 struct Batch {
   const CaseTables* tables;
-  // What the host has written.
+  // Input from the host.
   const Instr* instrs;
   const uint32_t* params;
   const ProgramGroup* groups;
@@ -133,7 +134,7 @@ struct Batch {
   Item* items;
   Instr* pool_instrs;
   ProgramGroup* pool_groups;
-  uint32_t* sampled;        ///< items that are sampled, in no order
+  uint32_t* sampled;        ///< sampled items, unordered
   int32_t* samples;         ///< kSamples a chunk: Q, x fastest
   uint64_t* signs;          ///< kRows a chunk; zero at first. Bit x: solid
   int32_t* coarse_samples;  ///< kCoarsePlane a seam
@@ -141,11 +142,11 @@ struct Batch {
   Row* rows;                ///< kRows a chunk
   Cell* cells;              ///< 32^3 a chunk
   SeamCensus* seam_census;  ///< one a seam
-  // What comes of it.
+  // Output.
   Head* head;   ///< zero at first
-  Part* parts;  ///< likewise
-  Sums* sums;   ///< likewise, one a part; null where no chunk wants sums alone
-  bool meshes;  ///< whether a chunk wants its mesh: attributes are of nothing else
+  Part* parts;  ///< same as above
+  Sums* sums;   ///< same as above, one a part; null if no chunk wants only sums
+  bool meshes;  ///< whether a chunk wants its mesh: only meshes need attributes
   Vertex* vertices;
   uint32_t* indices;
 };

@@ -1,13 +1,13 @@
 #pragma once
-// What a kernel is written against: a block of threads that runs phases, with scans between them.
+// The programming model of kernels: a block of threads that runs phases, with scans between them.
 //
 // A kernel is a class with the constant kThreads, the plain struct Shared, and
 //   template <class Block> SGM_KERNEL static void run(Block& block, const Batch& batch, Shared& shared);
-// Within run() every line that stands in no phase is the same for all threads of the block. block.each(f) is a phase:
-// f(thread) for each of them, in any order, and all have ended before the next line. So a phase is a plain function,
-// without a barrier, and the same source runs on a GPU, a thread a thread, and here, a loop. What threads of one phase
-// write for each other to read is read in a later phase only; where they write to one place they use the functions
-// below.
+// Within run(), all code outside of a phase gives the same result in all threads of the block. block.each(f) is a
+// phase: it calls f(thread) for each thread, in any order, and all calls have ended before the next line. So a phase is
+// a plain function without a barrier, and the same source runs on a GPU as threads, and on the CPU as a loop. Data that
+// threads of one phase write may be read by other threads only in a later phase; writes to the same place must use the
+// functions below.
 
 #include <bit>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace sgm::cuda {
 
-/// Returns what was there.
+/// Returns the previous value.
 SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #ifdef __CUDA_ARCH__
   return atomicAdd(&sum, by);
@@ -27,7 +27,7 @@ SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #endif
 }
 
-/// As two's complement words, of whatever sign.
+/// Values are two's complement, of any sign.
 SGM_KERNEL void addTo(uint64_t& sum, uint64_t by) {
 #ifdef __CUDA_ARCH__
   atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(by));
@@ -60,7 +60,7 @@ SGM_KERNEL uint32_t countOf(uint64_t bits) {
 #endif
 }
 
-/// Precondition: there is one.
+/// Precondition: a bit is set.
 SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #ifdef __CUDA_ARCH__
   return static_cast<uint32_t>(__ffsll(static_cast<long long>(bits)) - 1);
@@ -69,7 +69,7 @@ SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #endif
 }
 
-/// The last place whose value is at most `value`, in ascending values of which the first is.
+/// The last index whose value is at most `value`; the values ascend, and the first one is at most `value`.
 SGM_KERNEL uint32_t lastAtMost(const uint32_t* values, uint32_t count, uint32_t value) {
   uint32_t lo = 0, hi = count;
   while (hi - lo > 1) {

@@ -1,5 +1,5 @@
 #pragma once
-// The vertices and triangles of bodies, in the order of mesh/body.cpp.
+// Writes the vertices and triangles of bodies, in the order of mesh/body.cpp.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/field.h"
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// A block a brick that was sampled: its vertices with the attributes that its program gives them.
+/// One block for each sampled brick: its vertices, with attributes from its program.
 struct BodyVertices {
   static constexpr uint32_t kThreads = 96;
   static constexpr uint32_t kBrickRows = (kBrickCells + 1) * (kBrickCells + 1);
@@ -52,7 +52,7 @@ struct BodyVertices {
     }
   }
 
-  /// The n-th vertex of a row among those that the samples in `owners` own.
+  /// The n-th vertex of a row, among those owned by the samples in `owners`.
   SGM_KERNEL static void emit(const Batch& b, uint32_t chunk_number, const ProgramView& view, int y, int z,
                               uint64_t owners, uint32_t n, PartSum& sum) {
     const Chunk& chunk = b.chunks[chunk_number];
@@ -83,7 +83,7 @@ struct BodyVertices {
   }
 };
 
-/// A block a chunk: a list of its active cells.
+/// One block for each chunk: lists its active cells.
 struct ListCells {
   static constexpr uint32_t kThreads = 256;
   struct Shared {
@@ -116,7 +116,7 @@ struct ListCells {
   }
 };
 
-/// kSlices blocks a chunk, which share its active cells; a thread a cell.
+/// kSlices blocks for each chunk share its active cells; one thread for each cell.
 struct BodyTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 8;
@@ -132,7 +132,7 @@ struct BodyTriangles {
     const uint64_t* signs = b.signs + size_t{kRows} * chunk_number;
     const Row* rows = b.rows + size_t{kRows} * chunk_number;
     const Cell* cells = b.cells + size_t{kCells} * chunk_number;
-    // What the row behind the last row of cells counts are all.
+    // The row after the last row of cells has the totals.
     const uint32_t active = rows[rowOf(kChunkCells, kChunkCells - 1)].cells;
     block.each([&](uint32_t thread) {
       if (thread < 2) shared.hash[thread] = 0;

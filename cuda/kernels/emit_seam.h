@@ -1,5 +1,5 @@
 #pragma once
-// The vertices and triangles of seams, in the order of mesh/seam.cpp.
+// Writes the vertices and triangles of seams, in the order of mesh/seam.cpp.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/field.h"
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// Vertices of a seam by the edge that they lie on.
+/// The numbers of a seam's vertices, by their edges.
 struct SeamNumbers {
   const SeamCensus& census;
   const uint32_t* coarse_signs;
@@ -32,7 +32,7 @@ struct SeamNumbers {
   }
 };
 
-/// A block a seam; its vertices by the field of their own level.
+/// One block for each seam; its vertices are evaluated with the field of their own level.
 struct SeamVertices {
   static constexpr uint32_t kThreads = 96;
   struct Shared {
@@ -57,13 +57,13 @@ struct SeamVertices {
     });
   }
 
-  /// An edge of the face: its lower end, and whether it runs along v.
+  /// An edge of the face: its lower end, and whether it is along v.
   struct Edge {
     uint32_t a, b;
     bool along_v;
   };
 
-  /// The n-th crossed edge of a plane of signs, of whose rows `before` counts.
+  /// The n-th crossed edge of a plane of signs; `before` has the counts before its rows.
   template <class Word>
   SGM_KERNEL static Edge edgeOf(const Word* plane, const uint32_t* before, uint32_t side, uint32_t n) {
     const uint32_t row = lastAtMost(before, side, n);
@@ -121,7 +121,7 @@ struct SeamVertices {
   }
 };
 
-/// A block a seam, a thread a cell.
+/// One block for each seam, one thread for each cell.
 struct SeamTriangles {
   static constexpr uint32_t kThreads = kSeamCells;
   struct Shared {

@@ -1,5 +1,5 @@
 #pragma once
-// Where things lie in a chunk, and in the arrays of a batch.
+// Indices in a chunk, and in the arrays of a batch.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -10,7 +10,7 @@ namespace sgm::cuda {
 
 SGM_KERNEL size_t rowOf(int y, int z) { return static_cast<size_t>(y) + size_t{kSide} * static_cast<size_t>(z); }
 
-/// One of the 64 boxes of 8^3 samples of a chunk; the last along each axis has one more.
+/// One of a chunk's 64 boxes of 8^3 samples; the last box on each axis has one more.
 struct Brick {
   int at[3];
   SGM_KERNEL explicit Brick(uint32_t number)
@@ -39,7 +39,7 @@ SGM_KERNEL ProgramView viewOf(const Batch& b, const Program& p) {
   return view;
 }
 
-/// What gives the field anywhere in the item's box.
+/// A program for the field in the item's box.
 SGM_KERNEL ProgramView viewOf(const Batch& b, const Item& item) {
   ProgramView view = viewOf(b, b.programs[item.program]);
   if (item.pruned == 0) return view;
@@ -69,14 +69,14 @@ struct RowEdges {
   SGM_KERNEL uint32_t countIn(uint64_t samples) const {
     return countOf(x & samples) + countOf(y & samples) + countOf(z & samples);
   }
-  /// Vertices of the row before that on the edge from sample `at` along `axis`.
+  /// The number of the row's vertices before the one on the edge from sample `at` along `axis`.
   SGM_KERNEL uint32_t before(uint32_t at, uint32_t axis) const {
     return countIn((uint64_t{1} << at) - 1) + (axis > 0 ? static_cast<uint32_t>(x >> at & 1) : 0) +
            (axis > 1 ? static_cast<uint32_t>(y >> at & 1) : 0);
   }
 };
 
-/// The sums of a part's content (mesh/hash.h), as one thread adds to them.
+/// The sums over a part's content (mesh/hash.h), accumulated by one thread.
 struct PartSum {
   uint32_t a = 0, b = 0;
   SGM_KERNEL void add(uint32_t word, uint32_t place) {

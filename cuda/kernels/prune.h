@@ -1,6 +1,6 @@
 #pragma once
-// Which boxes of a chunk are uniform, and what is left of its programs in the others. A block a program, a thread a
-// box.
+// Finds the uniform boxes of a chunk, and prunes its programs to the others. One block for each program, one thread for
+// each box.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -9,7 +9,7 @@
 
 namespace sgm::cuda {
 
-/// One box's column of a table in which all boxes' entries for one thing stand together, as its threads read them.
+/// One box's column of a table. All boxes' entries for one item are adjacent, so that threads read them together.
 template <class Entry>
 struct Column {
   Entry* first;
@@ -36,7 +36,7 @@ struct Prune {
     const Int3 origin{chunk.origin[0], chunk.origin[1], chunk.origin[2]};
     IntBox box{origin, origin};
     if (job.kind == PruneJob::bricks) {
-      // A uniform brick is proven with one sample around it, so that no edge that leaves it changes sign either.
+      // A uniform brick is proven with one more sample around it, so no edge that leaves it changes sign.
       const Brick brick(number);
       for (int axis = 0; axis < 3; ++axis) {
         const int first = brick.first(axis) - 1, last = brick.last(axis) + 1;
@@ -83,7 +83,7 @@ struct Prune {
     if (sampled) b.sampled[addTo(b.head->sampled, 1)] = at;
   }
 
-  /// Writes what is left to the pool; where that has no room the whole program does as well.
+  /// Writes the pruned program to the pool; without room the whole program is used, which is also correct.
   SGM_KERNEL static void keep(const Batch& b, const ProgramView& view, const Column<Mark>& marks,
                               const Column<GroupBounds>& groups, Item& item) {
     for (size_t g = 0; g < view.groups.size(); ++g) {
@@ -128,8 +128,8 @@ struct Prune {
     }
   }
 
-  /// Where only seams are asked for, only what touches their faces is. The chunk's own field on a plane decides
-  /// attributes alone.
+  /// If only seams are requested, only bricks at their faces are sampled. The chunk's own field on a plane is needed
+  /// only for attributes.
   SGM_KERNEL static bool isSampled(const Batch& b, const PruneJob& job, uint32_t number) {
     if (job.kind != PruneJob::bricks) return job.kind == PruneJob::coarse_planes;
     const uint32_t faces = b.chunks[job.chunk].faces;

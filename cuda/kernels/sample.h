@@ -1,5 +1,5 @@
 #pragma once
-// The samples and signs of what is not uniform: a block an item, of which pruning has made a list.
+// Computes the samples and signs of the items that are not uniform, which pruning has listed: one block for each item.
 
 #include "cuda/kernels/field.h"
 #include "cuda/kernels/grid.h"
@@ -30,14 +30,14 @@ struct Sample {
     }
   }
 
-  /// The samples of an item: where they are, and where Q and sign of each go.
+  /// The samples of an item: their places, and the destinations of Q and signs.
   struct Lattice {
     Int3 origin, step_x, step_y, step_z;  ///< units
     uint32_t size[3];
     int32_t* samples;
-    uint32_t stride_y, stride_z;  ///< in samples; along x they stand together
-    uint64_t* signs;              ///< of the first row, of a brick
-    uint32_t* coarse_signs;       ///< likewise, of a plane
+    uint32_t stride_y, stride_z;  ///< in samples; along x they are adjacent
+    uint64_t* signs;              ///< for a brick: of its first row
+    uint32_t* coarse_signs;       ///< for a plane: same as above
     uint32_t shift;               ///< bit of the row's first sample
 
     SGM_KERNEL Lattice(const Batch& b, uint32_t item)
@@ -98,7 +98,7 @@ struct Sample {
     }
   };
 
-  /// Those from the i-th on that a thread takes together; beyond the last one it takes that again.
+  /// Evaluates the samples from the i-th on that a thread takes together; the last sample fills unused places.
   SGM_KERNEL static void take(const ProgramView& view, const Lattice& lattice, uint32_t i) {
     uint32_t at[kSamplesTogether][3];
     int32_t points[3][kSamplesTogether], q[kSamplesTogether];

@@ -1,5 +1,5 @@
 #pragma once
-// The sums over the triangles of parts, for chunks whose meshes nobody wants.
+// Computes the sums over the triangles of parts, for chunks that want no meshes.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// kSlices blocks a part, which share its triangles.
+/// kSlices blocks for each part share its triangles.
 struct SumTriangles {
   static constexpr uint32_t kThreads = 128;
   static constexpr uint32_t kSlices = 4;

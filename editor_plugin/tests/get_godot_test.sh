@@ -24,8 +24,8 @@ program() {  # program NAME VERSION: something that says it is that Godot
   echo "$out/bin/$1"
 }
 
-refuses "which is no program" env GODOT=no-such-godot bash "$script"
-refuses "no Godot that runs.*4\.3 or newer" env GODOT="$(command -v false)" bash "$script"
+refuses "which is not a program" env GODOT=no-such-godot bash "$script"
+refuses "not a working Godot.*4\.3 or newer" env GODOT="$(command -v false)" bash "$script"
 refuses "'4\.2\.1.*4\.3 or newer" env GODOT="$(program old 4.2.1.stable)" bash "$script"
 refuses "'3\.6.*4\.3 or newer" env GODOT="$(program older 3.6.stable)" bash "$script"
 
@@ -37,7 +37,7 @@ GODOT=$right bash "$script" 2>&1 >/dev/null | grep -q '4\.3\.stable' || { echo "
 # Without a network, in a namespace that has none, where this machine lets one be made.
 if unshare -rn true 2>/dev/null; then
   rm -rf "$out/bin"
-  refuses "could not be fetched|no mirror|set GODOT" env -u GODOT PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+  refuses "could not be downloaded|no mirror|set GODOT" env -u GODOT PATH=/usr/sbin:/usr/bin:/sbin:/bin \
     SGM_GODOT_CACHE="$out/cache/godot" timeout 300 unshare -rn bash "$script"
   [[ ! -e $out/cache/godot && ! -e $out/cache/godot.unfinished ]] || { echo "something half is left"; failed=1; }
 fi

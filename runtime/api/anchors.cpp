@@ -34,7 +34,7 @@ sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const i
     sgm::IntBox box;
     for (int axis = 0; axis < 3; ++axis) {
       if (minimum[axis] >= maximum[axis])
-        return fail(error, SGM_ERR_INVALID_ARGUMENT, "minimum does not lie below maximum on each axis");
+        return fail(error, SGM_ERR_INVALID_ARGUMENT, "minimum must be below maximum on every axis");
       box.lo[axis] = minimum[axis];
       box.hi[axis] = maximum[axis];
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Anchors as the C interface shows them.
+// Converts anchors to the C interface.
 
 #include "derive/shape.h"
 #include "sgm/sgm.h"

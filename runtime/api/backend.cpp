@@ -29,11 +29,11 @@ Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest re
   return std::shared_ptr<Backend>(std::move(*made));
 }
 
-/// CUDA, where it meshes for the lent device that draws; else that device, where it is hardware; else the CPU.
+/// Returns CUDA if it meshes for the external device that draws; else that device if it is hardware; else the CPU.
 Result<std::shared_ptr<Backend>> makeBeside(sgm_runtime& runtime) {
   Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
   if (cuda) return cuda;
-  runtime.log(SGM_LOG_INFO, "auto passes over CUDA: " + cuda.error().message);
+  runtime.log(SGM_LOG_INFO, "backend auto skips CUDA: " + cuda.error().message);
   const std::shared_ptr<Backend>& drawing = runtime.devices.vulkan;
   return drawing->capabilities().software ? makeFor(runtime, requestFor(BackendKind::cpu)) : drawing;
 }
@@ -61,7 +61,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const bool device = request.automatic || request.kind != BackendKind::cpu;
   const std::scoped_lock lock(shared.mutex);
   const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
-  // One GPU, one context: what was asked for by name is what AUTO prefers.
+  // One GPU, one context: AUTO prefers the backend that was requested by name.
   if (request.automatic && !shared.automatic && shared.cuda) shared.automatic = shared.cuda;
   std::shared_ptr<Backend>& kept = request.automatic                   ? shared.automatic
                                    : request.kind == BackendKind::cuda ? shared.cuda
@@ -73,7 +73,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
   if (device && !on_cpu) kept = backend;
-  // What is asked for by name later is that one, too.
+  // A later request by name gets the same backend.
   if (request.automatic && backend->capabilities().kind == BackendKind::cuda && !shared.cuda) shared.cuda = backend;
   shared.none = shared.none || (request.automatic && on_cpu);
   return backend;
@@ -81,7 +81,8 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 
 namespace {
 
-/// What was only asked about gives way to what is lent; of a field's, or lent before, it does not.
+/// Releases a backend that was only queried, in favour of an external one; not one that a field uses or that is
+/// external.
 Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool lent) {
   const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
     return kept && kept->capabilities().kind == kind;
@@ -91,8 +92,9 @@ Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<B
     if (isKind(*kept) && kept->use_count() == owners && !lent) kept->reset();
   }
   if (!isKind(named) && !isKind(shared.automatic)) return {};
-  return Error{Code::busy, std::string("the runtime has a ") + (kind == BackendKind::cuda ? "CUDA" : "Vulkan") +
-                               " device already, lent or of a field of its own: lend one, before its first field"};
+  return Error{Code::busy,
+               std::string("the runtime already has a ") + (kind == BackendKind::cuda ? "CUDA" : "Vulkan") +
+                   " device, external or created for a field: lend one device, before the first field is created"};
 }
 
 }  // namespace
@@ -104,8 +106,8 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
   if (Result<void> free = giveWay(shared, BackendKind::vulkan, shared.vulkan, shared.lent); !free) return free;
   if (shares_memory && !giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context)) {
     return Error{Code::busy,
-                 "the runtime has a CUDA device already, whose meshes would not stay on this one: lend the "
-                 "Vulkan device before"};
+                 "the runtime already has a CUDA device, whose meshes would not stay on this Vulkan device: lend the "
+                 "Vulkan device first"};
   }
   BackendRequest request = requestFor(BackendKind::vulkan);
   request.lent = device;
@@ -129,12 +131,12 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
   BackendRequest request = requestFor(BackendKind::cuda);
   request.lent_context = std::move(context);
   Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
-  // It has not been the runtime's yet to be lost.
+  // A device that was never the runtime's cannot be lost.
   if (!made)
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.lent_context = true;
-  // Of what was lent, the first that is hardware; what meshes for the device that draws before that.
+  // The first external hardware device is the automatic choice; CUDA for the device that draws has priority.
   if (shared.drawing || !shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }
@@ -186,7 +188,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     if (runtime == nullptr) return nullArgument(error, "runtime");
     if (sgm_result r = checkDesc(error, info, "info"); r != SGM_OK) return r;
     const std::optional<sgm::BackendRequest> request = requestOf(backend);
-    if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "backend is no sgm_backend");
+    if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "backend is not a valid sgm_backend");
     const sgm::Result<std::shared_ptr<sgm::Backend>> made = backendFor(*runtime, *request);
     if (!made && made.error().code != sgm::Code::unsupported) return fail(error, made.error());
     info->backend = backend;

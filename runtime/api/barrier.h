@@ -1,5 +1,5 @@
 #pragma once
-// What stands between C callers and C++: argument checks that return codes, and the barrier that lets no exception out.
+// The barrier between C callers and C++: argument checks that return codes, and a guard that catches all exceptions.
 
 #include <exception>
 #include <new>
@@ -12,18 +12,18 @@
 
 namespace sgm::api {
 
-/// Writes code, place and message into the caller's error (which may be null), cut off at a whole UTF-8 character.
+/// Writes code, place and message into the caller's error (which may be null), truncated at a whole UTF-8 character.
 /// Returns code.
 sgm_result fail(sgm_error* error, sgm_result code, std::string_view message, int line = 0, int column = 0) noexcept;
 
-/// The C code of one of ours.
+/// Converts an internal code to the C code.
 sgm_result resultOf(Code code) noexcept;
 
 inline sgm_result fail(sgm_error* error, const Error& e) noexcept {
   return fail(error, resultOf(e.code), e.message, e.line, e.column);
 }
 
-/// SGM_OK, or why a descriptor cannot be read: null, another version's size, an extension that is not known here.
+/// SGM_OK, or the reason why a descriptor cannot be read: null, another version's size, or an unknown extension.
 template <class Desc>
 sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
   if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
@@ -32,7 +32,8 @@ sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
                 std::string(name) + ".struct_size is " + std::to_string(desc->struct_size) + ", not " +
                     std::to_string(sizeof(Desc)) + ": start from the _INIT macro of this library's header");
   if (desc->next != nullptr)
-    return fail(error, SGM_ERR_UNSUPPORTED, std::string(name) + ".next names an extension that this version lacks");
+    return fail(error, SGM_ERR_UNSUPPORTED,
+                std::string(name) + ".next points to an extension that this version does not support");
   return SGM_OK;
 }
 
@@ -40,18 +41,17 @@ inline sgm_result nullArgument(sgm_error* error, const char* name) {
   return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
 }
 
-/// SGM_OK with the step from one element of a caller's array to the next (0 becomes the element's size), or why it
-/// cannot be.
+/// Sets a stride of 0 to the element's size. Returns SGM_OK, or the reason why the stride is invalid.
 template <class Element>
 sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
   if (stride == 0) stride = sizeof(Element);
   if (stride >= sizeof(Element) && stride % alignof(Element) == 0) return SGM_OK;
   return fail(error, SGM_ERR_INVALID_ARGUMENT,
-              std::string(name) + " is below " + std::to_string(sizeof(Element)) + " or no multiple of " +
+              std::string(name) + " is below " + std::to_string(sizeof(Element)) + " or not a multiple of " +
                   std::to_string(alignof(Element)));
 }
 
-/// Runs a function's body and turns what it throws into a result: nothing crosses into C.
+/// Runs a function's body and converts exceptions to a result: none may reach C.
 template <class Body>
 sgm_result guarded(sgm_error* error, Body&& body) noexcept {
   try {
@@ -61,7 +61,7 @@ sgm_result guarded(sgm_error* error, Body&& body) noexcept {
   } catch (const std::exception& e) {
     return fail(error, SGM_ERR_INTERNAL, e.what());
   } catch (...) {
-    return fail(error, SGM_ERR_INTERNAL, "an unknown exception");
+    return fail(error, SGM_ERR_INTERNAL, "an unknown exception was thrown");
   }
 }
 

@@ -61,10 +61,12 @@ sgm_result sgm_mesh_get_measures(const sgm_mesh* mesh, uint32_t seams, sgm_mesh_
   return guarded(error, [&]() -> sgm_result {
     if (mesh == nullptr) return nullArgument(error, "mesh");
     if (sgm_result r = checkDesc(error, measures, "measures"); r != SGM_OK) return r;
-    if (seams >= 1u << 6) return fail(error, SGM_ERR_INVALID_ARGUMENT, "seams has bits that are no sgm_face's");
+    if (seams >= 1u << 6)
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "seams has unknown bits: pass 0 or bits (1 << sgm_face)");
     const sgm::ChunkSurface& surface = *mesh->surface;
     if (!surface.measures)
-      return fail(error, SGM_ERR_UNSUPPORTED, "the mesh is not of a world that was created with SGM_WORLD_MEASURE");
+      return fail(error, SGM_ERR_UNSUPPORTED,
+                  "the mesh does not belong to a world that was created with SGM_WORLD_MEASURE");
     SurfaceSums sums;
     sums.add(*surface.measures, surface.grid, true, static_cast<uint8_t>(seams));
     const sgm::measure::BodyTopology& topology = surface.measures->topology;

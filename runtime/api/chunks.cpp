@@ -23,7 +23,7 @@ sgm_result checkRequests(const sgm_chunks_desc& desc, sgm_error* error) {
   if (desc.count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
   if (desc.count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
   if ((desc.flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE | SGM_MESHING_SHARP)) != 0)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has unknown bits: pass 0 or values of sgm_meshing_flag");
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
   return SGM_OK;
 }
@@ -47,7 +47,7 @@ sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request
   return grid ? SGM_OK : fail(error, grid.error());
 }
 
-/// Meshes made so far; ends them unless they are handed over.
+/// Holds the finished meshes; destroys them unless they are handed over.
 class MadeMeshes {
  public:
   MadeMeshes(size_t count, std::pmr::memory_resource* memory) : meshes_(count, nullptr, memory) {}
@@ -106,7 +106,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     MadeMeshes made(desc->count, memory);
     std::pmr::vector<std::optional<sgm::Error>> errors(desc->count, memory);
     const auto finish = [&](size_t i) {
-      // What has been copied goes at once: a batch may be large.
+      // Release each chunk after copying it: a batch may be large.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
       const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
@@ -122,7 +122,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // Of many requests some in a row: most chunks are empty, and take less time than it takes to hand them out.
+    // With many requests, take some in a row: most chunks are empty, and take less time than scheduling them.
     const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
     sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {
       for (size_t i = row * in_a_row; i < std::min<size_t>((row + 1) * in_a_row, desc->count); ++i) finish(i);

@@ -34,8 +34,8 @@ sgm_result sgm_runtime_lend_cuda(sgm_runtime* runtime, const sgm_cuda_device_des
     constexpr uintptr_t kPerThread = 2;  // CU_STREAM_PER_THREAD
     if (reinterpret_cast<uintptr_t>(desc->stream) == kPerThread) {
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                  "desc.stream is CU_STREAM_PER_THREAD, another one on every thread: lend one of your own, "
-                  "CU_STREAM_LEGACY, or NULL");
+                  "desc.stream is CU_STREAM_PER_THREAD, which is another stream on every thread: pass a stream of "
+                  "your own, CU_STREAM_LEGACY or NULL");
     }
     const sgm::Result<void> lent =
         lendCuda(*runtime, std::make_shared<const sgm::cuda::BorrowedContext>(contextOf(*desc)));
@@ -55,9 +55,9 @@ sgm_result sgm_mesh_get_cuda_view(const sgm_mesh* mesh, sgm_cuda_mesh_view* view
       if (part == nullptr || part->kind() != sgm::BackendKind::cuda) {
         return fail(
             error, SGM_ERR_NOT_FOUND,
-            "the mesh is not in the lent CUDA context: the world is not SGM_WORLD_RESIDENT, or the GPU's memory "
-            "(sgm_cuda_device_desc.mesh_bytes) is used up, or the context was lost before; upload what "
-            "sgm_mesh_get_view shows");
+            "the mesh is not in the external CUDA context: the world is not SGM_WORLD_RESIDENT, or the GPU's memory "
+            "(sgm_cuda_device_desc.mesh_bytes) is used up, or the context was lost earlier; upload the data of "
+            "sgm_mesh_get_view");
       }
       const auto& placed = static_cast<const sgm::cuda::CudaPart&>(*part);
       if (placed.memory->meshes().device().lost()) {

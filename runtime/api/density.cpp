@@ -11,7 +11,7 @@ namespace {
 constexpr uint32_t kMostPoints = 16384;         // on one axis
 constexpr uint64_t kMostInVolume = 1ull << 33;  // in a volume
 
-/// A pitch in values instead of bytes; 0 becomes the least.
+/// Converts a pitch from bytes to values; 0 becomes the least pitch.
 sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least, const char* name, size_t& pitch) {
   if (bytes == 0) {
     pitch = least;
@@ -19,9 +19,9 @@ sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least,
   }
   pitch = bytes / value;
   if (bytes % value == 0 && pitch >= least) return SGM_OK;
-  return fail(
-      error, SGM_ERR_INVALID_ARGUMENT,
-      std::string(name) + " is below " + std::to_string(least * value) + " or no multiple of " + std::to_string(value));
+  return fail(error, SGM_ERR_INVALID_ARGUMENT,
+              std::string(name) + " is below " + std::to_string(least * value) + " or not a multiple of " +
+                  std::to_string(value));
 }
 
 sgm_result takeGrid(sgm_error* error, const sgm_density_desc& desc, const sgm::Domain& domain, sgm::DensityGrid& grid) {
@@ -29,7 +29,7 @@ sgm_result takeGrid(sgm_error* error, const sgm_density_desc& desc, const sgm::D
   for (size_t axis = 0; axis < 3; ++axis) {
     if (desc.size[axis] < 1 || desc.size[axis] > kMostPoints)
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                  "desc.size[" + std::to_string(axis) + "] is not 1 to " + std::to_string(kMostPoints));
+                  "desc.size[" + std::to_string(axis) + "] is not between 1 and " + std::to_string(kMostPoints));
     grid.size[axis] = desc.size[axis];
   }
   if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostInVolume)
@@ -44,7 +44,7 @@ sgm_result takeRows(sgm_error* error, const sgm_density_desc& desc, sgm::Density
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
   if (desc.values == nullptr) return nullArgument(error, "desc.values");
   if (desc.format != SGM_DENSITY_UNORM8 && desc.format != SGM_DENSITY_FLOAT32)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.format is no sgm_density_format");
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.format is not a valid sgm_density_format");
   const bool bytes = desc.format == SGM_DENSITY_UNORM8;
   const size_t value = bytes ? 1 : sizeof(float);
   if (sgm_result r = takePitch(error, desc.row_pitch, value, desc.size[0], "desc.row_pitch", rows.row_pitch);
@@ -98,7 +98,7 @@ sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* de
     if (world == nullptr) return nullArgument(error, "world");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkLevel(world->finest_cell, desc->level, error); r != SGM_OK) return r;
-    // A field that is set meanwhile does not end this one.
+    // Keep this field even if another one is set meanwhile.
     const std::shared_ptr<const sgm::WorldField> field = world->world->field();
     return sampleVolume(error, world->world->queryField(desc->level), *field, world->runtime, *desc);
   });

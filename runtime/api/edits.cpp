@@ -37,7 +37,7 @@ sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_edit_id*
     if (world == nullptr) return nullArgument(error, "world");
     if (brush == nullptr) return nullArgument(error, "brush");
     if (brush->shape < SGM_BRUSH_SPHERE || brush->shape > SGM_BRUSH_CAPSULE)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "brush.shape is no sgm_brush_shape");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "brush.shape is not a valid sgm_brush_shape");
     const sgm::Result<sgm::EditId> made = world->world->edit(brushOf(*brush));
     if (!made) return failLogged(*world, error, made.error());
     writeId(id, *made);
@@ -47,7 +47,7 @@ sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_edit_id*
 
 sgm_result sgm_world_undo(sgm_world* world, const sgm_edit_id* id, sgm_edit_id* undone, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {
-    const sgm_edit_id of = id != nullptr ? *id : sgm_edit_id{};  // undone may be the same
+    const sgm_edit_id of = id != nullptr ? *id : sgm_edit_id{};  // the caller may pass one object for both
     writeId(undone, {});
     if (world == nullptr) return nullArgument(error, "world");
     if (id == nullptr) return nullArgument(error, "id");

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-// A use of an ended handle would otherwise go unseen until its memory is given back.
+// Without this, uses of a destroyed handle would stay undetected until its memory is freed.
 #if defined(__SANITIZE_ADDRESS__)
 #define SGM_WATCHES_ADDRESSES 1
 #elif defined(__has_feature)

@@ -1,5 +1,5 @@
 #pragma once
-// What stands before every handle in memory, and outlives it for a while: who destroys a handle twice is told so.
+// The head in front of every handle. Its memory outlives the handle for a while, to detect a double destroy.
 
 #include <atomic>
 #include <cstddef>
@@ -11,26 +11,26 @@ struct sgm_runtime;
 
 namespace sgm::api {
 
-/// Stands directly before its handle, and so tells of it without knowing its kind. Aligned for any kind.
+/// Lies directly before its handle, and so can be found for any kind of handle. Aligned for all kinds.
 struct alignas(std::max_align_t) HandleHead {
   sgm_runtime& runtime;
   size_t size;                        ///< bytes of head and handle together
-  std::atomic<uint32_t> owners{1};    ///< 0: the handle has ended
-  HandleHead* ended_after = nullptr;  ///< the next one that ended
+  std::atomic<uint32_t> owners{1};    ///< 0: the handle is destroyed
+  HandleHead* ended_after = nullptr;  ///< the next destroyed one
 };
 
-/// Of head and handle: what the header says that ended handles hold at most.
+/// Size of head and handle: the header states this limit for destroyed handles.
 inline constexpr size_t kMostHandleSize = 512;
 
-/// One more owner. False, and nothing happens: the handle has ended.
+/// Adds an owner. Returns false and does nothing if the handle is destroyed.
 bool gainOwner(HandleHead& head) noexcept;
 
-/// One owner less. Returns how many there were: with 1 the caller ends the handle; with 0 it had ended, and nothing
-/// happens.
+/// Removes an owner. Returns the number of owners before: if 1, the caller must destroy the handle; if 0, it was
+/// destroyed already, and nothing happened.
 uint32_t loseOwner(HandleHead& head) noexcept;
 
-/// The handles of a runtime that ended last, without what they owned. They form a list of their own, so that to end a
-/// handle takes no memory and cannot fail. Thread-safe.
+/// The most recently destroyed handles of a runtime, without their content. They form an intrusive list, so that
+/// destroying a handle needs no memory and cannot fail. Thread-safe.
 class EndedHandles {
  public:
   static constexpr size_t kMost = 1024;
@@ -40,9 +40,9 @@ class EndedHandles {
   EndedHandles& operator=(const EndedHandles&) = delete;
   ~EndedHandles();
 
-  /// Takes over the memory of a handle that is destroyed, and gives back that of the oldest where there are too many.
+  /// Takes over the memory of a destroyed handle, and frees the oldest one if there are too many.
   void add(HandleHead* head) noexcept;
-  /// Held from memory.
+  /// Bytes held of `memory`.
   uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:

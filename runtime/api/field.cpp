@@ -16,7 +16,7 @@ namespace sgm::api {
 
 sgm_result checkLevel(int32_t finest_cell, int32_t level, sgm_error* error) {
   if (level < 0 || level > SGM_MAX_LEVEL)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "level is not 0 to " + std::to_string(SGM_MAX_LEVEL));
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "level is not between 0 and " + std::to_string(SGM_MAX_LEVEL));
   if (int64_t{finest_cell} << level > kLargestCell)
     return fail(
         error, SGM_ERR_RANGE,
@@ -34,11 +34,12 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (desc->grammar == nullptr) return nullArgument(error, "desc.grammar");
     if (desc->cell_units < 1 || desc->cell_units > kLargestFinestCell)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.cell_units is not 1 to " + std::to_string(kLargestFinestCell));
+      return fail(error, SGM_ERR_INVALID_ARGUMENT,
+                  "desc.cell_units is not between 1 and " + std::to_string(kLargestFinestCell));
     const std::optional<sgm::BackendRequest> request = requestOf(desc->backend);
-    if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.backend is no sgm_backend");
+    if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.backend is not a valid sgm_backend");
     if (desc->parameters != nullptr && desc->parameters->program != desc->grammar->program)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.parameters are another grammar's");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.parameters belongs to another grammar");
 
     sgm::WorldFieldSettings settings;
     settings.program = desc->grammar->program;

@@ -26,7 +26,7 @@ const sgm::Diagnostic* firstError(const std::vector<sgm::Diagnostic>& diagnostic
   return nullptr;
 }
 
-/// The first error as one line. An import's error names its file, since line and column are that file's.
+/// Reports the first error as one line. An import's error names its file, to which line and column refer.
 sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string_view root) {
   std::string message = d.message;
   if (d.file != root) message = "in " + d.file + ": " + message;
@@ -34,7 +34,7 @@ sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string
   return fail(error, SGM_ERR_GRAMMAR, message, d.line, d.column);
 }
 
-/// A name of the program's as a C string that lives as long as the program.
+/// A name of the program as a C string with the program's lifetime.
 const char* nameAt(const std::pmr::vector<std::pmr::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }
@@ -70,7 +70,8 @@ sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* des
     sgm_result result = SGM_OK;
     if (program == nullptr) {
       const sgm::Diagnostic* first = firstError(compiled.diagnostics);
-      if (first == nullptr) return fail(error, SGM_ERR_INTERNAL, "the compiler gave neither a program nor an error");
+      if (first == nullptr)
+        return fail(error, SGM_ERR_INTERNAL, "the compiler returned neither a program nor an error");
       result = failToCompile(error, *first, name);
     }
     sgm_diagnostics* list = nullptr;

@@ -15,7 +15,7 @@ struct sgm_grammar {
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;
-  std::shared_ptr<sgm::api::NoteLog> notes;  ///< of all its fields: a parameter may be driven many times a second
+  std::shared_ptr<sgm::api::NoteLog> notes;  ///< shared by all its fields: a parameter may change many times a second
 };
 
 struct sgm_diagnostics {

@@ -20,7 +20,7 @@ sgm_result checkGrid(const sgm_grid_desc& desc, GridSamples& grid, sgm_error* er
   for (size_t axis = 0; axis < 3; ++axis) {
     if (desc.size[axis] < 2 || desc.size[axis] > kMostSamples)
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                  "desc.size[" + std::to_string(axis) + "] is not 2 to " + std::to_string(kMostSamples));
+                  "desc.size[" + std::to_string(axis) + "] is not between 2 and " + std::to_string(kMostSamples));
     grid.size[axis] = desc.size[axis];
   }
   if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostTogether)

@@ -14,18 +14,18 @@
 namespace sgm::api {
 namespace {
 
-/// At most so many vertices, and indices, can be numbered.
+/// The largest number of vertices and of indices.
 constexpr uint64_t kMostNumbers = std::numeric_limits<uint32_t>::max();
 
-/// What is listed of a slab.
+/// The listed edges and cells of a slab.
 struct Lists {
   explicit Lists(std::pmr::memory_resource* memory) : edges(memory), cells(memory) {}
   RawArray<uint32_t> edges;
   RawArray<uint64_t> cells;
 };
 
-/// What one thread needs; goes from slab to slab, since memory that is fresh, or that another processor has written,
-/// costs more than the work in it.
+/// The memory of one thread. It is reused from slab to slab, since memory that is fresh or was written by another
+/// processor costs more than the work in it.
 struct Worker {
   explicit Worker(std::pmr::memory_resource* memory)
       : signs(memory), uniform(memory), numbers(memory), offsets(memory) {}
@@ -43,17 +43,17 @@ struct Slab {
   bool listed = false, meshed = false;
 };
 
-/// Planes of a slab. Of thin ones each pays more for the plane that it shares with the one below; of thick ones the
-/// samples have left the cache when vertices are placed.
+/// The number of planes in a slab. Each slab shares a plane with the one below, which costs more for thin slabs; with
+/// thick ones the samples have left the cache when vertices are placed.
 size_t thicknessOf(const std::array<size_t, 3>& size, size_t threads) {
   constexpr size_t kThinnest = 4, kSamples = size_t{1} << 19, kWorthSharing = 8;
   const size_t in_cache = std::max(kThinnest, kSamples / (size[0] * size[1]));
   return threads == 1 ? in_cache : std::min(in_cache, std::max(kWorthSharing, size[2] / (threads * 4) + 1));
 }
 
-/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. A slab is
-/// listed, and meshed when all those below it have been listed, too, which tells where its part of the mesh begins:
-/// that is what `settled_` counts.
+/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. First a slab
+/// is listed. It is meshed when all slabs below are listed, too, which gives the place of its part in the mesh;
+/// `settled_` counts these slabs.
 class GridMesher {
  public:
   GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory, const MeshKernels& kernels)
@@ -101,23 +101,23 @@ class GridMesher {
   std::pmr::memory_resource* memory_;
   const MeshKernels& kernels_;
   GridJob job_;
-  const size_t thick_;  ///< planes of every slab but the last
+  const size_t thick_;  ///< planes of every slab except the last
   std::vector<Slab> slabs_;
-  /// Of the first plane of each slab, which the one below needs, too: whichever comes first reads it for both.
+  /// The first plane of each slab, which the slab below needs, too: the first of the two threads reads it for both.
   RawArray<uint64_t> shared_signs_, shared_uniform_;
   std::pmr::vector<std::atomic<uint8_t>> shared_;
-  /// By plane, and twice by the layer above it: of a slab that is listed its counts, when it is settled their sums.
+  /// By plane, and twice by the layer above it: counts of a listed slab, sums once it is settled.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
   std::atomic<bool> finite_{true}, stopped_{false};
   std::atomic<size_t> next_{0}, settled_{0};  ///< slabs
-  std::mutex mutex_;                          ///< of what slabs share, which is all below, and of settling
+  std::mutex mutex_;                          ///< guards the following, which slabs share, and settling
   GridBounds bounds_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
-/// Makes room for a mesh as large as some rows make one expect. They are strewn over y and z, so that a surface that
-/// lies along the grid is hit as often as others are.
+/// Reserves memory for the mesh by an estimate from sampled rows. They are scattered over y and z, so that surfaces
+/// parallel to the grid are hit as often as others.
 void GridMesher::expect() {
   constexpr double kGolden = 0.6180339887498949;
   const size_t size_x = grid_.size[0], rows = std::min<size_t>(grid_.size[1], 3);
@@ -150,7 +150,7 @@ void GridMesher::expect() {
   provide(expected(sum.vertices), expected(sum.triangles), 0);
 }
 
-/// Arrays of just this room, with what has been meshed of the slabs before `meshed`.
+/// Resizes the arrays to this size, and keeps the meshed part of the slabs before `meshed`.
 void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   uint64_t had_vertices = 0, had_triangles = 0;
   if (meshed > 0) {
@@ -165,7 +165,7 @@ void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   job_.indices = mesh_.indices.data();
 }
 
-/// Ends what waits for slabs that will never be settled.
+/// Wakes threads that wait for slabs that will never be settled.
 void GridMesher::stop() {
   const std::lock_guard lock(mutex_);
   stopped_.store(true);
@@ -173,7 +173,7 @@ void GridMesher::stop() {
   settled_.notify_all();
 }
 
-/// A plane's, row by row. A value that is not finite stops all.
+/// Reads the signs of a plane, row by row. A value that is not finite stops all work.
 void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   bool finite = true;
   for (size_t y = 0; y < grid_.size[1]; ++y)
@@ -183,7 +183,7 @@ void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   stop();
 }
 
-/// As readSigns, but a plane that two slabs need is read once, by whoever.
+/// As readSigns, but a plane that two slabs need is read only once.
 void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   if (z % thick_ != 0) return readSigns(z, signs, uniform);
   const size_t slab = z / thick_, words = job_.lattice.words * grid_.size[1], rows = 2 * grid_.size[1];
@@ -201,7 +201,7 @@ void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
 }
 
 void GridMesher::list(Slab& slab, Worker& worker) {
-  // Room is made for some rows at a time: how much of a plane is crossed nobody knows, and planes can be large.
+  // Space is allocated for some rows at a time: the number of crossings in a plane is unknown, and planes can be large.
   constexpr size_t kRows = 16;
   const size_t size_x = grid_.size[0], size_y = grid_.size[1], words = job_.lattice.words * size_y, rows = 2 * size_y;
   uint64_t vertices = 0, cells = 0;
@@ -245,7 +245,7 @@ void GridMesher::list(Slab& slab, Worker& worker) {
   }
 }
 
-/// Makes sums of the counts of a slab that is listed, and of those that have waited for it.
+/// Turns the counts of a listed slab, and of slabs that have waited for it, into sums.
 void GridMesher::settle(Slab& slab) {
   const std::lock_guard lock(mutex_);
   if (stopped_.load()) return;
@@ -261,12 +261,12 @@ void GridMesher::settle(Slab& slab) {
   settled_.notify_all();
 }
 
-/// Under the lock, when one reader of a slab's lists has done.
+/// Call with the lock held, when one reader of a slab's lists is done.
 void GridMesher::release(Slab& slab) {
   if (--slab.readers == 0) slab.worker->free.push_back(std::move(slab.lists));
 }
 
-/// When all below is settled, and where there is room.
+/// Waits until all slabs below are settled and there is space.
 void GridMesher::meshInTurn(size_t number, Worker& worker) {
   for (size_t settled; (settled = settled_.load()) <= number;) settled_.wait(settled);
   const Slab& slab = slabs_[number];
@@ -318,8 +318,8 @@ void GridMesher::shareOut() {
   shared_uniform_.allocate(2 * grid_.size[1] * slabs_.size());
 }
 
-/// Slab after slab in their order. So those below one that is listed have been begun by somebody, who needs nothing of
-/// those above to list them.
+/// Takes slabs in order. So the slabs below a listed one have been taken by some thread, and listing them needs nothing
+/// of the slabs above.
 void GridMesher::work(Worker& worker) {
   try {
     for (size_t number; !stopped_.load() && (number = next_.fetch_add(1)) < slabs_.size();) {
@@ -335,14 +335,14 @@ void GridMesher::work(Worker& worker) {
 
 Result<GridMesh> GridMesher::run() {
   shareOut();
-  // Otherwise most slabs would be listed before one is meshed, and then it is known what all will need.
+  // Otherwise most slabs are listed before one is meshed, and then the total size is known.
   if (slabs_.size() > workers_.size()) expect();
   parallelFor(jobs_, workers_.size(), [&](size_t i) { work(*workers_[i]); });
   if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
 
   const uint64_t vertices = first_vertex_.back(), triangles = first_triangle_.back();
   if (vertices > kMostNumbers || triangles > kMostNumbers / 3)
-    return Error{Code::limit, "the mesh has more vertices or indices than 32 bits can number", 0, 0};
+    return Error{Code::limit, "the mesh has more vertices or indices than a 32-bit number can count", 0, 0};
   const auto rest = std::find_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.meshed; });
   const auto meshed = static_cast<size_t>(rest - slabs_.begin());
   const bool far_too_large = mesh_.positions.size() / 2 > 3 * vertices || mesh_.indices.size() / 2 > 3 * triangles;
@@ -356,7 +356,7 @@ Result<GridMesh> GridMesher::run() {
   mesh_.normals.cut(vertices * 3);
   mesh_.indices.cut(triangles * 3);
   for (size_t axis = 0; axis < 3 && vertices > 0; ++axis) {
-    // As vertices are placed: rounding keeps their order.
+    // Computed as for vertices: rounding keeps their order.
     mesh_.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
     mesh_.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
   }
@@ -367,8 +367,7 @@ Result<GridMesh> GridMesher::run() {
 
 Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory,
                           const MeshKernels& kernels) {
-  // Places in a plane and its neighbours are counted in 32 bits. Only rows that lie very far from each other do not
-  // allow that.
+  // Offsets within a plane and its neighbours have 32 bits. Only very large strides exceed that.
   constexpr size_t kFarthest = std::numeric_limits<int32_t>::max();
   if (grid.stride_y <= kFarthest / grid.size[1] && grid.stride_z <= kFarthest / 4)
     return GridMesher(grid, jobs, memory, kernels).run();

@@ -17,18 +17,18 @@ sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& pr
   const auto wrong = [&](const char* what) { return fail(error, SGM_ERR_INVALID_ARGUMENT, name + what); };
   if (host.sample == nullptr) return wrong(".sample is NULL");
   for (int axis = 0; axis < 3; ++axis) {
-    if (host.minimum[axis] > host.maximum[axis]) return wrong(".minimum lies above its maximum");
+    if (host.minimum[axis] > host.maximum[axis]) return wrong(".minimum is above .maximum");
   }
-  if (!(host.steepness >= 0 && host.steepness <= kSteepest)) return wrong(".steepness is not 0 to 1000");
+  if (!(host.steepness >= 0 && host.steepness <= kSteepest)) return wrong(".steepness is not between 0 and 1000");
   if ((host.flags & ~static_cast<uint32_t>(SGM_HOST_CUT)) != 0)
-    return wrong(".flags has bits that are no sgm_host_flag");
-  if (host.material >= program.materials.size()) return wrong(".material is none of the grammar's");
-  if (host.tag >= program.tags.size()) return wrong(".tag is none of the grammar's");
-  if (host.smooth < 0 || host.smooth > kWidestHostBlend) return wrong(".smooth is not 0 to 16,384 units");
+    return wrong(".flags has unknown bits: pass 0 or values of sgm_host_flag");
+  if (host.material >= program.materials.size()) return wrong(".material is not declared in the grammar");
+  if (host.tag >= program.tags.size()) return wrong(".tag is not declared in the grammar");
+  if (host.smooth < 0 || host.smooth > kWidestHostBlend) return wrong(".smooth is not between 0 and 16,384 units");
   return SGM_OK;
 }
 
-/// Of what a callback answers: nothing is tried again for it, whatever it says.
+/// Converts the result of a callback: whatever the result, the call is not repeated.
 Code codeOf(sgm_result result) {
   switch (result) {
     case SGM_ERR_INVALID_ARGUMENT:
@@ -51,7 +51,7 @@ Result<void> sampleHost(sgm_host_sample sample, void* user, const SampleLattice&
   if (result != SGM_OK) {
     return Error{codeOf(result), std::string("the host's field could not be sampled at ") +
                                      std::to_string(lattice.origin[0]) + ", " + std::to_string(lattice.origin[1]) +
-                                     ", " + std::to_string(lattice.origin[2]) + " units: it answered " +
+                                     ", " + std::to_string(lattice.origin[2]) + " units: its callback returned " +
                                      sgm_result_name(result)};
   }
   for (float& value : values) value *= SGM_UNITS_PER_METRE;

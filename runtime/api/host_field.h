@@ -1,5 +1,5 @@
 #pragma once
-// A host's fields as the library's.
+// Converts a host's fields to the library's.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::api {
 
-/// SGM_OK with the descriptor's fields, or what is wrong with one of them. Throws std::bad_alloc.
+/// Reads the descriptor's fields. Returns SGM_OK, or the problem of one of them. Throws std::bad_alloc.
 sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program& program,
                      std::vector<HostField>& hosts);
 

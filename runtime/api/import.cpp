@@ -32,7 +32,7 @@ Result<std::string> readTextFile(const fs::path& path, size_t limit) {
   std::error_code why;
   const fs::file_status status = fs::status(path, why);
   if (status.type() == fs::file_type::not_found) return ioError(path, "no such file");
-  if (!fs::exists(status)) return ioError(path, systemMessage(why));  // no permission for a folder, links in a circle
+  if (!fs::exists(status)) return ioError(path, systemMessage(why));  // no permission for a folder, or circular links
   if (fs::is_directory(status)) return ioError(path, "it is a folder");
   std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) return ioError(path, systemMessage(errno));
@@ -68,7 +68,7 @@ Result<std::string> CallerImports::read(std::string_view path, size_t limit) {
     const char* text = nullptr;
     size_t size = 0;
     if (function_(user_, std::string(path).c_str(), &text, &size) != 0) {
-      if (text == nullptr && size > 0) return Error{Code::io, "the import callback gave no text", 0, 0};
+      if (text == nullptr && size > 0) return Error{Code::io, "the import callback returned no text", 0, 0};
       if (size > limit) return Error{Code::limit, "larger than " + std::to_string(limit) + " bytes", 0, 0};
       return size == 0 ? std::string() : std::string(text, size);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Where the text of imports comes from: a folder on disk that no import may leave, or the caller's callback before it.
+// Sources of imported text: the caller's callback, then a folder on disk that no import may leave.
 
 #include <filesystem>
 #include <optional>
@@ -34,10 +34,10 @@ class CallerImports final : public ImportResolver {
   std::optional<FolderImports> folder_;
 };
 
-/// A whole file of at most limit bytes. Errors: io (with the system's reason), limit.
+/// Reads a whole file of at most limit bytes. Errors: io (with the system's reason), limit.
 Result<std::string> readTextFile(const std::filesystem::path& path, size_t limit);
 
-/// One line (from 1) of the file of that name, without its line feed; "" where there is none.
+/// One line (from 1) of the file with that name, without its line feed; "" if it does not exist.
 std::string sourceLine(const std::vector<SourceFile>& files, std::string_view file, int line);
 
 }  // namespace sgm::api

@@ -26,7 +26,8 @@ void systemRelease(void*, void* memory, size_t, size_t alignment) {
 
 sgm_allocator systemAllocator() { return {systemAllocate, systemRelease, nullptr}; }
 
-/// Eighths of powers of two: nearly equal sizes can follow each other, and pages that nobody touches cost nothing.
+/// Size classes are eighths of powers of two: blocks are reused for nearly equal sizes, and untouched pages cost
+/// nothing.
 size_t KeptBlocks::numberOf(size_t size) {
   const auto octave = static_cast<size_t>(std::bit_width(size - 1)) - 1;  // 2^octave < size <= 2^(octave + 1)
   const size_t step = (size_t{1} << octave) / kSteps;
@@ -44,7 +45,7 @@ bool KeptBlocks::keeps(size_t size, size_t alignment) {
 
 void* KeptBlocks::fromSystem(size_t size, size_t alignment) {
   if (void* memory = system_.allocate(system_.user, size, alignment)) return memory;
-  // What is kept for speed alone must not be what somebody lacks.
+  // Memory kept only for speed must not cause a failure.
   dropAll();
   return system_.allocate(system_.user, size, alignment);
 }

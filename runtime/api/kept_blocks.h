@@ -1,5 +1,5 @@
 #pragma once
-// The system's memory with its larger blocks kept: what a runtime has without an allocator of the caller's.
+// System memory with a pool of large blocks: the default of a runtime without an allocator from the caller.
 
 #include <array>
 #include <cstddef>
@@ -14,41 +14,41 @@ namespace sgm::api {
 /// malloc and free.
 sgm_allocator systemAllocator();
 
-/// malloc gives large blocks back to the system and takes fresh ones from it, page by page: for a mesh of a million
-/// triangles that takes as long as half of the meshing, and threads wait for each other there. So blocks that are
-/// released wait here for the next of their size; all go where the system has no memory left. Thread-safe.
+/// malloc returns large blocks to the system and takes fresh ones from it, page by page. For a mesh of a million
+/// triangles this takes half as long as meshing, and threads wait for each other there. So released blocks stay here
+/// for the next use of their size; all are freed if the system runs out of memory. Thread-safe.
 class KeptBlocks {
  public:
-  /// Of memory from `system`, whose user outlives the object.
+  /// Takes memory from `system`, whose user must outlive the object.
   explicit KeptBlocks(const sgm_allocator& system = systemAllocator()) : system_(system) {}
   KeptBlocks(const KeptBlocks&) = delete;
   KeptBlocks& operator=(const KeptBlocks&) = delete;
   ~KeptBlocks();
 
-  static constexpr size_t kSmallest = size_t{1} << 14;  ///< bytes of a block that is kept
+  static constexpr size_t kSmallest = size_t{1} << 14;  ///< least size of a kept block, bytes
   static constexpr size_t kLargest = size_t{1} << 26;
-  /// Bytes that are kept in all: of the size unused for longest first.
+  /// Limit for all kept bytes; the size unused for longest is freed first.
   static constexpr size_t kMost = size_t{1} << 27;
 
-  /// As sgm_allocator's functions.
+  /// Like sgm_allocator's functions.
   void* allocate(size_t size, size_t alignment);
   void release(void* memory, size_t size, size_t alignment);
 
-  /// Kept now.
+  /// The number of bytes kept now.
   size_t bytes();
 
   /// These functions as a table; the object must outlive its use.
   sgm_allocator allocator();
 
  private:
-  static constexpr size_t kSteps = 8;  ///< sizes between a power of two and the next
+  static constexpr size_t kSteps = 8;  ///< size classes between a power of two and the next
   static constexpr size_t kSizes = 12 * kSteps + 1;
   static_assert(kSmallest << (kSizes / kSteps) == kLargest);
 
-  /// Blocks of one size, the newest last: that is the likeliest to be in cache.
+  /// Blocks of one size class, newest last: the newest is most likely in cache.
   struct Shelf {
     std::vector<void*> blocks;
-    uint64_t used = 0;  ///< when, by clock_
+    uint64_t used = 0;  ///< the clock_ at its last use
   };
 
   static size_t numberOf(size_t size);
@@ -65,7 +65,7 @@ class KeptBlocks {
   std::mutex mutex_;
   std::array<Shelf, kSizes> shelves_;
   uint64_t clock_ = 0;
-  size_t bytes_ = 0;  ///< of all that are kept
+  size_t bytes_ = 0;  ///< of all kept blocks
 };
 
 }  // namespace sgm::api

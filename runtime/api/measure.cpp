@@ -23,20 +23,20 @@ sgm_result checkMeasure(const sgm_measure_desc& desc, sgm_error* error) {
   const auto wrong = [error](const std::string& what) { return fail(error, SGM_ERR_INVALID_ARGUMENT, what); };
   if (desc.position_count > kMost) return wrong("desc.position_count is more than 2^32 - 1");
   if (desc.index_count > kMost || desc.index_count % 3 != 0)
-    return wrong("desc.index_count is no multiple of 3 up to 2^32 - 1");
+    return wrong("desc.index_count is not a multiple of 3 or is above 2^32 - 1");
   if ((desc.positions != nullptr && desc.positions_double != nullptr) ||
       (desc.position_count > 0 && desc.positions == nullptr && desc.positions_double == nullptr))
-    return wrong("one of desc.positions and desc.positions_double must be given, and one alone");
+    return wrong("exactly one of desc.positions and desc.positions_double must be given");
   const uint64_t number = desc.positions_double != nullptr ? sizeof(double) : sizeof(float);
   if (desc.position_stride != 0 && (desc.position_stride < 3 * number || desc.position_stride % number != 0))
-    return wrong("desc.position_stride is below three numbers, or no multiple of one");
+    return wrong("desc.position_stride is below the size of three coordinates or not a multiple of the size of one");
   if (desc.position_stride > SIZE_MAX / (desc.position_count + 1)) return wrong("desc.position_stride is too large");
   if (desc.index_count > 0 && desc.indices == nullptr) return nullArgument(error, "desc.indices");
-  if (!(desc.weld >= 0) || !std::isfinite(desc.weld)) return wrong("desc.weld is not a finite number from 0");
-  if (!(desc.cubes >= 0) || !std::isfinite(desc.cubes)) return wrong("desc.cubes is not a finite number from 0");
+  if (!(desc.weld >= 0) || !std::isfinite(desc.weld)) return wrong("desc.weld is not a finite number of at least 0");
+  if (!(desc.cubes >= 0) || !std::isfinite(desc.cubes)) return wrong("desc.cubes is not a finite number of at least 0");
   if (desc.histogram_mode < SGM_HISTOGRAM_CORRECTED || desc.histogram_mode > SGM_HISTOGRAM_CURVATURE)
-    return wrong("desc.histogram_mode is no sgm_histogram_mode");
-  if ((desc.flags & ~kFlags) != 0) return wrong("desc.flags has a bit that is no sgm_measure_flag");
+    return wrong("desc.histogram_mode is not a valid sgm_histogram_mode");
+  if ((desc.flags & ~kFlags) != 0) return wrong("desc.flags has unknown bits: pass 0 or values of sgm_measure_flag");
   if (desc.histogram == nullptr && desc.histogram_capacity > 0) return nullArgument(error, "desc.histogram");
   return SGM_OK;
 }
@@ -123,7 +123,7 @@ sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_m
       if (desc->indices[i] >= desc->position_count)
         return fail(error, SGM_ERR_INVALID_ARGUMENT,
                     "desc.indices[" + std::to_string(i) + "] is " + std::to_string(desc->indices[i]) +
-                        ", and there are " + std::to_string(desc->position_count) + " points");
+                        ", but there are " + std::to_string(desc->position_count) + " points");
       triangles[i / 3][i % 3] = desc->indices[i];
     }
     LargeVector<Point> points(desc->position_count, &runtime->memory);

@@ -58,7 +58,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
       view->bounds_min[axis] = surface.bounds.lo[axis];
       view->bounds_max[axis] = surface.bounds.hi[axis];
     }
-    // The layouts are equal, as asserted above.
+    // Both types have the same layout, as asserted above.
     view->vertices = reinterpret_cast<const sgm_vertex*>(surface.mesh.vertices.data());
     view->indices = surface.mesh.indices.data();
     view->vertex_count = static_cast<uint32_t>(surface.mesh.vertices.size());
@@ -87,7 +87,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
 
 namespace {
 
-/// Copies where there is room, and says how many there are.
+/// Copies as much as there is room for, and sets the total number.
 template <class T>
 sgm_result copyOut(std::span<const T> from, T* to, size_t stride, size_t* count) {
   const size_t room = *count;

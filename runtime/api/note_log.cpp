@@ -7,7 +7,7 @@ namespace {
 
 constexpr size_t kMostTold = 64;
 
-/// The message without its numbers: by how much a shape is too large differs from cell to cell.
+/// The message without its numbers: the amount by which a shape is too large differs from cell to cell.
 std::string kindOf(std::string message) {
   message.erase(std::remove_if(message.begin(), message.end(), [](char c) { return c >= '0' && c <= '9'; }),
                 message.end());
@@ -25,10 +25,10 @@ bool NoteLog::isNew(const DeriveNote& note, bool& last) {
 void NoteLog::tell(const GrammarChunk& cell) {
   for (const DeriveNote& note : cell.notes) {
     bool last = false;
-    // Without a place it is only the count of those that the cell has not kept.
+    // A note without a place only counts notes that the cell has not kept.
     if (note.line == 0 || !isNew(note, last)) continue;
     if (last) {
-      runtime_.log(SGM_LOG_WARNING, "more is left out, at further places in the grammar: not logged");
+      runtime_.log(SGM_LOG_WARNING, "notes at further places in the grammar are not logged");
       continue;
     }
     runtime_.log(SGM_LOG_WARNING, std::to_string(note.line) + ":" + std::to_string(note.column) + ": " + note.message +

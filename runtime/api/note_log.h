@@ -1,5 +1,5 @@
 #pragma once
-// What derivation leaves out, told to the runtime's log sink.
+// Logs the omissions of derivation to the runtime's sink.
 
 #include <mutex>
 #include <set>
@@ -11,8 +11,8 @@
 
 namespace sgm::api {
 
-/// Each kind of note at each place in the grammar once, as a warning, up to a number of them: an endless world would
-/// say the same of every cell. Thread-safe.
+/// Logs each kind of note at each place of the grammar once, as a warning, up to a limit: an endless world would repeat
+/// the same for every cell. Thread-safe.
 class NoteLog {
  public:
   explicit NoteLog(const sgm_runtime& runtime) : runtime_(runtime) {}
@@ -20,7 +20,7 @@ class NoteLog {
   void tell(const GrammarChunk& cell);
 
  private:
-  /// Whether the note is to be told; `last` where it is the first one too many.
+  /// Whether to log the note; sets `last` at the first note beyond the limit.
   bool isNew(const DeriveNote& note, bool& last);
 
   const sgm_runtime& runtime_;

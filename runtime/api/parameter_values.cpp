@@ -48,8 +48,8 @@ Result<void> setFromText(const Program& program, std::string_view name, std::str
   if (wanted == kLength && number.dim == kRatio && value != 0 && program.unit != kNoId)
     return setFromText(program, name, join({text, program.text(program.unit)}), values);
   if (!(number.dim == wanted) && !(number.value == 0 && number.dim == kRatio))
-    return Error{Code::bad_input, join({"parameter '", name, "' is of dimension ", dimName(wanted), ", and '", text,
-                                        "' of dimension ", dimName(number.dim)})};
+    return Error{Code::bad_input, join({"parameter '", name, "' has the dimension ", dimName(wanted), ", but '", text,
+                                        "' has the dimension ", dimName(number.dim)})};
   return values.set(program, name, value);
 }
 

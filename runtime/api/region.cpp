@@ -50,12 +50,12 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     sgm::IntBox box;
     for (int axis = 0; axis < 3; ++axis) {
       if (desc->minimum[axis] >= desc->maximum[axis])
-        return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum does not lie below desc.maximum on each axis");
+        return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum must be below desc.maximum on every axis");
       box.lo[axis] = desc->minimum[axis];
       box.hi[axis] = desc->maximum[axis];
     }
     if ((desc->flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE | SGM_MESHING_SHARP)) != 0)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has unknown bits: pass 0 or values of sgm_meshing_flag");
     sgm::Progress progress;
     if (desc->progress != nullptr)
       progress = [desc](uint64_t done, uint64_t total) {

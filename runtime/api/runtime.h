@@ -1,6 +1,6 @@
 #pragma once
-// The runtime handle: what the caller gave (memory, threads, log, profiler), adapted to our interfaces, and the count
-// of children.
+// The runtime handle: the caller's memory, threads, log and profiler, adapted to internal interfaces, and the number of
+// children.
 
 #include <atomic>
 #include <condition_variable>
@@ -26,7 +26,7 @@ struct BorrowedDevice;
 
 namespace sgm::api {
 
-/// The caller's allocator as a memory resource that counts, keeps to a limit, and throws std::bad_alloc.
+/// The caller's allocator as a memory resource: counts bytes, enforces the limit, and throws std::bad_alloc.
 class CallerMemory final : public std::pmr::memory_resource {
  public:
   CallerMemory(const sgm_allocator& allocator, uint64_t limit) : allocator_(allocator), limit_(limit) {}
@@ -43,8 +43,8 @@ class CallerMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> live_{0}, peak_{0};
 };
 
-/// The caller's job system as ours. Ends only when every job that it accepted has run: a job that has nothing left to
-/// do may still hold memory of the runtime's.
+/// The caller's job system, adapted. Its destructor waits until every accepted job has run: even a job with nothing
+/// left to do may hold memory of the runtime.
 class CallerJobs final : public JobSystem {
  public:
   explicit CallerJobs(const sgm_job_system& jobs) : jobs_(jobs) {}
@@ -66,21 +66,21 @@ class CallerJobs final : public JobSystem {
   sgm_job_system jobs_;
   std::mutex mutex_;
   std::condition_variable ended_;
-  uint64_t waiting_ = 0;  ///< accepted and not ended
+  uint64_t waiting_ = 0;  ///< accepted, but not finished
 };
 
-/// A path that the caller gave in UTF-8; empty for null.
+/// A path from the caller, in UTF-8; empty for null.
 inline std::filesystem::path pathOf(const char* utf8) {
   return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
 }
 
-/// Backends on devices, which all fields of a runtime share: opening one takes long, and its memory is large.
+/// Device backends, shared by all fields of a runtime: opening one takes long, and its memory is large.
 struct DeviceBackends {
   std::mutex mutex;
-  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until asked for
-  bool lent = false, lent_context = false;           ///< `vulkan`, `cuda` is the engine's
+  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until requested
+  bool lent = false, lent_context = false;           ///< whether `vulkan`, or `cuda`, is the engine's
   bool none = false;                                 ///< `automatic` has found no device
-  /// Where CUDA's meshes stay: lent with external memory; null: not.
+  /// The external device whose memory holds CUDA's meshes, or null.
   std::shared_ptr<const vulkan::BorrowedDevice> drawing;
 };
 
@@ -95,15 +95,15 @@ struct sgm_runtime {
   }
   void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
-  sgm_allocator allocator;    ///< frees the runtime itself, which `memory` lies within
-  sgm::api::KeptBlocks kept;  ///< where the caller gave no allocator
+  sgm_allocator allocator;    ///< frees the runtime itself, which contains `memory`
+  sgm::api::KeptBlocks kept;  ///< used if the caller passed no allocator
   sgm::api::CallerMemory memory;
   sgm::api::EndedHandles ended{&memory};
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
-  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< of all worlds
-  std::filesystem::path pipeline_folder;       ///< empty: pipelines are not kept
+  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< shared by all worlds
+  std::filesystem::path pipeline_folder;       ///< empty: pipelines are not cached
   sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
 };
@@ -112,8 +112,8 @@ namespace sgm::api {
 
 inline HandleHead& headOf(void* handle) { return static_cast<HandleHead*>(handle)[-1]; }
 
-/// A handle in the runtime's memory behind its head, counted as the runtime's child, with one owner. Throws
-/// std::bad_alloc, and what the constructor throws.
+/// Creates a handle behind its head in the runtime's memory, counted as the runtime's child, with one owner. Throws
+/// std::bad_alloc and the constructor's exceptions.
 template <class Handle, class... Arguments>
 Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   constexpr size_t kSize = sizeof(HandleHead) + sizeof(Handle);
@@ -132,17 +132,17 @@ Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   return handle;
 }
 
-/// INVALID_ARGUMENT, and the log is told: the handle had ended before this function was called.
+/// Returns INVALID_ARGUMENT and logs that the handle was already destroyed when this function was called.
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept;
 
-/// One more owner of a handle; null is nothing to do. INVALID_ARGUMENT, and nothing happens: it has ended.
+/// Adds an owner to a handle; ignores null. INVALID_ARGUMENT, and no change, if the handle is destroyed.
 inline sgm_result acquireHandle(void* handle, const char* function) noexcept {
   if (handle == nullptr || gainOwner(headOf(handle))) return SGM_OK;
   return refuseEnded(headOf(handle), function);
 }
 
-/// One owner of a handle less, which ends with its last; null is nothing to do. INVALID_ARGUMENT, and nothing happens:
-/// it has ended. What it owned is freed at once, the handle itself once it is forgotten.
+/// Removes an owner of a handle, and destroys it with its last owner; ignores null. INVALID_ARGUMENT, and no change, if
+/// the handle is already destroyed. Its content is freed at once, the memory of the handle later (EndedHandles).
 template <class Handle>
 sgm_result releaseHandle(Handle* handle, const char* function) noexcept {
   if (handle == nullptr) return SGM_OK;

@@ -16,15 +16,15 @@ namespace {
 
 constexpr size_t kSlice = size_t{1} << 18;  // points sorted and evaluated together
 constexpr int kBlockCells = 32;             // points this near share a program
-constexpr int kBrickCells = 8;              // and this near a pruned one
-constexpr size_t kWorthPruning = 32;        // points
+constexpr int kBrickCells = 8;              // points this near share a pruned program
+constexpr size_t kWorthPruning = 32;        // points: pruning pays from here on
 
 sgm_result checkSamples(const sgm_sample_desc& desc, sgm_error* error) {
   if (desc.count == 0) return SGM_OK;
   if (desc.points == nullptr) return nullArgument(error, "desc.points");
   const size_t stride = desc.point_stride == 0 ? 3 * sizeof(int32_t) : desc.point_stride;
   if (stride < 3 * sizeof(int32_t) || stride % alignof(int32_t) != 0)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.point_stride is below 12 or no multiple of 4");
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.point_stride is below 12 or not a multiple of 4");
   if (desc.count > SIZE_MAX / 2 / stride) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is too large");
   return SGM_OK;
 }
@@ -44,13 +44,13 @@ struct Place {
   }
 };
 
-/// Some points with one program, and room for their results.
+/// A group of points with one program, and memory for their results.
 class Evaluation {
  public:
   Evaluation(const sgm_sample_desc& desc, std::pmr::memory_resource* memory)
       : desc_(desc), scratch_(memory), prune_scratch_(memory), pruned_(memory) {}
 
-  /// `places` are one brick's.
+  /// Precondition: `places` are in one brick.
   void run(const sgm::FieldProgram& program, std::span<const Place> places) {
     sgm::ProgramView view = program.view();
     if (places.size() >= kWorthPruning) {
@@ -60,7 +60,7 @@ class Evaluation {
         box = box.joined({p, p});
       }
       sgm::prune(view, box, prune_scratch_, pruned_);
-      // Nothing is left of a program that is proven uniform, and the values are still asked for.
+      // A program proven uniform is pruned to nothing, but its values are still needed.
       if (!pruned_.solid() && !pruned_.empty()) view = pruned_.view();
     }
     for (size_t first = 0; first < places.size(); first += sgm::kEvalBlock)
@@ -110,7 +110,7 @@ class Evaluation {
   uint32_t label_[sgm::kEvalBlock];
 };
 
-/// Ends of the runs of places that agree in `part`.
+/// The ends of runs of places with equal `part`.
 template <class Part>
 std::vector<std::span<const Place>> runsOf(std::span<const Place> places, Part part) {
   std::vector<std::span<const Place>> runs;

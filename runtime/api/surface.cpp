@@ -11,7 +11,8 @@ using namespace sgm::api;
 
 namespace {
 
-/// Index-keyed sums as of mesh parts, restarted every 2^32 words under a new number so that no place comes twice.
+/// Hash sums with an index as key, like those of mesh parts; restarts every 2^32 words under a new number, so that no
+/// index recurs.
 class WordHash {
  public:
   void add(uint32_t word) {

@@ -9,7 +9,7 @@
 #include "texture/unwrapped.h"
 
 struct sgm_surface {
-  /// Of a grid.
+  /// The surface of a grid.
   sgm_surface(sgm_runtime& runtime_in, sgm::api::GridMesh&& mesh)
       : runtime(runtime_in),
         positions(std::move(mesh.positions)),
@@ -20,7 +20,7 @@ struct sgm_surface {
         texture(&runtime_in.memory),
         bounds_min(mesh.bounds_min),
         bounds_max(mesh.bounds_max) {}
-  /// Of a region; to be filled.
+  /// The surface of a region; to be filled in.
   explicit sgm_surface(sgm_runtime& runtime_in)
       : runtime(runtime_in),
         positions(&runtime_in.memory),
@@ -35,7 +35,7 @@ struct sgm_surface {
   sgm::RawArray<float> positions, normals;  ///< three a vertex
   sgm::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
   sgm::RawArray<uint32_t> indices;          ///< three a triangle
-  sgm::Unwrapped texture;                   ///< empty where not asked for
+  sgm::Unwrapped texture;                   ///< empty if not requested
   std::array<float, 3> bounds_min{}, bounds_max{};
   bool of_grid = true;
   sgm::Int3 origin;

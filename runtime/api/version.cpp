@@ -1,6 +1,6 @@
 #include "sgm/sgm.h"
 
-// Values that the build gives: the version itself stands in the header alone.
+// Values from the build; the version itself is only in the header.
 #define SGM_TEXT_OF(x) #x
 #define SGM_TEXT(x) SGM_TEXT_OF(x)
 #define SGM_VERSION_TEXT SGM_TEXT(SGM_VERSION_MAJOR) "." SGM_TEXT(SGM_VERSION_MINOR) "." SGM_TEXT(SGM_VERSION_PATCH)
@@ -10,7 +10,7 @@
 #elif defined(__GNUC__)
 #define SGM_COMPILER_TEXT "gcc " SGM_TEXT(__GNUC__) "." SGM_TEXT(__GNUC_MINOR__)
 #else
-#define SGM_COMPILER_TEXT "another compiler"
+#define SGM_COMPILER_TEXT "unknown compiler"
 #endif
 
 #if defined(__x86_64__)
@@ -18,7 +18,7 @@
 #elif defined(__aarch64__)
 #define SGM_MACHINE_TEXT "aarch64"
 #else
-#define SGM_MACHINE_TEXT "another machine"
+#define SGM_MACHINE_TEXT "unknown machine"
 #endif
 
 #if defined(NDEBUG)

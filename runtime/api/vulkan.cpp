@@ -65,15 +65,15 @@ sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* 
       if (part == nullptr || part->kind() != sgm::BackendKind::vulkan) {
         return fail(
             error, SGM_ERR_NOT_FOUND,
-            "the mesh is not on the lent Vulkan device: the world is not SGM_WORLD_RESIDENT, or the device's memory "
-            "(sgm_vulkan_device_desc.mesh_bytes) is used up; upload what sgm_mesh_get_view shows");
+            "the mesh is not on the external Vulkan device: the world is not SGM_WORLD_RESIDENT, or the "
+            "device's memory (sgm_vulkan_device_desc.mesh_bytes) is used up; upload the data of sgm_mesh_get_view");
       }
       const auto& placed = static_cast<const sgm::vulkan::VulkanPart&>(*part);
       const sgm::vulkan::Queue& queue = placed.memory().meshes().queue();
       if (queue.lost()) return fail(error, SGM_ERR_DEVICE_LOST, "the Vulkan device was lost, and the mesh with it");
       if (!placed.there()) {
         return fail(error, SGM_ERR_NOT_FOUND,
-                    "the mesh could not be brought to the lent Vulkan device: upload what sgm_mesh_get_view shows");
+                    "the mesh could not be copied to the external Vulkan device: upload the data of sgm_mesh_get_view");
       }
       found.semaphore = queue.semaphore();
       found.value = std::max(found.value, placed.memory().value());

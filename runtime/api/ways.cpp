@@ -18,12 +18,12 @@ static_assert(static_cast<int>(sgm::WayVerdict::found) == SGM_WAY_FOUND &&
 
 sgm_result takeQuestion(sgm_error* error, const sgm_way_desc& desc, sgm::VoidQuestion& question) {
   if ((desc.flags & ~static_cast<uint32_t>(SGM_WAY_WIDEST)) != 0)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_way_flag");
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has unknown bits: pass 0 or values of sgm_way_flag");
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
   question.ends = sgm::VoidQuestion::Ends();
   for (int axis = 0; axis < 3; ++axis) {
     if (desc.minimum[axis] >= desc.maximum[axis])
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum does not lie below desc.maximum on each axis");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum must be below desc.maximum on every axis");
     question.region.lo[axis] = desc.minimum[axis];
     question.region.hi[axis] = desc.maximum[axis];
     const auto a = static_cast<size_t>(axis);
@@ -36,7 +36,7 @@ sgm_result takeQuestion(sgm_error* error, const sgm_way_desc& desc, sgm::VoidQue
   return SGM_OK;
 }
 
-/// out's struct_size and next stay.
+/// Keeps out's struct_size and next.
 void writeWay(const sgm::VoidAnswer& answer, sgm_way& out) {
   const sgm::VoidWay& way = *answer.way;
   const auto volume = [&](uint64_t samples) { return static_cast<double>(samples) * answer.sample; };

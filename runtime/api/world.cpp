@@ -78,7 +78,7 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     constexpr uint32_t kFlags = SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH | SGM_WORLD_RESIDENT | SGM_WORLD_TEXTURE |
                                 SGM_WORLD_SHARP | SGM_WORLD_MEASURE;
     if ((desc->flags & ~kFlags) != 0)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_world_flag");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has unknown bits: pass 0 or values of sgm_world_flag");
     settings.morph = (desc->flags & SGM_WORLD_MORPH) != 0;
     settings.sharp = (desc->flags & SGM_WORLD_SHARP) != 0;
     settings.measure = (desc->flags & SGM_WORLD_MEASURE) != 0;
@@ -86,13 +86,13 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.resident = (desc->flags & SGM_WORLD_RESIDENT) != 0;
     if (settings.resident && !field->content->backend->capabilities().lends_meshes)
       return fail(error, SGM_ERR_UNSUPPORTED,
-                  "desc.flags has SGM_WORLD_RESIDENT, and the field's backend is not on a device that was lent: "
-                  "sgm_runtime_lend_vulkan or sgm_runtime_lend_cuda comes before sgm_field_create, which then takes "
-                  "SGM_BACKEND_VULKAN (AUTO only where the device is hardware) or SGM_BACKEND_CUDA");
+                  "desc.flags has SGM_WORLD_RESIDENT, but the field's backend is not on an external device: call "
+                  "sgm_runtime_lend_vulkan or sgm_runtime_lend_cuda before sgm_field_create, and pass it "
+                  "SGM_BACKEND_VULKAN (AUTO only if the device is hardware) or SGM_BACKEND_CUDA");
     settings.by_reach = (desc->flags & SGM_WORLD_BY_DISTANCE) == 0;
     settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
     if (!(desc->collider_distance >= 0) || !std::isfinite(desc->collider_distance))
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.collider_distance is not a finite number from 0");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.collider_distance is not a finite number of at least 0");
     settings.collider_distance = desc->collider_distance * sgm::kUnitsPerMetre;
     const sgm::Program& program = *field->content->world.settings().program;
     settings.edits.author = desc->author;
@@ -149,8 +149,9 @@ sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* err
   return guarded(error, [&]() -> sgm_result {
     if (world == nullptr) return nullArgument(error, "world");
     if (max_bytes == 0) {
-      return failLogged(*world, error,
-                        {sgm::Code::invalid_argument, "max_bytes is 0: nothing could ever be handed over"});
+      return failLogged(
+          *world, error,
+          {sgm::Code::invalid_argument, "max_bytes is 0: pass at least 1, so that meshes can be handed over"});
     }
     const sgm::ProfileScope scope(world->runtime.profiler, sgm::zone::kUpdate);
     if (!world->world->update(max_bytes)) return SGM_INCOMPLETE;
@@ -194,7 +195,7 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
         return true;
       } catch (...) {
         if (*count == 0) throw;
-        return false;  // what came before is delivered; this event is met again by the next call
+        return false;  // earlier events are delivered; the next call retries this one
       }
     });
     return SGM_OK;
@@ -251,7 +252,7 @@ sgm_result sgm_world_set_field(sgm_world* world, sgm_field* field, sgm_error* er
     if (world == nullptr) return nullArgument(error, "world");
     if (field == nullptr) return nullArgument(error, "field");
     if (&field->runtime != &world->runtime)
-      return fail(error, SGM_ERR_INVALID_ARGUMENT, "the field is of another runtime than the world");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "the field belongs to another runtime than the world");
     const sgm::Result<void> set = world->world->setField(worldField(field->content));
     return set ? SGM_OK : failLogged(*world, error, set.error());
   });

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of a streamed world, which keeps its backend; the world itself keeps the fields that it needs.
+// The handle of a streamed world. It owns its backend; the world owns the fields that it needs.
 
 #include <memory>
 
@@ -20,12 +20,12 @@ struct sgm_world {
 
 namespace sgm::api {
 
-/// Fails where what came from elsewhere is no text of a grammar.
+/// Returns the error; SGM_ERR_DATA if external data other than a grammar is invalid.
 inline sgm_result failData(sgm_error* error, const Error& e) {
   return fail(error, e.code == Code::bad_input ? SGM_ERR_DATA : resultOf(e.code), e.message);
 }
 
-/// Fails, and tells the log: a game that overlooks a result of a frame finds it there.
+/// Returns and logs the error: games often ignore the results of a frame's calls.
 inline sgm_result failLogged(const sgm_world& world, sgm_error* error, const Error& e) {
   world.runtime.log(SGM_LOG_WARNING, e.message);
   return failData(error, e);

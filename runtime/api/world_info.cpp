@@ -1,4 +1,4 @@
-// What tells a monitor of a world, from any thread.
+// Statistics of a world for a monitor, from any thread.
 
 #include <algorithm>
 #include <cstring>

@@ -8,7 +8,7 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kSamePlane = 1e-12;  ///< of what two normals' cosine lacks of 1
+constexpr double kSamePlane = 1e-12;  ///< by how much the cosine of two normals may be below 1
 constexpr size_t kMostCandidates = 24;
 
 /// A piece of a face.
@@ -24,8 +24,8 @@ struct OpenCell {
   std::vector<Fragment> fragments;
 };
 
-/// How a ray meets a triangle: +1 where it leaves the solid, -1 where it enters, 0 where it misses; nothing where it
-/// comes too near to an edge to tell.
+/// The crossing of a ray and a triangle: +1 if it leaves the solid, -1 if it enters, 0 if it misses; nullopt if it
+/// passes too close to an edge to decide.
 std::optional<int> crossing(Point from, Point along, Point a, Point b, Point c) {
   const Point e1 = b - a, e2 = c - a, normal = cross(e1, e2), to = a - from;
   const double facing = dot(along, normal), size = length(normal);
@@ -40,9 +40,9 @@ std::optional<int> crossing(Point from, Point along, Point a, Point b, Point c) 
   return facing > 0 ? 1 : -1;
 }
 
-/// How often the surface goes around a point that does not lie on it; nothing where no ray tells.
+/// The winding number of the surface around a point that does not lie on it; nullopt if no ray can decide.
 std::optional<int> windingAt(const Polyhedron& solid, Point p) {
-  // Any directions do that are not along edges or faces, as those of models are.
+  // Any directions work that are not along edges or faces, as the axes often are.
   constexpr Point kRays[] = {{0.3713906763541037, 0.7427813527082074, 0.5570860145311556},
                              {-0.6123724356957945, 0.3535533905932738, 0.7071067811865475},
                              {0.8137334712067349, -0.4650, 0.34874291623145787},
@@ -123,15 +123,15 @@ class CellCutter {
   void close(OpenCell cell) {
     BspCell leaf{std::move(cell.body), std::move(cell.sides), {}, 0, false};
     leaf.middle = leaf.body.middle();
-    // A cell that no ray tells of is as thin as the tolerance.
+    // A cell for which no ray can decide is as thin as the tolerance.
     leaf.winding = windingAt(solid_, leaf.middle).value_or(0);
     leaf.solid = leaf.winding > 0;
     out_.cells.push_back(std::move(leaf));
   }
 
-  /// The plane that cuts the fewest other fragments; of several, the one with the largest area.
+  /// The plane that cuts the fewest other fragments; among several, the one with the largest area.
   uint32_t splitter(const OpenCell& cell) const {
-    std::vector<std::pair<double, uint32_t>> candidates;  // less their area
+    std::vector<std::pair<double, uint32_t>> candidates;  // with their negated area
     for (const Fragment& f : cell.fragments) {
       const auto known =
           std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.second == f.plane; });
@@ -175,7 +175,7 @@ class CellCutter {
       for (const Fragment& f : cell.fragments) {
         if (f.plane == number) continue;
         Fragment rest{clippedLoop(f.loop, side, out_.tolerance), f.plane, 0};
-        // Nothing but an edge in the plane is no part of it.
+        // A fragment with only an edge in the plane is not part of it.
         bool inside = false;
         for (const Point& p : rest.loop) inside = inside || side.distance(p) < -out_.tolerance;
         if (rest.loop.size() < 3 || !inside) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Space cut into convex cells by the planes of a polyhedron's faces, each all solid or all void.
+// Cuts space into convex cells by the planes of a polyhedron's faces; each cell is entirely solid or entirely void.
 
 #include <cstdint>
 #include <vector>
@@ -10,27 +10,27 @@
 
 namespace sgm::asset {
 
-/// A side of a plane that a body lies on.
+/// One side of a plane.
 struct Side {
   uint32_t plane = 0;   ///< into BspCells::planes
-  bool before = false;  ///< where its normal points
+  bool before = false;  ///< the side to which the normal points
 
   friend bool operator==(const Side&, const Side&) = default;
 };
 
 struct BspCell {
   ConvexCell body;
-  std::vector<Side> sides;  ///< that it lies on: between them and within the outer box it is all there is
+  std::vector<Side> sides;  ///< the cell is their intersection within the outer box
   Point middle;
-  int winding = 0;  ///< how often the polyhedron surrounds the middle
+  int winding = 0;  ///< winding number of the polyhedron around the middle
   bool solid = false;
 };
 
 struct BspCells {
-  std::vector<Plane> planes;       ///< each once, whichever way it looks
-  std::vector<uint32_t> plane_of;  ///< of each face
-  std::vector<bool> turned;        ///< of each face: it looks the other way than its plane
-  std::vector<BspCell> cells;      ///< of all the space about the polyhedron
+  std::vector<Plane> planes;       ///< each once, regardless of its direction
+  std::vector<uint32_t> plane_of;  ///< for each face
+  std::vector<bool> turned;        ///< for each face: it faces against its plane
+  std::vector<BspCell> cells;      ///< of all the space around the polyhedron
   double tolerance = 0;
 
   Plane sidePlane(Side side) const { return side.before ? planes[side.plane].turned() : planes[side.plane]; }

@@ -10,16 +10,16 @@ namespace sgm::asset {
 namespace {
 
 constexpr double kShortest = 0.01;  ///< of an edge's own length
-constexpr double kParallel = 1e-4;  ///< determinants of normals below it tell nothing of where a corner is
+constexpr double kParallel = 1e-4;  ///< smaller determinants of normals do not determine a corner
 constexpr double kPlaceWeight =
-    1e-4;  ///< of where corners want to be, against the lengths of edges: for parts that hang on nothing
+    1e-4;  ///< weight of corners' targets relative to edge lengths: places parts without constraints
 
-/// A corner as a function of its faces' moves along their normals.
+/// A corner as a function of the moves of its faces along their normals.
 struct Corner {
   std::vector<uint32_t> faces;   ///< all that meet in it
-  std::array<uint32_t, 3> by{};  ///< three of them that tell where it is
-  std::array<Point, 3> moves{};  ///< how it moves as each of these does
-  bool sharp = false;            ///< there are three such
+  std::array<uint32_t, 3> by{};  ///< three of them that determine its position
+  std::array<Point, 3> moves{};  ///< its move per unit move of each of these
+  bool sharp = false;            ///< there are three such faces
 };
 
 class FaceMover {
@@ -38,7 +38,7 @@ class FaceMover {
   }
 
  private:
-  /// The maps themselves, where they keep every face's normal: without slanted faces they always do.
+  /// The maps themselves if they keep every face's normal: without slanted faces they always do.
   std::optional<Polyhedron> byMaps() const {
     Polyhedron out = solid_;
     out.points = wanted_;
@@ -46,8 +46,7 @@ class FaceMover {
     for (size_t t = 0; t < out.triangles.size(); ++t)
       for (const uint32_t corner : out.triangles[t]) {
         const uint32_t f = out.face_of[t];
-        // A corner lies in its plane up to the tolerance of the file: what counts is that it comes to lie no farther
-        // off.
+        // A corner lies in its plane up to the tolerance of the file: the map must not move it farther off.
         const double was = solid_.faces[f].plane.distance(solid_.points[corner]);
         const double offset = dot(out.faces[f].plane.normal, out.points[corner]) - was;
         if (known[f] && std::fabs(out.faces[f].plane.offset - offset) > 4 * tolerance_) return std::nullopt;
@@ -91,7 +90,7 @@ class FaceMover {
         }
   }
 
-  /// How far a corner moves in a direction.
+  /// The move of a corner in a direction.
   LinearForm moveOf(uint32_t corner, Point direction, double times = 1) const {
     LinearForm form;
     for (size_t m = 0; m < 3; ++m)
@@ -107,7 +106,7 @@ class FaceMover {
       for (size_t k = 0; k < 3; ++k)
         halves.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, solid_.face_of[t]});
     std::sort(halves.begin(), halves.end());
-    // next[a]: where the border of a face goes on from a corner that is not sharp.
+    // next[a]: where the border of a face continues from a corner that is not sharp.
     std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;  // (corner, face), corner
     for (const Half& half : halves) {
       const auto& [ends, face] = half;
@@ -129,7 +128,7 @@ class FaceMover {
         if (on == next.end() || on->first != std::pair{b, face}) break;
         b = on->second;
       }
-      // Each edge once: it is on the border of two faces, the other way round.
+      // Each edge once: it is on the borders of two faces, in opposite directions.
       if (corners_[b].sharp && a < b && dot(normalised(solid_.points[b] - solid_.points[a]), along) > 0.999)
         edges_.emplace_back(a, b);
     }
@@ -194,7 +193,7 @@ class FaceMover {
     return out;
   }
 
-  /// A point of an edge or a face, no corner: in their planes, wherever along them.
+  /// Moves a point of an edge or a face, not a corner, into their planes, anywhere along them.
   static Point onto(const std::vector<uint32_t>& faces, const Polyhedron& out, Point p) {
     Point first;
     for (const uint32_t f : faces) {
@@ -213,7 +212,7 @@ class FaceMover {
   const Polyhedron& solid_;
   const std::array<AxisMap, 3>& maps_;
   double edge_, tolerance_;
-  std::vector<Point> wanted_;  ///< of each point
+  std::vector<Point> wanted_;  ///< by point
   std::vector<Corner> corners_;
   std::vector<std::pair<uint32_t, uint32_t>> edges_;
 };

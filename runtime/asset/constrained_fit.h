@@ -1,8 +1,8 @@
 #pragma once
-// A polyhedron in another size with its angles kept: every face keeps its normal and moves along it, so that edges keep
-// their directions and change their lengths alone (after Cabral, Lefebvre, Dachsbacher and Drettakis,
-// "Structure-Preserving Reshape for Textured Architectural Scenes", EG 2009, who move vertices with edges' directions
-// kept; to move faces has a third of the unknowns, and normals stay to the bit).
+// Resizes a polyhedron and keeps its angles: every face keeps its normal and moves along it, so that edges keep their
+// directions and change only their lengths (after Cabral, Lefebvre, Dachsbacher and Drettakis, "Structure-Preserving
+// Reshape for Textured Architectural Scenes", EG 2009, who move vertices and keep the edges' directions; moving faces
+// has a third of the unknowns, and normals stay exact to the bit).
 
 #include <array>
 #include <optional>
@@ -12,27 +12,27 @@
 
 namespace sgm::asset {
 
-/// Where places along an axis are wanted to go: straight between its knots.
+/// The wanted target of each coordinate along an axis: piecewise linear between its knots.
 struct AxisMap {
   struct Knot {
     double from = 0, to = 0;
   };
   std::vector<Knot> knots;  ///< at least two, `from` ascending
-  /// Of each stretch between knots: what lies in it goes exactly there. Else only both ends of the axis do.
+  /// For each interval between knots: true if all of it must map exactly. Otherwise only the two ends of the axis must.
   std::vector<bool> stiff;
 
   double operator()(double at) const;
   bool isStiff(double at, double tolerance) const;
-  /// Whether what was at `from` and is at `to` has not left the stretch between knots that it was in.
+  /// True if a point that moved from `from` to `to` stays in its interval between knots.
   bool keeps(double from, double to, double tolerance) const;
-  /// Whether it turns nothing round, or to nearly nothing.
+  /// True if the map ascends everywhere, and nowhere almost flat.
   bool rises() const;
 };
 
-/// The polyhedron, whose box begins at the origin, as near to the maps as its angles allow: of the squared differences
-/// of its edges' lengths to those that the maps give, each by the edge's own length, the sum is the least. Nothing
-/// where that is impossible: demands contradict each other, an edge would be shorter than a hundredth of what it was,
-/// or a corner would leave its stretch between knots.
+/// Fits the polyhedron, whose box begins at the origin, to the maps as well as its angles allow: minimises the sum of
+/// the squared differences between its edges' lengths and those that the maps give, each weighted by the edge's own
+/// length. Returns nullopt if that is impossible: constraints contradict each other, an edge would be shorter than a
+/// hundredth of its length, or a vertex would leave its interval between knots.
 std::optional<Polyhedron> fitConstrained(const Polyhedron& solid, const std::array<AxisMap, 3>& maps);
 
 }  // namespace sgm::asset

@@ -1,5 +1,5 @@
 #pragma once
-// Convex polygons and bodies that planes split: what a BSP tree cuts space into.
+// Convex polygons and bodies that are split by planes: the cells of a BSP tree.
 
 #include <cstdint>
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace sgm::asset {
 
-/// A convex polygon in a plane; fewer than three corners: nothing.
+/// A convex polygon in a plane; empty if it has fewer than three vertices.
 using Loop = std::vector<Point>;
 
-/// The part of a loop behind a plane. Corners nearer to it than the tolerance lie in it.
+/// The part of a loop behind a plane. Vertices closer to the plane than the tolerance count as in it.
 Loop clippedLoop(const Loop& loop, const Plane& plane, double tolerance);
-/// The square in a plane with its middle nearest to `about`.
+/// The square in a plane whose middle is nearest to `about`.
 Loop squareIn(const Plane& plane, Point about, double half_edge);
 double areaOf(const Loop& loop);
 Point middleOf(const Loop& loop);
 
-/// What lies behind all of its facets' planes.
+/// The intersection of the half-spaces behind its facets' planes.
 struct ConvexCell {
   struct Facet {
     Plane plane;
@@ -29,14 +29,14 @@ struct ConvexCell {
   std::vector<Facet> facets;
 
   static ConvexCell box(Point low, Point high);
-  /// The mean of its corners.
+  /// The mean of its vertices.
   Point middle() const;
   double volume() const;
-  /// Of all corners: the least and the largest distance from a plane.
+  /// The least and the largest distance of its vertices from a plane.
   std::pair<double, double> range(const Plane& plane) const;
 };
 
-/// The parts behind a plane and before it; nothing where that part is thinner than the tolerance.
+/// The parts behind a plane and before it; nullopt if a part is thinner than the tolerance.
 struct SplitCell {
   std::optional<ConvexCell> behind, before;
 };

@@ -1,11 +1,11 @@
-// How it works. A BSP tree of the faces' planes cuts the inside into convex cells. For a point where several cells
-// meet, all of them solid, take the sides of all those cells but the ones whose planes run through the point: what lies
-// on these sides is convex, holds the point strictly, and is solid. (Go from the point to any other in it: near the
-// point that way lies in one of the cells, and leaves none of that cell's sides: those through the point it cannot
-// cross again, all others hold for both ends.) All points within a cell, within a face that two cells share, and within
-// an edge between corners of such faces meet the same cells, so these features are all there is to cover. A piece then
-// loses every side that no void cell needs in order to stay out, which makes it large and lets it cover many features:
-// a wall with m by n windows takes m + n + 2 pieces.
+// How it works. A BSP tree of the faces' planes divides the inside into convex cells. For a point where several cells
+// meet, all of them solid, take the sides of all those cells except the sides whose planes pass through the point: the
+// intersection of these sides is convex, contains the point strictly, and is solid. (Take the segment from the point to
+// any other in it. Near the point the segment lies in one of the cells, and it leaves none of that cell's sides: it
+// cannot cross those through the point again, and all others hold at both ends.) All points within a cell, within a
+// face that two cells share, and within an edge between corners of such faces meet the same cells, so covering these
+// features suffices. A piece then loses every side that is not needed to exclude a void cell, which makes it large and
+// lets it cover many features: a wall with m by n windows takes m + n + 2 pieces.
 
 #include "asset/convex_cover.h"
 
@@ -18,7 +18,7 @@ namespace sgm::asset {
 
 namespace {
 
-/// Points that the same cells meet at, strictly between corners.
+/// Points where the same cells meet, strictly between corners.
 struct Feature {
   Loop corners;
   Point middle;
@@ -36,7 +36,7 @@ class CoverFinder {
 
   Result<std::vector<ConvexPiece>> run() {
     for (const BspCell& cell : cells_.cells)
-      if (cell.winding < 0) return Error{Code::bad_input, "it runs through itself", 0, 0};
+      if (cell.winding < 0) return Error{Code::bad_input, "it intersects itself", 0, 0};
     relateCells();
     coverCells();
     findPortals();
@@ -58,7 +58,7 @@ class CoverFinder {
   double tolerance() const { return cells_.tolerance; }
   size_t planeCount() const { return cells_.planes.size(); }
 
-  /// Which void cells lie all on one side of which planes, and the boxes of cells.
+  /// Determines which void cells lie entirely on one side of which planes, and the boxes of cells.
   void relateCells() {
     for (uint32_t c = 0; c < cells_.cells.size(); ++c) {
       const BspCell& cell = cells_.cells[c];
@@ -81,18 +81,19 @@ class CoverFinder {
       }
   }
 
-  /// The void cells that a piece on this side leaves out.
+  /// The void cells that a piece on this side excludes.
   const std::vector<uint32_t>& leftOut(Side side) const { return outside_[2 * side.plane + (side.before ? 1 : 0)]; }
 
-  /// Takes away sides without which no void cell comes in.
+  /// Removes sides without which no void cell would be included.
   std::vector<Side> grown(std::vector<Side> sides) const {
     std::vector<uint32_t> count(void_.size(), 0);
     for (const Side side : sides)
       for (const uint32_t v : leftOut(side)) ++count[v];
-    // Where two sides together keep a cell out, none may go: that is rare, and a smaller piece is right as well.
+    // If only two sides together exclude a cell, none may be removed: that is rare, and a smaller piece is also
+    // correct.
     if (std::find(count.begin(), count.end(), 0u) != count.end()) return sides;
-    // Those that keep the most out, and of these the last that were cut, lie the farthest in: without them others,
-    // farther out, may do.
+    // The sides that exclude the most, and of these the ones cut last, lie farthest inside: without them, others
+    // farther outside may suffice.
     std::reverse(sides.begin(), sides.end());
     std::stable_sort(sides.begin(), sides.end(), [&](Side a, Side b) { return leftOut(a).size() > leftOut(b).size(); });
     std::vector<Side> kept;
@@ -116,7 +117,7 @@ class CoverFinder {
     return true;
   }
 
-  /// Puts a feature on the list, and a piece for it where none covers it; sides: what that piece begins with.
+  /// Adds a feature to the list, and a piece for it if none covers it; sides: the initial sides of that piece.
   void addFeature(Feature feature, std::vector<Side> sides) {
     features_.push_back(std::move(feature));
     for (const GrownPiece& piece : pieces_)
@@ -137,7 +138,7 @@ class CoverFinder {
     }
   }
 
-  /// Sides of both, but those that the plane between them makes.
+  /// The sides of the meeting cells whose planes do not pass through `at`.
   std::vector<Side> sidesAt(const std::vector<uint32_t>& meeting, Point at) const {
     std::vector<Side> sides;
     for (const uint32_t c : meeting)
@@ -154,7 +155,7 @@ class CoverFinder {
     return true;
   }
 
-  /// Faces that two solid cells share.
+  /// Finds the faces that two solid cells share.
   void findPortals() {
     struct FacetOf {
       uint32_t cell;
@@ -186,7 +187,7 @@ class CoverFinder {
         }
   }
 
-  /// Edges of those faces, cut where corners of others lie on them, and the corners.
+  /// Finds the edges of those faces, cut at the corners of others, and the corners.
   void findEdges() {
     std::vector<Point> corners;
     for (const Loop& loop : portals_) corners.insert(corners.end(), loop.begin(), loop.end());
@@ -225,7 +226,7 @@ class CoverFinder {
     }
   }
 
-  /// A feature where more than two cells may meet; none where one of them is void.
+  /// Adds a feature where more than two cells may meet, unless one of them is void.
   void meetingPoint(Feature feature) {
     for (const GrownPiece& piece : pieces_)
       if (covers(piece.sides, feature)) {
@@ -247,7 +248,7 @@ class CoverFinder {
     if (!meeting.empty()) addFeature(std::move(feature), sidesAt(meeting, middle));
   }
 
-  /// Later pieces are there for smaller features: they go first.
+  /// Later pieces were added for smaller features: they are dropped first.
   void dropSuperfluous() {
     std::vector<uint32_t> count(features_.size(), 0);
     for (GrownPiece& piece : pieces_)
@@ -258,7 +259,7 @@ class CoverFinder {
         }
     for (size_t i = pieces_.size(); i-- > 0;) {
       const std::vector<uint32_t>& covers = pieces_[i].covers;
-      // One that covers nothing by this measure is thin: it was made for something.
+      // A piece that covers nothing by this measure is thin, but was needed for some feature.
       if (covers.empty() || !std::all_of(covers.begin(), covers.end(), [&](uint32_t f) { return count[f] > 1; }))
         continue;
       for (const uint32_t f : covers) --count[f];
@@ -279,9 +280,9 @@ class CoverFinder {
     return piece;
   }
 
-  /// That of most of the polyhedron's face there.
+  /// The material of most of the polyhedron's face there.
   uint32_t materialOf(Side side, const std::vector<Side>& sides) const {
-    std::map<uint32_t, std::pair<double, double>> areas;  // within the piece, and in all of the plane
+    std::map<uint32_t, std::pair<double, double>> areas;  // within the piece, and in the whole plane
     for (const uint32_t t : triangles_[2 * side.plane + (side.before ? 1 : 0)]) {
       const uint32_t face = solid_.face_of[t];
       const auto& corners = solid_.triangles[t];
@@ -308,7 +309,7 @@ class CoverFinder {
   std::vector<std::pair<Point, Point>> boxes_;    ///< of the cells
   std::vector<uint32_t> void_;                    ///< cells
   std::vector<std::vector<uint32_t>> outside_;    ///< for each side of each plane, into void_
-  std::vector<std::vector<uint32_t>> triangles_;  ///< in each plane, looking one way and the other
+  std::vector<std::vector<uint32_t>> triangles_;  ///< in each plane, facing one way and the other
   std::vector<Feature> features_;
   std::vector<Loop> portals_;
   std::vector<GrownPiece> pieces_;

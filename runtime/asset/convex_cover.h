@@ -1,6 +1,6 @@
 #pragma once
-// A polyhedron as a union of convex pieces that overlap: every point inside it lies strictly inside one of them. Convex
-// parts that only touch would leave the samples in their common face void, since solid is where a field is below zero.
+// Covers a polyhedron by overlapping convex pieces: every point inside it lies strictly inside one of them. If convex
+// parts only touched, samples in their common face would be void, since a field is solid below zero.
 
 #include <cstdint>
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace sgm::asset {
 
-/// What a piece lies behind: the plane of a face of the polyhedron's.
+/// A side of a piece: the plane of a face of the polyhedron, with the piece behind it.
 struct PieceSide {
   Plane plane;
-  uint32_t number = 0;  ///< of the plane with its side: the same in all pieces
-  /// Of most of the face there: where two materials lie side by side in one plane, a piece has the larger one's.
+  uint32_t number = 0;  ///< of the plane and its side: the same in all pieces
+  /// Of most of the face there: if two materials share a plane, the piece has the one of larger area.
   uint32_t material = kNoMaterial;
 };
 
@@ -25,8 +25,8 @@ struct CoverLimits {
   size_t cells = kMostCells, pieces = 4096, features = 65536;
 };
 
-/// Pieces as large as they can be, none of which the others make superfluous. Errors: limit (too intricate);
-/// bad_input, where it runs through itself, so that its inside is out.
+/// Returns pieces of maximal size, none of them redundant. Errors: limit (too intricate); bad_input if the polyhedron
+/// intersects itself, so that its inside is out.
 Result<std::vector<ConvexPiece>> coverWithPieces(const Polyhedron& solid, const CoverLimits& limits = {});
 
 }  // namespace sgm::asset

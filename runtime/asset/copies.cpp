@@ -20,7 +20,7 @@ class Repeater {
     double from = -kEnd, moved = 0;
     for (const Stretch& zone : zones) {
       part(from, zone.from, moved);
-      // Triangles in a plane between two parts lie where the zone begins or ends, not between copies.
+      // Triangles in a plane between two parts belong to the beginning or end of the zone, not between copies.
       faceAt(zone.from, moved);
       for (size_t i = 0; i < count; ++i) {
         part(zone.from, zone.to, moved + static_cast<double>(i) * (zone.to - zone.from));

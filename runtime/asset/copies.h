@@ -1,5 +1,5 @@
 #pragma once
-// Zones of a polyhedron that are repeated along an axis, or taken out.
+// Repeats or removes zones of a polyhedron along an axis.
 
 #include <span>
 
@@ -8,16 +8,15 @@
 
 namespace sgm::asset {
 
-/// Between two planes across an axis.
+/// An interval between two planes across an axis.
 struct Stretch {
   double from = 0, to = 0;
 };
 
 inline constexpr size_t kMostCopiedTriangles = 65536;
 
-/// Each zone `count` times, one after another, and what lies behind moved on; zones in order, apart from each other.
-/// Errors: bad_input, where the section at the one end of a zone is another than at its other end, so that the copies
-/// would not join; limit.
+/// Repeats each zone `count` times and moves everything behind it along. The zones must be in order and disjoint.
+/// Errors: bad_input if the sections at the two ends of a zone differ, so that the copies would not join; limit.
 Result<Polyhedron> repeatAlong(const Polyhedron& solid, int axis, std::span<const Stretch> zones, size_t count);
 
 }  // namespace sgm::asset

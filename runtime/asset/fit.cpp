@@ -21,7 +21,7 @@ Error refused(std::string message) { return {Code::bad_input, std::move(message)
 
 std::string along(int axis) { return std::string(" along ") + kAxes[axis]; }
 
-/// What is to be done along one axis.
+/// The changes along one axis.
 struct AxisPlan {
   std::vector<Stretch> stretches, repeats;  ///< from the low end, in order
   double length = 0;                        ///< of the asset
@@ -34,7 +34,7 @@ struct AxisPlan {
 
   size_t leastCopies() const { return stretches.empty() || length - sum(repeats) <= 0 ? 1 : 0; }
 
-  /// How many copies come nearest to a size.
+  /// The number of copies that comes nearest to a size.
   size_t copiesFor(double size) const {
     if (repeats.empty()) return 1;
     const double fixed = length - sum(repeats), one = sum(repeats);
@@ -43,7 +43,7 @@ struct AxisPlan {
     return static_cast<size_t>(std::clamp(nearest, least, kMostCopies));
   }
 
-  /// Without the zones that are repeated.
+  /// The plan without the repeating zones.
   AxisPlan without() const {
     AxisPlan out;
     out.length = length - sum(repeats);
@@ -56,7 +56,7 @@ struct AxisPlan {
     return out;
   }
 
-  /// Where one copy's worth of the asset goes, so that all of it has the size.
+  /// The map of the asset with single zones, so that the result with all copies has the size.
   AxisMap map(double size, size_t copies) const {
     const std::vector<Stretch>& free = stretches.empty() ? repeats : stretches;
     const double count = static_cast<double>(copies);
@@ -86,7 +86,7 @@ struct AxisPlan {
 class Fitter {
  public:
   Fitter(const Polyhedron& asset, std::span<const FitZone> zones) : asset_(asset), zones_(zones) {
-    // From the low end on, where zones count from.
+    // Measured from the low end, like the zones.
     for (Point& p : asset_.points) p = p - asset.low;
     for (Face& face : asset_.faces) face.plane.offset -= dot(face.plane.normal, asset.low);
     asset_.findBox();
@@ -131,7 +131,7 @@ class Fitter {
       for (const FitZone& zone : zones_) {
         if (zone.axis != axis) continue;
         Stretch part{zone.from, zone.to};
-        // What ends where the asset ends, as written, ends there exactly.
+        // A zone that ends at the asset's end, as written, ends there exactly.
         if (std::fabs(part.to - plan.length) <= 1e-3) part.to = plan.length;
         const std::string name = "the zone " + metresText(zone.from) + "m.." + metresText(zone.to) + "m" + along(axis);
         if (!(part.from >= 0 && part.to <= plan.length && part.to - part.from >= 1e-3))
@@ -139,7 +139,7 @@ class Fitter {
                          "m there");
         for (const Stretch& other : all)
           if (part.from < other.to - 1e-9 && other.from < part.to - 1e-9)
-            return refused(name + " lies upon another one");
+            return refused(name + " overlaps another one");
         all.push_back(part);
         (zone.repeats ? plan.repeats : plan.stretches).push_back(part);
       }
@@ -152,11 +152,10 @@ class Fitter {
 
   Error unjoined(const Error& error, int axis) const {
     if (error.code == Code::limit) return error;
-    return refused("what repeats" + along(axis) +
-                   " does not join: its section at the end is not that at its beginning");
+    return refused("a repeated zone" + along(axis) + " does not join: its sections at both ends differ");
   }
 
-  /// For each axis, how often its zones that repeat stand there.
+  /// For each axis, the number of copies of its repeating zones.
   using Copies = std::array<size_t, 3>;
 
   Copies copiesFor(Point size) const {
@@ -166,13 +165,13 @@ class Fitter {
     return out;
   }
 
-  /// Where the nearest count leaves too little for the rest, one fewer may do.
+  /// If the nearest count leaves too little for the rest, one fewer may work.
   Copies oneFewer(Copies copies, size_t axis) const {
     if (!plans_[axis].repeats.empty() && copies[axis] > plans_[axis].leastCopies()) --copies[axis];
     return copies;
   }
 
-  /// One copy's worth of it, so that all copies together have the size. Nothing where that is impossible.
+  /// The asset with single zones, so that all copies together have the size; nullopt if that is impossible.
   Result<std::optional<Polyhedron>> fitted(Point size, const Copies& copies) const {
     std::array<AxisMap, 3> maps;
     Polyhedron taken;

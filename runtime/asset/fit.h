@@ -1,5 +1,5 @@
 #pragma once
-// An asset in the size of a scope: zones that stretch, zones that are repeated, all else stiff.
+// Fits an asset to the size of a scope: some zones stretch, some are repeated, and the rest is stiff.
 
 #include <span>
 #include <string>
@@ -16,16 +16,16 @@ struct FitZone {
   double from = 0, to = 0;  ///< metres from the low end of the asset's box
 };
 
-/// The asset with its box about the origin and of this size, metres; its angles kept.
+/// Returns the asset with its angles kept and its box of the given size, in metres, centred on the origin.
 ///
-/// Along an axis without zones all of it stretches alike. With zones, what lies outside of them is stiff; those that
-/// stretch share what is to be gained or lost in proportion to their lengths. Zones that repeat are copied as often as
-/// comes nearest to the size, all of one axis the same number of times: by themselves once at least, and then it is the
-/// copies that stretch; beside zones that stretch they may go, and are stiff. Where the count that comes nearest is
+/// Along an axis without zones the whole asset stretches evenly. With zones, the parts outside them are stiff, and the
+/// stretching zones share the change in proportion to their lengths. All repeating zones of an axis get the same number
+/// of copies, the one that comes nearest to the size. Without stretching zones there is at least one copy, and the
+/// copies stretch; beside stretching zones the number may be 0, and the copies are stiff. If the nearest number is
 /// impossible, one fewer is tried.
 ///
-/// Errors: bad_input, with what is wrong and what would be right: zones outside of the asset or upon each other, a
-/// zone with another section at its end than at its beginning, a size that it cannot have; limit.
+/// Errors: bad_input, with the problem and its remedy: zones outside the asset or overlapping, a zone whose sections at
+/// its two ends differ, a size that the asset cannot have; limit.
 Result<Polyhedron> fitInto(const Polyhedron& asset, Point size, std::span<const FitZone> zones);
 
 }  // namespace sgm::asset

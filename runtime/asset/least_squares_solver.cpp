@@ -7,12 +7,11 @@ namespace sgm::asset {
 
 namespace {
 
-/// Of coefficients that are about 1: what is left of a demand that others have made already, with the rounding of a
-/// file's floats in it, says nothing of the unknown that it is left of.
+/// For coefficients of about 1: if the remainder of a demand after elimination by others is this small, it is the
+/// rounding of a file's floats, and does not determine an unknown.
 constexpr double kNothing = 1e-5;
 
-/// Solves a symmetric, positive system in place by Cholesky's decomposition. Directions that nothing is said about stay
-/// 0.
+/// Solves a symmetric, positive system in place by Cholesky decomposition. Undetermined directions stay 0.
 void solvePositive(std::vector<double>& a, std::vector<double>& b) {
   const size_t n = b.size();
   double largest = 0;
@@ -85,7 +84,7 @@ std::vector<double> LeastSquares::solve() const {
   std::vector<size_t> free;
   for (size_t i = 0; i < count_; ++i)
     if (!bound[i]) free.push_back(i);
-  // x = start + basis * y, y the free unknowns.
+  // x = start + basis * y, where y are the free unknowns.
   const size_t n = free.size();
   std::vector<double> start(count_, 0), basis(count_ * n, 0);
   for (size_t k = 0; k < n; ++k) basis[free[k] * n + k] = 1;

@@ -1,7 +1,6 @@
 #pragma once
-// The numbers nearest to what many linear wishes say, among those that linear demands allow. Dense, in a fixed order,
-// by
-// + - * / and sqrt alone: the same bits on every machine.
+// Linear least squares with soft constraints (wishes), subject to hard linear constraints (demands). Dense, in a fixed
+// order, by + - * / and sqrt alone: the same bits on every machine.
 
 #include <cstddef>
 #include <optional>
@@ -10,18 +9,18 @@
 
 namespace sgm::asset {
 
-/// Coefficients by unknown, few of which are not 0.
+/// Pairs of an unknown and its coefficient; all other coefficients are 0.
 using LinearForm = std::vector<std::pair<size_t, double>>;
 
 class LeastSquares {
  public:
   explicit LeastSquares(size_t unknowns);
 
-  /// form = value exactly. False where that contradicts what has been demanded before, by more than `tolerance`.
+  /// Adds the hard constraint form = value. False if it contradicts earlier ones by more than `tolerance`.
   bool demand(const LinearForm& form, double value, double tolerance);
-  /// weight * (form - value)^2 is to be small.
+  /// Adds the soft constraint weight * (form - value)^2.
   void wish(const LinearForm& form, double value, double weight);
-  /// The unknowns; those that nothing is said about are 0.
+  /// Returns the unknowns; unconstrained ones are 0.
   std::vector<double> solve() const;
 
  private:
@@ -33,7 +32,7 @@ class LeastSquares {
 
   size_t count_;
   std::vector<Row> rows_;
-  std::vector<double> squares_;  ///< of the wishes: count_ x count_
+  std::vector<double> squares_;  ///< normal matrix of the wishes: count_ x count_
   std::vector<double> right_;
 };
 

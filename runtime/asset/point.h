@@ -1,6 +1,6 @@
 #pragma once
-// Places and directions of assets, metres in double precision. + - * / and sqrt alone, so that every machine computes
-// the same.
+// Points and directions of assets, in metres, in double precision. They use + - * / and sqrt alone, so every machine
+// computes the same bits.
 
 #include <cmath>
 
@@ -27,7 +27,7 @@ inline Point normalised(Point a) {
   return size > 0 ? (1.0 / size) * a : Point{};
 }
 
-/// Behind it, where the distance is negative, lies the solid.
+/// The solid lies behind the plane, where the distance is negative.
 struct Plane {
   Point normal;
   double offset = 0;

@@ -11,9 +11,9 @@ namespace sgm::asset {
 namespace {
 
 constexpr double kThinnest = 1e-3;  ///< metres
-constexpr double kAlike = 0.99;     ///< least cosine between triangles of one face: the rest is how far corners lie off
+constexpr double kAlike = 0.99;     ///< least cosine between triangles of one face; corner distances decide the rest
 
-/// A normal that is across an axis, or along one, but for the rounding of a file's floats is so exactly.
+/// A normal that is perpendicular or parallel to an axis up to the rounding of a file's floats becomes exactly so.
 Point straightened(Point normal) {
   constexpr double kRounding = 4e-6;
   for (int axis = 0; axis < 3; ++axis)
@@ -31,7 +31,7 @@ class FaceFinder {
     for (uint32_t t = 0; t < count; ++t)
       for (size_t k = 0; k < 3; ++k) edges_.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, t});
     std::sort(edges_.begin(), edges_.end());
-    // The largest triangle of a face knows best how its plane lies.
+    // The largest triangle of a face determines its plane best.
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
@@ -90,7 +90,7 @@ class FaceFinder {
 
   Polyhedron& solid_;
   const std::vector<uint32_t>& materials_;
-  std::vector<Point> crosses_;  ///< of each triangle, twice its area long
+  std::vector<Point> crosses_;  ///< by triangle; the length is twice its area
   std::vector<EdgeOf> edges_;
 };
 
@@ -122,7 +122,7 @@ Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
                      std::to_string(kMostTriangles),
                  0, 0};
   Polyhedron solid;
-  // The box of what triangles use: other points do not count.
+  // The box of the points that triangles use; other points are ignored.
   for (const auto& t : mesh.triangles)
     for (const uint32_t corner : t) solid.points.push_back(mesh.points[corner]);
   solid.findBox();
@@ -134,7 +134,7 @@ Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
   solid.points = std::move(welded->points);
   solid.triangles = std::move(welded->triangles);
   solid.findBox();
-  if (!(solid.volume() > 0)) return Error{Code::bad_input, "it is turned inside out: its faces look in", 0, 0};
+  if (!(solid.volume() > 0)) return Error{Code::bad_input, "it is turned inside out: its faces point inwards", 0, 0};
   std::vector<uint32_t> materials;
   for (const uint32_t source : welded->source) materials.push_back(mesh.materials[source]);
   FaceFinder(solid, materials).run();

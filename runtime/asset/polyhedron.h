@@ -1,5 +1,5 @@
 #pragma once
-// A closed mesh as plane faces: what `fit` stretches.
+// A closed mesh with planar faces, which `fit` stretches.
 
 #include <array>
 #include <cstdint>
@@ -15,31 +15,31 @@ namespace sgm::asset {
 
 inline constexpr size_t kMostTriangles = 4096, kMostFaces = 256;
 
-/// Of an asset with so long an edge: what lies nearer to each other is in one place.
+/// The tolerance of an asset with this longest edge: points closer than this coincide.
 constexpr double toleranceOf(double longest_edge) { return 2e-6 * longest_edge; }
 
-/// Triangles in one plane that hang together and have one material.
+/// Connected coplanar triangles of one material.
 struct Face {
   Plane plane;  ///< its normal looks out of the solid
   uint32_t material = kNoMaterial;
 };
 
-/// Every edge has as many triangles on one side as on the other. Parts of it may touch and overlap.
+/// Every edge has equally many triangles on both sides. Parts may touch and overlap.
 struct Polyhedron {
   std::vector<Point> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint32_t> face_of;  ///< of each triangle
+  std::vector<uint32_t> face_of;  ///< for each triangle
   std::vector<Face> faces;
   Point low, high;  ///< its box
 
   double longestEdge() const;
   double tolerance() const { return toleranceOf(longestEdge()); }
   void findBox();
-  /// Of its parts together; where they overlap, twice.
+  /// The sum over its parts; overlaps count twice.
   double volume() const;
 };
 
-/// What to do about meshes of which makePolyhedron says that they are too large.
+/// The remedy for meshes that makePolyhedron rejects as too large.
 inline constexpr std::string_view kSimplifyAdvice = "simplify it in the modelling tool, or fit it in several parts";
 
 /// Errors: bad_input (open, inside out, flat), limit (too many triangles or faces).

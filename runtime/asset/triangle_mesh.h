@@ -1,5 +1,5 @@
 #pragma once
-// Triangles with materials by name: what a file holds, in metres.
+// Triangles with named materials: the content of a file, in metres.
 
 #include <array>
 #include <cstddef>
@@ -14,33 +14,33 @@ namespace sgm::asset {
 
 inline constexpr uint32_t kNoMaterial = 0xFFFFFFFFu;
 
-/// What the corners of triangles have beside their place, in one of two forms: one value a point, or, where corners
-/// that share a point differ (a crease, a seam of a chart), values of their own that the corners number. The points
-/// stay what the file holds, so that the topology does.
+/// The attributes of triangle corners, in one of two forms: one value per point, or, if corners that share a point
+/// differ (a crease, a seam of a chart), separate values that the corners index. The points stay those of the file, and
+/// so does the topology.
 template <class Value>
 struct CornerValues {
   std::vector<Value> values;  ///< empty: the file has none
-  /// Of each triangle, into values. Empty: values[p] is that of points[p].
+  /// For each triangle, indices into values. Empty: values[p] belongs to points[p].
   std::vector<std::array<uint32_t, 3>> corners;
 
   bool empty() const { return values.empty(); }
 };
 
-using Normal = std::array<float, 3>;              ///< of length one, or zero where the file gives none
+using Normal = std::array<float, 3>;              ///< of length one, or zero if the file gives none
 using TextureCoordinates = std::array<float, 2>;  ///< the second grows upward
 
 struct TriangleMesh {
   std::vector<Point> points;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<uint32_t> materials;                 ///< of each triangle, into material_names, or kNoMaterial
+  std::vector<uint32_t> materials;                 ///< one per triangle, into material_names, or kNoMaterial
   std::vector<std::string> material_names;
   CornerValues<Normal> normals;
   CornerValues<TextureCoordinates> coordinates;
-  Point origin;                    ///< where the points count from in their world, where that is known; metres
-  bool in_metres = false;          ///< whether the file's format fixes the unit
-  std::vector<std::string> notes;  ///< sentences about parts of the file that are left out, or read in spite of faults
+  Point origin;                    ///< position of the points' origin in their world if known; metres
+  bool in_metres = false;          ///< true if the file's format defines the unit
+  std::vector<std::string> notes;  ///< sentences about parts of the file left out, or read despite errors
 
-  /// Of corner k of a triangle, where there are any.
+  /// The value of corner k of a triangle; the mesh must have some.
   const Normal& normalAt(size_t triangle, size_t k) const { return at(normals, triangle, k); }
   const TextureCoordinates& coordinatesAt(size_t triangle, size_t k) const { return at(coordinates, triangle, k); }
 
@@ -51,7 +51,7 @@ struct TriangleMesh {
   }
 };
 
-/// A direction from a file, of any length; zero where it is too long to be measured.
+/// Normalises a direction from a file; zero if it is too long to be measured.
 inline Normal unitNormal(double x, double y, double z) {
   const double size = length({x, y, z});
   if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return {};

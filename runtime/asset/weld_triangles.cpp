@@ -13,7 +13,7 @@ namespace {
 using Triangle = std::array<uint32_t, 3>;
 using DirectedEdge = std::pair<uint32_t, uint32_t>;
 
-/// Of each point the one that it falls together with.
+/// For each point, the point that it is merged with.
 std::vector<uint32_t> merged(const std::vector<Point>& points, double tolerance) {
   std::vector<uint32_t> order(points.size()), into(points.size(), static_cast<uint32_t>(points.size()));
   std::iota(order.begin(), order.end(), 0u);
@@ -86,7 +86,7 @@ class Welder {
   }
   bool isOpen(uint32_t a, uint32_t b) const { return countOf(a, b) != countOf(b, a); }
 
-  /// Splits triangles where corners of open edges lie on their own open edges. Whether there were any.
+  /// Splits triangles at corners of open edges that lie on their own open edges. Returns true if there were any.
   bool splitEdges() {
     sortEdges();
     std::vector<uint32_t> corners;
@@ -123,7 +123,7 @@ class Welder {
     return any;
   }
 
-  /// The one nearest to a of those that lie on the edge between its ends; corners: in the order of x.
+  /// Of the corners that lie within the edge, the nearest one to a; corners: sorted by x.
   std::optional<uint32_t> cornerBetween(uint32_t a, uint32_t b, const std::vector<uint32_t>& corners) const {
     const Point from = out_.points[a], along = out_.points[b] - from;
     const double size = length(along);

@@ -13,10 +13,10 @@ struct DeviceCounters {
   std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
 };
 
-/// To open a device costs more than a batch: what fails so often in a row is left alone.
+/// Opening a device costs more than a batch, so after this many failures in a row it is given up.
 constexpr unsigned kMostInVain = 8;
 
-/// What batches share with the backend, which they must not outlive.
+/// Shared by the backend and its batches, which must not outlive it.
 struct DeviceShared {
   OpenSession open;
   std::unique_ptr<Backend> cpu;
@@ -24,13 +24,13 @@ struct DeviceShared {
   Profiler profiler;
   DeviceCounters counters;
   std::mutex mutex;
-  std::shared_ptr<DeviceSession> session;  ///< null: lost, and not open again
+  std::shared_ptr<DeviceSession> session;  ///< null: lost, and not reopened
   WarnOf warn;
   std::string name;
-  /// How often it was lost, or could not be opened, since it last did something.
+  /// The number of losses and failed openings since the device's last success.
   std::atomic<unsigned> in_vain{0};
 
-  /// The next batch opens the device anew.
+  /// Leaves a lost session: the next batch reopens the device.
   void leave(const std::shared_ptr<DeviceSession>& lost, const Error& why) noexcept {
     {
       const std::scoped_lock lock(mutex);
@@ -41,10 +41,10 @@ struct DeviceShared {
     }
     if (!warn) return;
     try {
-      warn(name + " was lost, and the CPU goes on: " + why.message);
-      if (in_vain.load() == kMostInVain) warn(name + " is left alone: it was lost time and again");
+      warn(name + " was lost, and the CPU continues: " + why.message);
+      if (in_vain.load() == kMostInVain) warn(name + " is no longer used: it was lost repeatedly");
     } catch (const std::bad_alloc&) {
-      // The counter tells as much.
+      // No memory for a message; the counter still shows the loss.
     }
   }
 };
@@ -64,13 +64,13 @@ class DeviceBatch final : public ChunkBatch {
     releaseSlots();
   }
 
-  /// Hands the jobs to the device, as many as it takes; the CPU does the rest when the batch is waited for.
+  /// Submits as many jobs as the device accepts; the CPU does the rest when the batch is waited for.
   void submit() {
     const ProfileScope scope(shared_.profiler, zone::kMesh);
     const bool prompt = std::any_of(jobs_.begin(), jobs_.end(), [](const ChunkJob& job) { return job.prompt; });
     size_t first = 0;
     while (session_ && first < jobs_.size()) {
-      // Whatever is thrown, the slot goes back by our end: the device may be at work in it.
+      // If anything throws, the destructor returns the slot, in which the device may be working.
       slots_.reserve(slots_.size() + 1);
       slots_.push_back(session_->takeSlot());
       DeviceSlot& slot = *slots_.back();
@@ -87,7 +87,7 @@ class DeviceBatch final : public ChunkBatch {
   }
 
   bool poll() override {
-    // Whoever waits holds the lock until the end.
+    // A waiting thread holds the lock until the end.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return false;
     if (ended_) return true;
@@ -126,7 +126,7 @@ class DeviceBatch final : public ChunkBatch {
     if (error.code == Code::device_lost) shared_.leave(session_, error);
   }
 
-  /// poll() and wait() are called where there is nobody to catch anything.
+  /// For poll() and wait(), whose callers cannot catch exceptions.
   template <class Work>
   void guarded(const Work& work) noexcept {
     try {
@@ -136,7 +136,7 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Waits for the slot; whether what the device has left in it may be read. Where not, it may be in use still.
+  /// Waits for the slot. Returns whether its results may be read; if false, the device may still use it.
   bool awaitSlot(DeviceSlot& slot) {
     if (!slot.submitted) return false;
     const Result<void> ended = session_->await(slot);
@@ -149,7 +149,7 @@ class DeviceBatch final : public ChunkBatch {
     for (const std::unique_ptr<DeviceSlot>& slot : slots_) {
       if (!slot || !slot->submitted) continue;
       const Result<bool> ended = session_->ended(*slot);
-      // Asked in vain how far it is, the batch waits, and so hears of it.
+      // If the query fails, wait() will report the error.
       if (ended && !*ended) return false;
     }
     return true;
@@ -196,7 +196,7 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Whether the device is at work in the slot once more.
+  /// Returns whether the device works in the slot again.
   bool readSlot(DeviceSlot& slot) {
     const auto done = [&](size_t job) {
       finished(slot.first + job);
@@ -225,10 +225,10 @@ class DeviceBatch final : public ChunkBatch {
     rest_ = std::move(*batch);
   }
 
-  /// Waits for meshes that stay, and takes what the CPU has made of the rest.
+  /// Waits for meshes that stay, and takes the CPU's results for the other jobs.
   void end() {
     ended_ = true;
-    // Whoever draws meshes that stay does not wait for what was submitted between them and their copies.
+    // Return slots first: meshes that stay should not wait for work submitted between them and their copies.
     releaseSlots();
     const std::unique_ptr<ChunkBatch> rest = std::move(rest_);
     if (!rest) return;
@@ -247,9 +247,9 @@ class DeviceBatch final : public ChunkBatch {
   AfterChunk after_chunk_;
   std::vector<ChunkMesh> meshes_;
   std::vector<bool> done_;
-  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< once read: those that the device is still at work in
-  std::unique_ptr<ChunkBatch> rest_;                ///< what the device has not done, on the CPU
-  std::vector<size_t> numbers_;                     ///< of the rest's jobs
+  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< after reading: those in which the device still works
+  std::unique_ptr<ChunkBatch> rest_;                ///< jobs that the device has not done, on the CPU
+  std::vector<size_t> numbers_;                     ///< indices of these jobs
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
   bool read_ = false, ended_ = false, skipped_ = false;
@@ -286,20 +286,20 @@ class DeviceBackend final : public Backend {
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
   uint32_t batch() const override {
-    // Whoever holds the lock for long opens a device.
+    // A thread that holds this lock for long is opening a device.
     const std::unique_lock lock(shared_.mutex, std::try_to_lock);
     return lock && shared_.session ? shared_.session->batch() : 1;
   }
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
     const std::shared_ptr<DeviceSession> current = session();
-    if (!current) return Error{Code::device_lost, "the GPU was lost, and could not be opened again"};
+    if (!current) return Error{Code::device_lost, "the GPU was lost and could not be opened again"};
     auto brought = current->upload(parts);
     if (!brought && brought.error().code == Code::device_lost) shared_.leave(current, brought.error());
     return brought;
   }
 
  private:
-  /// The one there is, or after a loss a new one; null where there is none to be had.
+  /// Returns the session, or a new one after a loss; null if there is none.
   std::shared_ptr<DeviceSession> session() {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session || shared_.in_vain.load() >= kMostInVain) return shared_.session;

@@ -1,5 +1,6 @@
 #pragma once
-// Chunks on a device, in batches; the CPU takes what the device cannot, or loses. The same for every kind of device.
+// Meshes chunks on a device in batches; the CPU meshes those that the device cannot, or loses. For all kinds of
+// devices.
 
 #include <functional>
 #include <memory>
@@ -16,63 +17,63 @@ namespace sgm {
 class DeviceSlot {
  public:
   virtual ~DeviceSlot() = default;
-  size_t first = 0;        ///< of the batch's jobs
-  bool submitted = false;  ///< in whole or in part: it has to be waited for
-  bool stuck = false;      ///< nobody could say that the device has done with it
+  size_t first = 0;        ///< index of the first of the batch's jobs
+  bool submitted = false;  ///< in whole or in part: must be waited for
+  bool stuck = false;      ///< it is unknown whether the device is done with it
 };
 
-/// A device with all that is made on it, for as long as any batch of it or any mesh on it lives. Any thread may use it,
-/// a slot by one. Its end waits for the device.
+/// A device with everything created on it; lives as long as any batch or mesh of it. Thread-safe, but each slot is for
+/// one thread at a time. Its destructor waits for the device.
 class DeviceSession {
  public:
   virtual ~DeviceSession() = default;
 
-  /// The same of every session that is opened in place of this one.
+  /// The same for every session that replaces this one.
   virtual BackendCapabilities capabilities() const = 0;
   /// As Backend::batch().
   virtual uint32_t batch() const = 0;
 
-  /// One that nobody uses. Throws std::bad_alloc.
+  /// Returns an unused slot. Throws std::bad_alloc.
   virtual std::unique_ptr<DeviceSlot> takeSlot() = 0;
-  /// Gives back what takeSlot gave.
+  /// Returns a slot of takeSlot() to the session.
   virtual void release(std::unique_ptr<DeviceSlot> slot) noexcept = 0;
-  /// Plans jobs for one submission; how many of them were taken up, from the first on, at least one.
+  /// Plans jobs for one submission. Returns the number of planned jobs, counted from the first; at least one.
   virtual size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) = 0;
-  /// Numbers of those that need no device: they have no surface, and are uniform.
+  /// Indices of jobs that need no device: they have no surface, and are uniform.
   virtual std::span<const uint32_t> uniform(const DeviceSlot& slot) const = 0;
   /// Whether there is anything to submit.
   virtual bool hasWork(const DeviceSlot& slot) const = 0;
-  /// Whether submit() would not wait until the device is ready; where not it is being made so.
+  /// Whether submit() would not wait for the device's preparation; if false, preparation has begun.
   virtual bool ready(const DeviceSlot&) noexcept { return true; }
   /// Errors: device_lost, out_of_memory, limit, unsupported. Throws std::bad_alloc.
   virtual Result<void> submit(DeviceSlot& slot) = 0;
-  /// Whether the device has done with it; does not wait.
+  /// Whether the device is done with it; does not wait.
   virtual Result<bool> ended(DeviceSlot& slot) = 0;
   virtual Result<void> await(DeviceSlot& slot) = 0;
-  /// After the end: fills the mesh of each job that was made, a mesh a job, and calls done(number of the job), which
-  /// says whether to go on. true: the device is at work in the slot once more, for meshes that stay on it, and has to
-  /// be waited for again. Throws std::bad_alloc.
+  /// Call after the end: fills one mesh for each planned job, and calls done(index of the job), which returns whether
+  /// to continue. Returns true if the device works in the slot again, for meshes that stay on it: then wait again.
+  /// Throws std::bad_alloc.
   virtual Result<bool> read(DeviceSlot& slot, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                             const std::function<bool(size_t)>& done) = 0;
 
   /// As Backend::upload().
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const>) {
-    return Error{Code::unsupported, "no engine lent this device"};
+    return Error{Code::unsupported, "this device is not external"};
   }
-  /// Bytes of parts that lie on it now.
+  /// Bytes of parts on the device now.
   virtual uint64_t resident() const { return 0; }
 };
 
-/// Slots of a session that no batch has. Any thread may use it.
+/// Slots of a session that no batch uses. Thread-safe.
 class IdleSlots {
  public:
-  /// One of them, or where there is none what make() gives. Throws std::bad_alloc.
+  /// Returns an idle slot, or make() if there is none. Throws std::bad_alloc.
   template <class Make>
   std::unique_ptr<DeviceSlot> take(const Make& make) {
     const std::scoped_lock lock(mutex_);
     if (idle_.empty()) {
       std::unique_ptr<DeviceSlot> made = make();
-      // So that to give it back takes no memory.
+      // Reserve, so that give() needs no memory.
       idle_.reserve(made_ + 1);
       stuck_.reserve(made_ + 1);
       ++made_;
@@ -92,16 +93,16 @@ class IdleSlots {
   std::mutex mutex_;
   size_t made_ = 0;
   std::vector<std::unique_ptr<DeviceSlot>> idle_;
-  std::vector<std::unique_ptr<DeviceSlot>> stuck_;  // the device may use them still, to the end
+  std::vector<std::unique_ptr<DeviceSlot>> stuck_;  // the device may use them until its end
 };
 
 /// As BackendRequest::warn.
 using WarnOf = std::function<void(const std::string&)>;
 using OpenSession = std::function<Result<std::shared_ptr<DeviceSession>>()>;
 
-/// Meshes what a device has no room for, or loses, by the CPU backend that it is given; the stream goes on, with the
-/// same bytes. open: called now, and anew after a loss, where an error means that the CPU does all; by one thread at a
-/// time. What is lost too often in a row is left alone. warn: told of each loss; or null. Errors: as open.
+/// Meshes on a device, and on the given CPU backend if the device has no room or is lost; the stream continues with the
+/// same bytes. open: called now and after each loss, by one thread at a time; an error after a loss means that the CPU
+/// does all. A device lost too often in a row is given up. warn: receives each loss; may be null. Errors: as open.
 Result<std::unique_ptr<Backend>> makeDeviceBackend(OpenSession open, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler,
                                                    WarnOf warn = nullptr);

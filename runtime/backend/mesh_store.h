@@ -1,5 +1,5 @@
 #pragma once
-// Memory of the device that draws, for meshes that another API's device makes on the same GPU.
+// Memory on the drawing device for meshes that another API's device makes on the same GPU.
 
 #include <array>
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace sgm {
 
-/// How large a part is; nothing is placed where it has no indices.
+/// The size of a part; a part without indices gets no place.
 struct PartSize {
   uint32_t vertices = 0, indices = 0;
 };
 using PartSizes = std::array<PartSize, kMeshParts>;  ///< in the order of DeviceParts
 
-/// Where a part is to be written, in bytes from the beginning of its block.
+/// The place to which a part is written, in bytes from the beginning of its block.
 struct PartPlace {
   size_t chunk = 0, part = 0;
   SharedBlock* block = nullptr;
   uint64_t vertices = 0, indices = 0;
 };
 
-/// Parts that have a place, and no content yet. Where one ends in writing nobody knows when that will be over: its
-/// memory is not used again before the store's end.
+/// Parts with a place but no content yet. If it is destroyed while `writing`, the end of the writing is unknown: its
+/// memory is not reused before the store's end.
 class Placement {
  public:
   Placement() = default;
@@ -34,28 +34,28 @@ class Placement {
   Placement(const Placement&) = delete;
   Placement& operator=(const Placement&) = delete;
 
-  std::vector<DeviceParts> chunks;  ///< null throughout a chunk that no memory is left for
+  std::vector<DeviceParts> chunks;  ///< all null for a chunk without memory
   std::vector<PartPlace> parts;
-  // Of whoever writes:
-  bool writing = false;                           ///< from before the first byte on
-  std::vector<std::shared_ptr<const void>> held;  ///< what it writes through, until that is over
+  // For the writer:
+  bool writing = false;                           ///< set before the first byte is written
+  std::vector<std::shared_ptr<const void>> held;  ///< objects needed for writing, until it is done
 };
 
-/// Any thread may use it. Its parts keep it alive.
+/// Thread-safe. Its parts keep it alive.
 class MeshStore {
  public:
   virtual ~MeshStore() = default;
   virtual const DeviceId& device() const = 0;
-  /// Whether the device that draws is lost: nothing is placed any more.
+  /// Whether the drawing device is lost: then nothing is placed any more.
   virtual bool lost() const = 0;
   /// Throws std::bad_alloc.
   virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
-  /// Once all content has been written, and the writing been waited for: lets the device that draws read it. Parts of a
-  /// placement that could not be published are on no device. Errors: out_of_memory, device_lost.
+  /// Call after all content was written, and the writing was waited for: makes it readable for the drawing device. If
+  /// it fails, the parts of the placement are on no device. Errors: out_of_memory, device_lost.
   virtual Result<void> publish(Placement& placement) noexcept = 0;
-  /// As Backend::upload(): by the device that draws, whose loss is none of the other's (unsupported).
+  /// As Backend::upload(), by the drawing device; its loss is not the other device's, and reported as unsupported.
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;
-  /// Of parts that have not ended.
+  /// Bytes of living parts.
   virtual uint64_t bytes() = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A chunk's mesh out of what a device has left of it in the host's reach. The same for every kind of device.
+// Assembles a chunk's mesh from a device's results in host memory. For all kinds of devices.
 
 #include <bit>
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace sgm {
 
-/// A body or a seam as a device leaves it; no vertices: there is none.
+/// A body or a seam as a device leaves it; without vertices it does not exist.
 struct MadePart {
   const Vertex* vertices = nullptr;
   const uint32_t* indices = nullptr;
   uint32_t vertex_count = 0, index_count = 0;
   ContentHash hash;
-  PartSums sums = {};  ///< of ChunkJob::sums_only, in place of the rest
+  PartSums sums = {};  ///< for ChunkJob::sums_only, instead of the rest
 };
 
-/// signsOfRow(y + 33 z): the signs of 33 samples, x from bit 0 on; only asked where a body is wanted. partOf(p): by
-/// number in DeviceParts. Throws std::bad_alloc.
+/// signsOfRow(y + 33 z): the signs of 33 samples, x from bit 0 on; called only if a body is wanted. partOf(p): by index
+/// in DeviceParts. Throws std::bad_alloc.
 template <class SignsOfRow, class PartOf>
 void readChunk(const ChunkJob& job, const SignsOfRow& signsOfRow, const PartOf& partOf, ChunkMesh& mesh) {
   constexpr uint32_t kRows = uint32_t{kChunkSamples} * kChunkSamples;

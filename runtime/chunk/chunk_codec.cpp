@@ -11,7 +11,7 @@
 namespace sgm {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers have the byte order of memory");
 
 struct RecordHeader {
   uint32_t version = kChunkCodecVersion;
@@ -24,7 +24,7 @@ static_assert(sizeof(RecordHeader) == (6 + 7 * 6) * sizeof(uint32_t) && std::is_
 constexpr int kMostPosition = kChunkCells * kSubcell;
 constexpr uint32_t kMostSolid = kChunkCells * kChunkCells * kChunkCells;
 
-/// Writes the records' words by column; where the next ones go.
+/// Writes the records' words by column. Returns the end of the output.
 template <class Word, size_t kWords>
 std::byte* splitColumns(const void* records, size_t count, std::byte* to) {
   const auto* from = static_cast<const std::byte*>(records);
@@ -43,7 +43,7 @@ std::byte* splitColumns(const void* records, size_t count, std::byte* to) {
   return to + count * sizeof words;
 }
 
-/// The reverse; where the next columns begin. Some records at a time, so that steps are made of bytes in vectors.
+/// The reverse of splitColumns. Returns the end of the input. Works in blocks, so that the compiler can vectorise.
 template <class Word, size_t kWords>
 const std::byte* joinColumns(const std::byte* from, size_t count, void* records) {
   constexpr size_t kBlock = 64;
@@ -72,7 +72,7 @@ const std::byte* joinColumns(const std::byte* from, size_t count, void* records)
 
 Error badRecord(const char* what) { return {Code::bad_input, std::string("an encoded chunk is damaged: ") + what}; }
 
-/// Whether the ranges divide both arrays in order, and each uses its own vertices only.
+/// Whether the ranges divide both arrays in order, and each range uses only its own vertices.
 bool rangesFit(const PackedMesh& mesh) {
   size_t vertices = 0, indices = 0;
   for (const PackedRange& range : mesh.ranges) {
@@ -119,11 +119,12 @@ Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memo
   RecordHeader header;
   if (bytes.size() < sizeof header) return badRecord("it is too short");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version != kChunkCodecVersion) return badRecord("it is of another version");
+  if (header.version != kChunkCodecVersion) return badRecord("it has another version");
   const uint64_t expected = sizeof header + uint64_t{header.vertices} * sizeof(Vertex) +
                             uint64_t{header.indices} * sizeof(uint32_t) + header.extra;
   if (bytes.size() != expected || header.indices % 3 != 0) return badRecord("its sizes contradict each other");
-  if (header.seams >= 1u << 6 || header.solid_samples > kMostSolid) return badRecord("it has no such chunk's numbers");
+  if (header.seams >= 1u << 6 || header.solid_samples > kMostSolid)
+    return badRecord("its seams or its solid samples are out of range");
 
   ChunkRecord record(memory);
   record.seams = static_cast<uint8_t>(header.seams);
@@ -141,7 +142,7 @@ Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memo
     return std::max({v.x, v.y, v.z}) > kMostPosition + beyond || std::min({v.x, v.y, v.z}) < -beyond;
   };
   if (std::any_of(record.mesh.vertices.begin(), record.mesh.vertices.end(), outside)) {
-    return badRecord("a vertex lies outside of it");
+    return badRecord("a vertex lies outside the chunk");
   }
   if (!rangesFit(record.mesh)) return badRecord("its ranges do not fit its vertices and indices");
   return record;

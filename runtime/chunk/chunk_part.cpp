@@ -43,7 +43,7 @@ bool isKindOf(int part, bool sharp, uint16_t kind) {
   return kind <= (part == 0 ? kOwnEdge : kLateralEdge);
 }
 
-/// What follows the mesh of a body.
+/// Decodes the anchors and voids that follow the mesh of a body.
 bool getExtra(std::span<const std::byte> bytes, const ChunkPartInputs& inputs, ChunkPart& part) {
   ByteReader in(bytes);
   const auto anchors = in.get<uint32_t>();
@@ -112,7 +112,7 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   out.put(request_.key.level);
   for (int axis = 0; axis < 3; ++axis) out.put(request_.key.at[axis]);
   out.put(part);
-  // Not which blocks around are coarser: that decides the keys of vertices, which are not kept.
+  // Without `coarser`: it decides only the keys of vertices, which are not stored.
   for (const bool asked :
        {body && request_.signs, body && request_.anchors, !body && request_.outermost, request_.sharp}) {
     out.put(static_cast<uint8_t>(asked));

@@ -1,6 +1,6 @@
 #pragma once
-// A finished chunk: what is drawn of it, and what an engine asks of it. Immutable, shared between the world, its frames
-// and the engine.
+// A finished chunk: its meshes, and the other content that an engine requests. Immutable, shared between the world, its
+// frames and the engine.
 
 #include <array>
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace sgm {
 
-/// Anchors of one kind and name, behind each other: what an engine draws as copies of one thing.
+/// A run of anchors with the same kind and name: an engine draws them as instances of one object.
 struct InstanceBatch {
   uint16_t kind = 0, name = 0;
   uint32_t first = 0, count = 0;
@@ -29,23 +29,23 @@ struct ChunkSurface {
   ChunkKey key;
   ChunkGrid grid;
   PackedMesh mesh;
-  uint8_t seams = 0;                          ///< those that were made, with or without triangles, bit (1 << Face)
-  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< of every vertex, units; all 0 where there is none
-  std::pmr::vector<uint16_t> tags;            ///< that vertices carry, rising, 0 left out
-  std::vector<Anchor> anchors;                ///< where asked for; by kind, name and key
+  uint8_t seams = 0;                          ///< made seams, with or without triangles, bit (1 << Face)
+  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< of all vertices, units; all 0 if there are none
+  std::pmr::vector<uint16_t> tags;            ///< the tags of vertices, ascending, without 0
+  std::vector<Anchor> anchors;                ///< if requested; by kind, name and key
   std::vector<InstanceTransform> transforms;  ///< of the anchors
-  std::vector<InstanceBatch> batches;         ///< likewise
-  std::pmr::vector<MorphOffset> morphs;       ///< one a vertex, where asked for; else none
-  Unwrapped texture;                          ///< of the whole mesh, where asked for; else empty
-  DeviceParts on_device;                      ///< where asked for: parts with triangles that the device has, too
-  ContentHash hash;                           ///< of body and seams, and where they lie
-  /// Of body and seams, where asked for.
+  std::vector<InstanceBatch> batches;         ///< of the anchors
+  std::pmr::vector<MorphOffset> morphs;       ///< one for each vertex, if requested; else empty
+  Unwrapped texture;                          ///< of the whole mesh, if requested; else empty
+  DeviceParts on_device;                      ///< if requested: non-empty parts that are also on the device
+  ContentHash hash;                           ///< of body and seams, and their placement
+  /// Of body and seams, if requested.
   std::optional<measure::ChunkMeasures> measures;
 
   explicit ChunkSurface(std::pmr::memory_resource* memory)
       : mesh(memory), tags(memory), morphs(memory), texture(memory) {}
 
-  /// Nothing to draw, and nothing to place.
+  /// Whether there is nothing to draw and nothing to place.
   bool empty() const { return mesh.indices.empty() && anchors.empty(); }
   size_t bytes() const {
     return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor) +
@@ -54,16 +54,16 @@ struct ChunkSurface {
   }
 };
 
-/// Whether an engine that has one of them has all of the other: seams aside, which come on top.
+/// Whether both have the same meshes, anchors, offsets and texture. `seams` may differ: a made seam can be empty.
 inline bool sameContent(const ChunkSurface& a, const ChunkSurface& b) {
   return a.hash == b.hash && a.anchors == b.anchors && a.morphs == b.morphs && a.texture == b.texture;
 }
 
-/// The body, and the seams that there are.
+/// The body and the existing seams.
 MeshParts partsOf(const ChunkMesh& mesh);
 
-/// What came of a request. Parts that it did not ask for are those of `before`, an earlier surface of the same chunk
-/// (or null). Throws std::bad_alloc.
+/// The surface for a request. Parts that were not requested are taken from `before`, an earlier surface of the same
+/// chunk (or null). Throws std::bad_alloc.
 ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const ChunkSurface* before,
                        std::pmr::memory_resource* memory);
 

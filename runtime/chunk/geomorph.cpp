@@ -12,7 +12,7 @@ namespace sgm {
 
 namespace {
 
-/// Towards the zero of a field with this value and gradient (by the unit), in 1/256 of a cell.
+/// A step towards the zero of a field with this value and gradient (per unit), in 1/256 of a cell.
 MorphOffset newtonStep(double value, const std::array<double, 3>& gradient, int32_t cell) {
   const double square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
   MorphOffset offset{};

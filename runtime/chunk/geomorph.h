@@ -1,5 +1,5 @@
 #pragma once
-// Where the vertices of a chunk would lie on the next coarser level's surface, for engines that blend levels.
+// Offsets from a chunk's vertices to the next coarser level's surface, for engines that blend levels.
 
 #include <array>
 #include <memory_resource>
@@ -11,17 +11,17 @@
 
 namespace sgm {
 
-/// From a vertex towards the coarser level's surface, in 1/256 of the chunk's cell edge.
+/// Leads from a vertex towards the coarser level's surface, in 1/256 of the chunk's cell edge.
 using MorphOffset = std::array<int16_t, 3>;
 
 /// The longest offset on an axis: two cells of the coarser level.
 inline constexpr int kMostMorph = 4 * kSubcell;
 
-/// One for each vertex: a Newton step on the field of the next coarser level, which is a pure function of where the
-/// vertex lies and of its chunk's level. So chunks of a level that share a vertex give it one offset. 0 for the
-/// vertices of a seam that are the coarser level's or join the two: these do not move, so a coarse chunk must not be
-/// blended where it meets a finer one. 0 too where the coarser level has no surface within kMostMorph. On the highest
-/// level all are 0. Errors: those of WorldField::compile. Throws std::bad_alloc.
+/// Returns one offset for each vertex: a Newton step on the field of the next coarser level. It is a pure function of
+/// the vertex's position and the chunk's level, so chunks of one level agree on shared vertices. The offset is 0 on the
+/// highest level; where the coarser level has no surface within kMostMorph; and for a seam's vertices that belong to
+/// the coarser level or join the two. These vertices do not move, so a coarse chunk must not be blended where it meets
+/// a finer one. Errors: those of WorldField::compile. Throws std::bad_alloc.
 Result<std::pmr::vector<MorphOffset>> morphOffsets(const WorldField& world, const PackedMesh& mesh,
                                                    const ChunkGrid& grid, const EditSnapshot* edits,
                                                    std::pmr::memory_resource* memory);

@@ -11,15 +11,15 @@ namespace sgm {
 
 namespace {
 
-// Threads wait for each other at a batch's end, and chunks differ: enough that this matters little, few enough that the
-// programs of a batch take little memory. A device may want more.
+// Threads wait for each other at the end of a batch, and chunks take different times. Large enough that this matters
+// little, small enough that the programs of a batch take little memory. A device may want more.
 constexpr size_t kBatchChunks = 256;
-// What one thread prepares in a row at most: requests behind each other mostly ask for the same cells.
+// The most chunks that one thread prepares in a row: successive requests mostly use the same cells.
 constexpr size_t kPreparedTogether = 16;
-// Cells that one thread holds beyond the chunk that asked for them, whatever the cache lets go of.
+// The most cells that one thread holds between chunks, beside the cache.
 constexpr size_t kMostAtHand = 1024;
 
-/// Whether the cells are more than one thread may hold between chunks: their number, and its share of the cache's
+/// Whether one thread holds too many cells between chunks: more than kMostAtHand, or than its share of the cache's
 /// bytes.
 bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
   if (cells.size() > kMostAtHand) return true;
@@ -28,7 +28,7 @@ bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
   return bytes > byte_limit;
 }
 
-/// What the backend needs to mesh a chunk, and what is known of it without meshing.
+/// Prepares the backend's job for a chunk, and the chunk's content that needs no meshing.
 Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
                      CellsAtHand& at_hand, ChunkJob& job, PlacedChunk& chunk) {
   const Result<ChunkGrid> grid = chunkGrid(world, request.key);
@@ -62,7 +62,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   return {};
 }
 
-/// What sharp chunks are sampled with after the backend has had their jobs; of others nothing.
+/// The programs for sampling sharp chunks after the backend has taken their jobs; empty for other chunks.
 struct SampledPrograms {
   std::shared_ptr<const FieldProgram> field, coarse;
 };
@@ -76,7 +76,7 @@ Programs programsOf(std::span<const ChunkRequest> requests, std::span<const Chun
   return programs;
 }
 
-/// Counts chunks over all batches, and asks after each whether to go on.
+/// Counts chunks over all batches, and asks after each whether to continue.
 class Counter {
  public:
   Counter(const Progress& progress, uint64_t total) : progress_(progress), total_(total) {}
@@ -107,7 +107,7 @@ class Counter {
 
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
   if (key.level < 0 || key.level > kMaxLevel) {
-    return Error{Code::invalid_argument, "a chunk's level lies between 0 and " + std::to_string(kMaxLevel)};
+    return Error{Code::invalid_argument, "a chunk's level must lie between 0 and " + std::to_string(kMaxLevel)};
   }
   const int64_t cell = int64_t{world.settings().finest_cell} << key.level;
   const int64_t edge = kChunkCells * cell;
@@ -157,7 +157,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
         if (tooMany(at_hand, at_hand_limit)) at_hand.clear();
         const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
-        // Of several the first request's error, whichever thread was faster.
+        // Of several errors report the first request's, whichever thread was faster.
         std::lock_guard lock(mutex);
         if (error && error_at <= i) continue;
         error = prepared.error();
@@ -166,7 +166,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     });
     if (error) return *error;
     const Programs programs = programsOf(batch, chunk_jobs);
-    // A chunk counts when all is done to it.
+    // A sharp batch counts its chunks only after sharpening.
     const bool sharp =
         std::any_of(batch.begin(), batch.end(), [](const ChunkRequest& request) { return request.sharp; });
 
@@ -215,7 +215,7 @@ Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const
                  "the region has " + std::to_string(count) + " chunks, more than " + std::to_string(most) +
                      "; make the cells larger" + fittingCellText({&region, 1}, level, world.cellAt(0), most) +
                      " or the region smaller" +
-                     (max_chunks < kMostRegionChunks ? ", or raise the limit" : ": no limit can be higher")};
+                     (max_chunks < kMostRegionChunks ? ", or raise the limit" : ": the limit cannot be raised")};
   }
   std::pmr::vector<ChunkKey> keys(world.memory());
   keys.reserve(static_cast<size_t>(count));

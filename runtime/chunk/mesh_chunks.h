@@ -16,30 +16,30 @@ namespace sgm {
 struct ChunkRequest {
   ChunkKey key;
   uint8_t seams = 0;          ///< bit (1 << Face)
-  Neighbourhood coarser = 0;  ///< of the blocks around; decides the fans in seam keys (mesh/fans.h)
+  Neighbourhood coarser = 0;  ///< of the surrounding blocks; decides the fans in seam keys (mesh/fans.h)
   bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
-  bool keys = true;           ///< false: parts may be without their keys, which welding and checks ask for
+  bool keys = true;           ///< false: parts may lack the keys that welding and checks need
   bool anchors = false;       ///< also give the anchors in the chunk
-  bool body = true;           ///< false: seams alone, of a chunk whose body is there already
+  bool body = true;           ///< false: only the seams, of a chunk whose body exists already
   bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)
   bool prompt = false;        ///< do not wait for a device to be ready (ChunkJob::prompt)
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
   bool sharp = false;         ///< with sharp features (sharpen_chunk.h)
-  bool sums_only = false;     ///< in place of the mesh the sums over it (ChunkJob::sums_only); not of sharp chunks
+  bool sums_only = false;     ///< compute the sums over the mesh instead of the mesh (ChunkJob::sums_only); not for
+                              ///< sharp chunks
 
   friend bool operator==(const ChunkRequest&, const ChunkRequest&) = default;
 };
 
-/// A finished chunk and where it lies.
+/// A finished chunk and its grid.
 struct PlacedChunk {
   ChunkKey key;
   ChunkGrid grid;
   ChunkMesh mesh;
-  std::vector<Anchor> anchors;  ///< where asked for; the chunk's low faces belong to it, its high ones do not
+  std::vector<Anchor> anchors;  ///< if requested; the chunk includes its low faces, but not its high ones
 };
 
-/// Appends the body and the seams that have triangles, as parts for welding, checking and hashing, to a vector of
-/// PlacedPart.
+/// Appends the body and the seams that have triangles to a vector of PlacedPart, for welding, checking and hashing.
 template <class Parts>
 void appendParts(const PlacedChunk& chunk, Parts& parts) {
   if (!chunk.mesh.body.indices.empty()) parts.push_back({&chunk.mesh.body, chunk.grid, 0});
@@ -50,30 +50,31 @@ void appendParts(const PlacedChunk& chunk, Parts& parts) {
   }
 }
 
-/// Says how far the work is, after every chunk; false stops it, but after the last one, when nothing is left to stop.
-/// One call at a time, with `done` rising by one, from any thread.
+/// Called after every chunk; returning false cancels the work, except after the last chunk. Calls come from any thread,
+/// but not concurrently, and `done` rises by one each time.
 using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 
-/// The grid of a chunk. Errors: invalid_argument (no such level), range (it does not lie wholly inside the world).
+/// The grid of a chunk. Errors: invalid_argument (no such level), range (not wholly inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
-/// The chunk with its borders: lo <= p <= hi. Precondition: chunkGrid gave the grid.
+/// The closed box of the chunk, lo <= p <= hi. Precondition: chunkGrid gave the grid.
 IntBox chunkBox(const ChunkGrid& grid);
 
-/// Where the field of a level decides what becomes of a chunk: its own, or the one above, which its seams read.
+/// The region in which the field of a level affects the chunk. level: the chunk's own, or the next, which seams read.
 IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
 
-/// One mesh a request, in order, in the world's memory. edits: laid on the world, or null. Errors: those of chunkGrid,
-/// derivation and compilation, out_of_memory, cancelled.
+/// Returns one chunk for each request, in order, in the world's memory. edits: laid on the world, or null. Errors:
+/// those of chunkGrid, derivation and compilation, out_of_memory, cancelled.
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
                                                  std::span<const ChunkRequest> requests, const Progress& progress = {},
                                                  const EditSnapshot* edits = nullptr);
 
-/// The voids of a meshed chunk. Precondition: its signs were asked for.
+/// The voids of a meshed chunk. Precondition: its signs were requested.
 VoidComponents voidsOf(const ChunkMesh& mesh);
 
 /// All chunks of a level that meet the box lo <= p < hi, in order z, y, x, in the world's memory.
-/// invalid_argument: no such level, an empty box. range: they leave the world. limit: more than max_chunks, or 2^24.
+/// invalid_argument: no such level, or an empty box. range: a chunk leaves the world. limit: more than max_chunks, or
+/// 2^24.
 Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
                                                   uint64_t max_chunks);
 

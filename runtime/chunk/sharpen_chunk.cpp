@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBrickCells = 8;
 
-/// Samples a program around a chunk, brick by brick, each by what of the program matters there.
+/// Samples a program around a chunk, brick by brick, each with the program pruned to it.
 class BrickSampler {
  public:
   BrickSampler(const FieldProgram& program, const Int3& origin, int32_t cell, std::pmr::memory_resource* memory)
@@ -54,7 +54,7 @@ class BrickSampler {
   }
 
  private:
-  /// On an axis: those of a chunk, and one beyond on each side.
+  /// Bricks on an axis: those of a chunk, and one more on each side.
   static constexpr int32_t kBricks = kChunkCells / kBrickCells + 2;
   static constexpr uint32_t kElsewhere = kBricks * kBricks * kBricks;
 
@@ -131,7 +131,7 @@ class BrickSampler {
   std::pmr::vector<std::optional<PrunedProgram>> bricks_;  ///< by number; empty until one is asked for
   std::pmr::vector<uint32_t> brick_of_;                    ///< by point
   std::pmr::vector<uint32_t> order_;                       ///< of the points, by brick
-  std::pmr::vector<int32_t> x_, y_, z_;                    ///< of the points of one brick, as what follows
+  std::pmr::vector<int32_t> x_, y_, z_;                    ///< of the points of one brick, as input of the kernels
   std::pmr::vector<float> value_, gradient_;
   std::pmr::vector<int16_t> normal_;
 };

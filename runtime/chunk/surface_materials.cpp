@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// Places around a point, the point first.
+/// The point and the places around it, in this order.
 std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const TexturePoint& normal, double radius) {
   constexpr double kDiagonal = 0.70710678118654752;
   constexpr std::array<std::array<double, 2>, kMaterialSamples - 1> kRing{{{1, 0},
@@ -20,7 +20,7 @@ std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const Texture
                                                                            {-kDiagonal, -kDiagonal},
                                                                            {0, -1},
                                                                            {kDiagonal, -kDiagonal}}};
-  // The axis that the normal leans on least is far from it, so that its shadow on the plane is long.
+  // The axis with the smallest share of the normal is nearly perpendicular to it, so its projection is long.
   size_t least = 0;
   for (size_t axis = 1; axis < 3; ++axis) {
     if (std::fabs(normal[axis]) < std::fabs(normal[least])) least = axis;
@@ -46,7 +46,7 @@ std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const Texture
   return places;
 }
 
-/// Points by axis, to be evaluated together.
+/// Points by axis, for evaluation together.
 class PointList {
  public:
   explicit PointList(std::pmr::memory_resource* memory) : x_(memory), y_(memory), z_(memory) {}
@@ -63,7 +63,7 @@ class PointList {
   std::pmr::vector<int32_t> x_, y_, z_;
 };
 
-/// What a field has at points.
+/// The field's attributes at points.
 struct Made {
   std::pmr::vector<uint32_t> labels;
   std::pmr::vector<float> values;  ///< units, below 0 in the solid
@@ -79,8 +79,8 @@ struct Made {
   uint16_t material(size_t i) const { return static_cast<uint16_t>(labels[i] & 0xFFFFu); }
 };
 
-/// Where the solid behind a place in the air is looked for, in this order: half a cell and a whole one against the
-/// vertex's normal, then the corners of the vertex's cell, of which one at least is solid.
+/// Where to look for the solid behind a place in the air, in this order: half a cell and a whole one against the
+/// vertex's normal, then the corners of the vertex's cell, at least one of which is solid.
 constexpr size_t kStepsBehind = 2, kPlacesBehind = kStepsBehind + 8;
 
 std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
@@ -103,7 +103,7 @@ std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vert
   return places;
 }
 
-/// The material of the first that is solid behind a place, or else of the deepest corner.
+/// The material of the first solid place behind, or else of the deepest corner.
 uint16_t materialBehind(const Made& made, size_t first) {
   for (size_t i = first; i < first + kStepsBehind; ++i) {
     if (made.isSolid(i)) return made.material(i);
@@ -132,7 +132,7 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   EvalScratch scratch(field.memory());
   const Made around((*program)->view(), places, scratch, field.memory());
 
-  // Air out of the reach of every shape has no material, and shapes thinner than a cell end before the surface does.
+  // Air beyond the reach of every shape has no material, and shapes thinner than a cell may end before the surface.
   const bool named = field.settings().program->materials.size() > 1;
   PointList behind(field.memory());
   std::pmr::vector<size_t> in_air(field.memory());

@@ -1,5 +1,5 @@
 #pragma once
-// What a world's surface is made of around its vertices.
+// The materials of a world's surface around its vertices.
 
 #include <span>
 
@@ -9,9 +9,9 @@
 
 namespace sgm {
 
-/// The materials at each point and at eight places around it, a cell of the level away on the plane that the normal
-/// (any length but 0) stands on: pure, so that chunks that meet agree on their border. Points far from each other are
-/// better asked about apart: all that lies between is compiled. Places in the air without a material take
+/// Finds the materials at each point and at eight places around it, one cell of the level away in the plane
+/// perpendicular to the normal (any length but 0). A pure function, so adjacent chunks agree on their border. Use
+/// separate calls for distant points: everything between them is compiled. Places in the air without a material take
 /// that of the solid behind them. Errors: those of WorldField::compile.
 Result<void> materialsAround(const WorldField& field, int level, const EditSnapshot* edits,
                              std::span<const Int3> points, std::span<const TexturePoint> normals,

@@ -1,5 +1,5 @@
 #pragma once
-// Which shapes of a world make its surface, and their texture coordinates.
+// Finds the shapes that make a world's surface, and computes texture coordinates with them.
 
 #include <map>
 #include <memory_resource>
@@ -12,19 +12,19 @@
 
 namespace sgm {
 
-/// Edges of tiles that texture coordinates count, units.
+/// The tile edge that texture coordinates count in, units.
 inline constexpr int32_t kTile = kUnitsPerMetre, kLargestTile = 1 << 20;
 
-/// Shapes, numbered as they are met. Borrows the field and the edits. Not thread-safe.
+/// Numbers shapes in the order of their discovery. Borrows the field and the edits. Not thread-safe.
 class SurfaceShapes {
  public:
-  /// base: where the world's own axes count from, units.
+  /// base: the origin of texture coordinates along the world's axes, units.
   SurfaceShapes(const WorldField& field, const EditSnapshot* edits, Int3 base, int32_t tile);
 
-  /// A label for each point: of the shape that makes the surface of the level there. Points far from each other are
-  /// better asked about apart: all that lies between is compiled. Errors: those of WorldField::compileShapes.
+  /// Labels each point with the shape that makes the level's surface there. Use separate calls for distant points:
+  /// everything between them is compiled. Errors: those of WorldField::compileShapes.
   Result<void> label(int level, std::span<const Int3> points, std::span<uint32_t> labels);
-  /// Of a label that label() gave; 0 stands for what is of no shape.
+  /// The space of a label from label(); 0 is the world's own space, where no shape decides.
   const TextureSpace& space(uint32_t label) const { return spaces_[label]; }
 
  private:
@@ -43,11 +43,11 @@ class SurfaceShapes {
   std::pmr::map<ShapeKey, uint32_t> known_;
 };
 
-/// A chunk's mesh with texture coordinates and blends of materials, a pure function of the field, the edits and the
-/// mesh: the same bytes on every machine. Chunks of a level that meet agree on their border: on coordinates up to whole
-/// tiles, on what two materials share to the bit. A seam's vertices on edges of the coarser level are asked about at
-/// that level, as its chunks do; where the two levels have other shapes, or other charts, they differ. tile: 1 to
-/// kLargestTile. Errors: those of WorldField::compileShapes and compile. Throws std::bad_alloc.
+/// Computes a mesh with texture coordinates and blended materials, a pure function of the field, the edits and the
+/// mesh: the same bytes on every machine. Chunks of a level agree on their common border: on coordinates up to whole
+/// tiles, on blends bit by bit. A seam's vertices on edges of the coarser level use that level's shapes, as its chunks
+/// do; where the two levels have other shapes or charts, they differ. tile: 1 to kLargestTile. Errors: those of
+/// WorldField::compileShapes and compile. Throws std::bad_alloc.
 Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, const ChunkGrid& grid,
                               const EditSnapshot* edits, int32_t tile, std::pmr::memory_resource* memory);
 

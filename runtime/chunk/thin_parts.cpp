@@ -15,13 +15,13 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMostLooks = 32;   ///< at parts of one statement; others of it are taken to be as these are
-constexpr size_t kTracedCells = 8;  ///< of a layer; later ones are traced if they have thin shapes that are new
+constexpr size_t kMostLooks = 32;   ///< examined parts of one statement; its other parts are assumed to be alike
+constexpr size_t kTracedCells = 8;  ///< of a layer; later cells are traced if they have thin shapes of a new kind
 
-/// A box about a shape, in which it is as thick as along its shortest axis.
+/// A box around a shape: the shape is as thick as the box's shortest axis.
 struct Slab {
   Int3 origin;       ///< of the frame
-  Vector3 middle{};  ///< from there, in world axes
+  Vector3 middle{};  ///< relative to the origin, in world axes
   std::array<Vector3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Vector3 half{};
 
@@ -39,7 +39,7 @@ Int3 placeOf(const Slab& slab, const Vector3& offset) {
   return p;
 }
 
-/// Two axes across one, as good as any others.
+/// Two arbitrary axes perpendicular to the given one.
 void axesAlong(Slab& slab, Vector3 along, double length) {
   const size_t least = static_cast<size_t>(
       std::min_element(along.begin(), along.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
@@ -58,7 +58,7 @@ void axesAlong(Slab& slab, Vector3 along, double length) {
   slab.axes[2] = cross(slab.axes[0], slab.axes[1]);
 }
 
-/// Of a shape that stands for itself; nothing of half-spaces, voxels and combiners.
+/// The slab of a single shape; nullopt for half-spaces, voxels and combiners.
 std::optional<Slab> slabOf(const GrammarChunk& chunk, const Shape& s) {
   Slab slab;
   slab.origin = s.frame.origin;
@@ -91,7 +91,7 @@ std::optional<Slab> slabOf(const GrammarChunk& chunk, const Shape& s) {
       return slab;
     }
     case ShapeKind::torus:
-      // Its ring goes round: along it, it is long.
+      // A ring is long along its tube.
       slab.middle = times(slab.axes[0], size(0));
       slab.half = {size(1), size(1), std::max(size(0), size(1))};
       return slab;
@@ -117,14 +117,14 @@ std::optional<Slab> slabOf(const GrammarChunk& chunk, const Shape& s) {
   }
 }
 
-/// One shape that is thin, of a cell.
+/// A thin shape of a cell.
 struct Candidate {
   uint32_t shape = 0;
   Slab slab;
   bool cut = false;
 };
 
-/// Goes through the shapes of a cell as a level shows them.
+/// Searches the shapes of a cell that are visible at a level.
 class ThinShapes {
  public:
   ThinShapes(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), cell_edge_(cell_edge) {}
@@ -160,7 +160,7 @@ class ThinShapes {
     return slab;
   }
 
-  /// The thickest shape in a node: 0 where it shows nothing.
+  /// The thickness of the thickest shape in a node: 0 if the node is invisible.
   double thickness(uint32_t index, uint32_t* thickest = nullptr) const {
     const Shape& s = chunk_.shapes[index];
     if (!shows(s)) return 0;
@@ -196,7 +196,7 @@ class ThinShapes {
         return;
       case ShapeKind::meet:
       case ShapeKind::meet_smooth: {
-        // What two shapes have in common is no thicker than either.
+        // An intersection is no thicker than either operand.
         double least = 1e30;
         uint32_t thinnest = index;
         for (uint32_t i = 0; i < s.child_count; ++i) {
@@ -223,14 +223,14 @@ class ThinShapes {
   std::vector<Candidate> found_;
 };
 
-/// What stands where in the world, near one part.
+/// Samples the world near a part.
 class Surroundings {
  public:
   Surroundings(const WorldField& world, int level) : world_(world), level_(level), cell_(world.cellAt(level)) {}
 
-  /// Whether the part is there by itself: along more than half of it nothing thicker is beside it.
+  /// Whether the part stands free: along more than half of it, nothing thicker lies beside it.
   Result<bool> standsAlone(const Slab& slab, bool cut) {
-    // Along the axes that are not thin, places from end to end.
+    // Sample places from end to end along the axes that are not thin.
     std::vector<Vector3> places{{}};
     std::vector<size_t> thin;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -251,7 +251,7 @@ class Surroundings {
     const Result<std::shared_ptr<const FieldProgram>> program =
         world_.compile(IntBox{middle, middle}.grown(reach), level_);
     if (!program) return program.error();
-    // At each place, and beside it along each thin axis on both sides, close and farther away.
+    // Sample each place, and two distances beside it along each thin axis on both sides.
     std::vector<Int3> points;
     for (const Vector3& place : places) {
       points.push_back(placeOf(slab, place));
@@ -274,7 +274,7 @@ class Surroundings {
         all_both = all_both && beside(k, 0) && beside(k, 1);
         any = any || beside(k, 0) || beside(k, 1);
       }
-      if (cut && all_both) continue;  // outside of what it is taken from
+      if (cut && all_both) continue;  // outside of the solid that it is cut from
       ++present;
       carried += any;
     }
@@ -308,19 +308,20 @@ std::string ruleOf(const std::string& path) {
   return last.substr(0, last.find('['));
 }
 
-/// What says which statement a thin shape is of, without deriving its cell anew.
+/// Recognises the statement of a thin shape, without deriving its cell anew.
 using ThinKind = std::tuple<ShapeKind, double, bool, uint16_t, uint16_t, int32_t, int32_t>;
 ThinKind lookOf(const GrammarChunk& chunk, const Candidate& thin) {
   const Shape& s = chunk.shapes[thin.shape];
   return {s.kind, thin.slab.thickness(), thin.cut, s.material, s.tag, s.detail, s.coarsest};
 }
 
-/// Counts the thin parts of a world, statement by statement, so that a slab on the ground hides no pole beside it.
+/// Counts the thin parts of a world separately for each statement, so that a slab on the ground hides no pole beside
+/// it.
 class PartCounter {
  public:
   PartCounter(const WorldField& world, const IntBox& box, int level)
       : world_(world), box_(box), cell_edge_(world.cellAt(level)), surroundings_(world, level) {
-    // Of the walls of a treemap the command warns by themselves, whatever is derived.
+    // The command warns of treemap walls itself, whatever is derived.
     for (const StmtNode& s : world.settings().program->ast.stmts)
       if (s.kind == StmtKind::treemap) walls_.emplace(s.span.file, s.span.begin);
   }
@@ -357,8 +358,8 @@ class PartCounter {
   using Use = std::tuple<uint32_t, Int3, uint32_t>;                 ///< layer, cell, use
   struct Found {
     int32_t thickness = INT32_MAX;
-    std::set<Use> uses;   ///< of the rule, in cells that were traced
-    size_t untraced = 0;  ///< in others
+    std::set<Use> uses;   ///< of the rule, in traced cells
+    size_t untraced = 0;  ///< in other cells
     size_t looked = 0, alone = 0;
     std::set<Use> seen;          ///< uses with a thin shape of this statement
     bool one_shape_each = true;  ///< as far as seen
@@ -413,7 +414,7 @@ class PartCounter {
     return {};
   }
 
-  /// Whether a part counts: it stands alone, or is taken to, as others of its statement do.
+  /// Whether a part counts: it stands free, or is assumed to, as other parts of its statement do.
   Result<bool> countsAs(Found& found, const Candidate& thin) {
     if (found.looked < kMostLooks) {
       const Result<bool> alone = surroundings_.standsAlone(thin.slab, thin.cut);
@@ -435,8 +436,8 @@ class PartCounter {
   std::set<std::pair<uint32_t, uint32_t>> walls_;
   std::map<Place, Found> found_;
   std::map<ThinKind, std::optional<Place>> known_;  ///< of the layer's traced cells; nullopt for walls
-  std::set<ThinKind> several_;                      ///< that shapes of several statements have
-  size_t traced_ = 0;                               ///< cells of the layer
+  std::set<ThinKind> several_;                      ///< shared by shapes of several statements
+  size_t traced_ = 0;                               ///< traced cells of the layer
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// What is measured of the chunks of a streamed world, each in the job that has meshed it or read it from the disk.
+// Measures of a streamed world's chunks, each taken in the job that has meshed the chunk or read it from the disk.
 
 #include <memory>
 #include <mutex>
@@ -14,11 +14,11 @@ namespace measure {
 struct MeasureScratch;
 }
 
-/// Of what jobs have made.
+/// The measures of the jobs' results.
 struct MadeMeasures {
-  measure::SurfaceSums sums;  ///< of every part once each time that it was made
-  double measuring = 0;       ///< seconds on the wall that it took, added up over jobs
-  double meshing = 0;         ///< likewise, to mesh, read and pack the chunks
+  measure::SurfaceSums sums;  ///< of every part, each time that it was made
+  double measuring = 0;       ///< wall-clock seconds spent on measuring, summed over jobs
+  double meshing = 0;         ///< the same for meshing, reading and packing the chunks
 
   void add(const MadeMeasures& other) {
     sums.add(other.sums);
@@ -28,11 +28,11 @@ struct MadeMeasures {
 };
 
 struct WorldMeasures {
-  measure::SurfaceSums drawn;  ///< of the frame that is drawn: bodies, and the seams that are drawn with them
+  measure::SurfaceSums drawn;  ///< of the current frame: bodies, and the seams drawn with them
   MadeMeasures made;
 };
 
-/// Scratch memory for as many threads as measure at one time. Thread-safe.
+/// Scratch memory, one for each measuring thread. Thread-safe.
 class MeasuringPool {
  public:
   explicit MeasuringPool(std::pmr::memory_resource* memory);
@@ -46,8 +46,8 @@ class MeasuringPool {
   std::vector<std::unique_ptr<measure::MeasureScratch>> free_;
 };
 
-/// Measures the parts that the request asks for, and adds them to `made`. Those of other parts are `before`'s, an
-/// earlier surface of the chunk that was measured, or null. Throws std::bad_alloc.
+/// Measures the requested parts and adds them to `made`. Measures of other parts come from `before`, an earlier,
+/// measured surface of the chunk, or null. Throws std::bad_alloc.
 measure::ChunkMeasures measureParts(const ChunkRequest& request, const PlacedChunk& chunk, const ChunkSurface* before,
                                     MeasuringPool& pool, MadeMeasures& made);
 

@@ -28,10 +28,10 @@ struct WideBox {
 
 double wide(float v) { return static_cast<double>(v); }
 
-/// Room for the field's float arithmetic over lengths of this size.
+/// A margin for the field's float arithmetic on lengths of this size.
 double slack(double size) { return 1.0 + 1e-6 * std::fabs(size); }
 
-/// The world box of a local box about `centre` (local) in the frame.
+/// The world box of a local box around `centre` (local) in the frame.
 WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half) {
   WideBox box;
   double reach = 0;
@@ -55,7 +55,7 @@ WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<doub
 
 WideBox placed(const Frame& frame, double x, double y, double z) { return placed(frame, {0, 0, 0}, {x, y, z}); }
 
-/// A level of a distance lies within the shape's own box grown by that much, however the shape is turned. A negative
+/// A level of a distance lies within the shape's own box grown by that much, for any rotation of the shape. A negative
 /// level lies in the smaller shape.
 WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half, double a) {
   if (a <= 0) return placed(frame, centre, {half[0] + a, half[1] + a, half[2] + a});
@@ -68,12 +68,12 @@ WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<do
 /// Half extents of (norm(q / r) - 1) * min(r) <= a, for radii up to `most` of which the smallest is at least `least`.
 WideBox scaledRadii(const Frame& frame, std::array<double, 3> most, double least, double a) {
   if (!(least > 0)) return WideBox::everything();
-  // Negative levels lie inside the zero set, whatever the radii are.
+  // Negative levels lie inside the zero set, for any radii.
   const double factor = 1.0 + std::max(a, 0.0) / least;
   return placed(frame, most[0] * factor, most[1] * factor, most[2] * factor);
 }
 
-/// The same for an ellipsoid, which leaves the corners of its box empty.
+/// The same for an ellipsoid, which does not reach the corners of its box.
 WideBox ellipsoid(const Frame& frame, std::array<double, 3> radii, double a) {
   const double least = *std::min_element(radii.begin(), radii.end());
   if (!(least > 0)) return WideBox::everything();
@@ -107,13 +107,13 @@ WideBox halfspace(const Frame& frame, double a) {
   return box;
 }
 
-/// Where one of n leaves of a sum must reach for the sum to be <= a: 1 + d / r at most this; negative where none can.
+/// How far one of n leaves of a sum must reach for the sum to be <= a: 1 + d / r is at most this; negative if none can.
 double kernelReach(double inner_radius_max, size_t n, double a) {
   const double inverse = 1.0 / (wide(kSumSupport) * wide(kSumSupport));
   const double base = 1.0 - inverse;
   const double threshold = base * base * base;
   const double slope = 6.0 * base * base * inverse / inner_radius_max;
-  // Room for the float sum of n kernels.
+  // A margin for the float sum of n kernels.
   const double needed = (threshold - a * slope) - 1e-6 * static_cast<double>(n + 1);
   if (needed <= 0) return kInfinity;
   const double share = needed / static_cast<double>(n);
@@ -161,7 +161,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
   const auto size = [&](size_t i) { return wide(s.size[i]); };
   switch (s.kind) {
     case ShapeKind::sphere: {
-      // A sphere does not turn: its box is exact in any frame.
+      // A sphere is invariant under rotation: its box is exact in any frame.
       Frame upright;
       upright.origin = s.frame.origin;
       return placed(upright, size(0) + a, size(0) + a, size(0) + a);
@@ -197,7 +197,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
     case ShapeKind::prism:
       return prism(s, a);
     case ShapeKind::voxels: {
-      // Upright: an axis without an end does not widen the others.
+      // Axis-aligned: an unbounded axis does not widen the others.
       WideBox box;
       for (size_t j = 0; j < 3; ++j) {
         const double half = size(j) + a + slack(size(j)) + slack(a), at = s.frame.origin[static_cast<int>(j)];
@@ -207,7 +207,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return box;
     }
     case ShapeKind::morph_power: {
-      // The radii at the ends of what the exponent goes through: the six given may lie far outside.
+      // The radii at the ends of the exponent's range: the six given ones may lie far outside.
       const Range along = range(s.expr);
       std::array<double, 3> most{};
       double least = kInfinity;
@@ -242,7 +242,7 @@ WideBox Walker::sum(const Shape& s, double a) const {
   return box;
 }
 
-/// At levels that leave one of them out, there is no intersection at all: each narrows it.
+/// At levels that leave out an operand, the intersection is left out, too: so each operand narrows it.
 WideBox Walker::allChildren(const Shape& s, double a) const {
   if (s.child_count == 0) return {};
   WideBox box = WideBox::everything();
@@ -263,7 +263,7 @@ WideBox Walker::level(uint32_t index, double a) const {
       return s.child_count == 0 ? WideBox{} : level(child(s, 0), a);
     case ShapeKind::unite_smooth: {
       const double k = wide(s.amount);
-      // The sum of n squares reaches (k - a)^2 only if one of them reaches a share of 1 / n.
+      // The sum of n squares reaches (k - a)^2 only if one of them reaches at least 1 / n of it.
       return anyChild(s, a < k ? k - (k - a) / std::sqrt(static_cast<double>(std::max(1u, s.child_count))) : a);
     }
     case ShapeKind::sum:

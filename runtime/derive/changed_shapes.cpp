@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-/// A shape's content without the places of its parts in memory, and the levels that show it.
+/// A shape's content, independent of the memory positions of its parts, and the levels that show it.
 struct Signature {
   uint64_t hash = 0;
   int32_t finest_cell = 0, coarsest_cell = std::numeric_limits<int32_t>::max();
@@ -30,7 +30,7 @@ struct Entry {
 class Signer {
  public:
   explicit Signer(const CellContent& cell) : program_(cell.program), chunk_(*cell.chunk), exprs_(chunk_.exprs.size()) {
-    // Operands come before who uses them.
+    // Operands precede the expressions that use them.
     for (size_t i = 0; i < exprs_.size(); ++i) exprs_[i] = hashOf(chunk_.exprs[i]);
   }
 

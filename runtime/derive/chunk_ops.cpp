@@ -36,11 +36,11 @@ void addExpr(Hasher& h, const Expr& e) {
 void translate(GrammarChunk& chunk, Int3 offset) {
   const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
   for (Shape& s : chunk.shapes) {
-    // Combiners have no place of their own.
+    // Combiners have no position of their own.
     if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power || s.kind == ShapeKind::voxels) {
       move(s.frame.origin);
     }
-    // A prism's points are local; a sweep's are in the world, here and in expressions.
+    // A prism's points are local; a sweep's are in the world, both here and in expressions.
     for (uint32_t i = 0; s.kind != ShapeKind::prism && i < s.point_count; ++i) move(chunk.points[s.first_point + i]);
   }
   for (VoxelBlock& b : chunk.blocks) move(b.anchor);

@@ -1,5 +1,5 @@
 #pragma once
-// What coarse levels have of a chunk, for caches: most shapes of a city are windows that no far level shows.
+// Reduces a chunk for the caches of coarse levels: most shapes of a city are windows that no far level shows.
 
 #include <vector>
 
@@ -7,20 +7,20 @@
 
 namespace sgm {
 
-/// The chunk without what no level shows whose cells have this edge (units) or a larger one, and without anchors and
-/// notes. At these levels it compiles to the same program as the whole chunk: what field/compile.cpp leaves out with a
-/// shape is left out with it here.
+/// The chunk without shapes that are invisible at all levels with this cell edge (units) or a larger one, and without
+/// anchors and notes. At these levels it compiles to the same program as the whole chunk: everything that
+/// field/compile.cpp leaves out with a shape is also left out here.
 GrammarChunk coarseChunk(const GrammarChunk& chunk, int32_t cell_edge,
                          std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Which shapes of the chunk show at levels whose cells have this edge (units), and takes the others out of those that
-/// do. left_out: a flag for each shape, also for those that are to go at every level.
+/// Determines which shapes of the chunk show at levels with this cell edge (units), and removes the others from them.
+/// left_out: a flag for each shape, set for those to remove at every level, too.
 std::vector<bool> hideShapes(GrammarChunk& chunk, int32_t cell_edge, const std::vector<bool>& left_out);
 
-/// The largest cells at which a shape may show by itself; the largest number where it shows at every level.
+/// The largest cell edge at which a shape may show by itself; the largest number if it shows at every level.
 int32_t coarsestOf(const GrammarChunk& chunk, const Shape& s);
 
-/// Whether a shape that levels may leave out of this one leaves the rest of it as it is: the operand with that index.
+/// True if a shape stays unchanged when levels leave out the operand with that index.
 bool isFreePart(ShapeKind of, uint32_t operand);
 
 }  // namespace sgm

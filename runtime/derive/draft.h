@@ -1,5 +1,5 @@
 #pragma once
-// A grammar chunk in the making: appends shapes and expressions, folds constants, and at the end keeps what is used.
+// A grammar chunk under construction: appends shapes and expressions, folds constants, and finally keeps the used ones.
 
 #include <array>
 #include <compare>
@@ -13,29 +13,29 @@
 
 namespace sgm {
 
-/// A number that is known while deriving, or else an expression of the field (`node`, into GrammarChunk::exprs).
+/// A number known during derivation, or else an expression of the field (`node`, into GrammarChunk::exprs).
 struct Num {
   double value = 0;
   uint32_t node = kNone;
   bool constant() const { return node == kNone; }
 };
 
-/// Where a shape came from.
+/// The origin of a shape.
 struct Origin {
   PathKey key;
   uint32_t activation = 0;  ///< of a rule, in the interpreter's list
   Span span;
 };
 
-/// Copies groups out of a draft with all that they reach, order kept. Made once for many copies: each takes time for
-/// what it copies alone. The chunk must outlive it and stay as it is.
+/// Copies groups out of a draft with everything that they refer to, in the same order. One copier serves many copies:
+/// each takes time only for its own content. The chunk must outlive it unchanged.
 class DraftCopier {
  public:
   explicit DraftCopier(const GrammarChunk& from);
 
-  /// Appends to `out`, which was empty; layer, cell, anchors and notes are the caller's.
+  /// Appends to `out`, which must be empty; the caller sets layer, cell, anchors and notes.
   void copy(std::span<const Group> groups, GrammarChunk& out);
-  /// Of each shape of the last copy, in its order: its number in the chunk that it is of.
+  /// For each shape of the last copy, in its order: its index in the original chunk.
   std::span<const uint32_t> copied() const { return shapes_; }
 
  private:
@@ -47,8 +47,8 @@ class DraftCopier {
   uint32_t copyBlock(uint32_t block, GrammarChunk& out) const;
 
   const GrammarChunk& from_;
-  std::vector<uint32_t> shape_at_, expr_at_, noise_at_;  ///< place in the copy; kNone: not in it
-  std::vector<uint32_t> shapes_, exprs_, noises_;        ///< what is in the copy, ascending
+  std::vector<uint32_t> shape_at_, expr_at_, noise_at_;  ///< index in the copy; kNone: not in it
+  std::vector<uint32_t> shapes_, exprs_, noises_;        ///< the contents of the copy, ascending
   std::vector<uint32_t> open_;
 };
 
@@ -67,33 +67,33 @@ class Draft {
   Num noise(const NoiseSpec& spec);
   Num sweep(uint32_t polyline);
 
-  /// The expression of a number, made where it is a constant.
+  /// The expression of a number; a constant gets a new one.
   uint32_t expression(Num n);
-  /// Three expressions one after another, as `warp` reads them; gives the first.
+  /// Places three expressions one after another, as `warp` reads them; returns the first.
   uint32_t triple(const std::array<Num, 3>& n);
 
   uint32_t addPolyline(std::vector<Int3> points);
-  /// Has the shape know the line that it follows (Shape::first_point).
+  /// Links the shape to the line that it follows (Shape::first_point).
   void setLine(uint32_t shape, uint32_t polyline);
-  /// Corners in any order: they go round counter-clockwise seen from +y, as ProgramBuilder::prism takes them.
+  /// Corners in any order; they are stored counter-clockwise seen from +y, as ProgramBuilder::prism requires.
   uint32_t addPrismPoints(std::span<const Int3> points);
-  /// solid: block.size() of them, x fastest. block.first_word is set.
+  /// solid: block.size() values, x fastest. Sets block.first_word.
   uint32_t addVoxels(VoxelBlock block, std::span<const uint8_t> solid);
 
-  /// Children are appended here; s.first_child and s.child_count are set.
+  /// Appends the children and sets s.first_child and s.child_count.
   uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});
-  /// No more children than it has, and in their order.
+  /// Replaces the children by a subset of them, in the same order.
   void keepChildren(uint32_t shape, std::span<const uint32_t> children);
 
   Shape& shape(uint32_t i) { return chunk_.shapes[i]; }
   const Shape& shape(uint32_t i) const { return chunk_.shapes[i]; }
   const Origin& origin(uint32_t shape) const { return origins_[shape]; }
-  /// The first polyline along which the shape or one of its parts is swept, or kNone.
+  /// The first polyline along which the shape or one of its parts is swept; kNone if there is none.
   uint32_t sweepOf(uint32_t shape) const { return sweeps_[shape]; }
   void setSweep(uint32_t shape, uint32_t polyline) { sweeps_[shape] = polyline; }
   const GrammarChunk& chunk() const { return chunk_; }
 
-  /// Bytes that the draft takes, roughly.
+  /// The approximate memory of the draft in bytes.
   size_t bytes() const;
 
  private:

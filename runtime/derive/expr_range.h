@@ -1,5 +1,5 @@
 #pragma once
-// Interval bounds of sample-time expressions.
+// Interval bounds of expressions that are evaluated per sample.
 
 #include <span>
 #include <vector>
@@ -13,11 +13,11 @@ struct Range {
   double lo = 0, hi = 0;
 };
 
-/// The range of every expression of the chunk over `box` (coordinates are unbounded where box is nullptr), widened for
-/// the float arithmetic of the field. Noise is taken as -1..1, a sweep as 0..1.
+/// The range of every expression of the chunk over `box` (coordinates are unbounded if box is nullptr), widened for the
+/// float arithmetic of the field. The ranges of noise and sweep are -1..1 and 0..1.
 std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box = nullptr);
 
-/// Holds every place that a warp by the three expressions from `offset` on, metres, leads to from the box. Saturates.
+/// Contains the image of the box under a warp by the three expressions from `offset` on, in metres. Saturates.
 IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box);
 
 }  // namespace sgm

@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-/// Sines and cosines of quarter turns are off by the rounding of pi; axes must stay axes.
+/// Sines and cosines of quarter turns are inexact because pi is rounded; axes must stay axes.
 double cleaned(double v) { return std::fabs(v) < 1e-15 ? 0.0 : v; }
 
 }  // namespace

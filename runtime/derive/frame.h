@@ -1,6 +1,6 @@
 #pragma once
-// Placement of a scope while deriving: double precision in metres from an integer base, so that a cell 2,000 km out
-// computes the same numbers as one at the origin.
+// Placement of a scope during derivation: double precision in metres from an integer base, so that a cell 2,000 km from
+// the origin computes the same numbers as one at the origin.
 
 #include <array>
 
@@ -23,16 +23,16 @@ double dot(Vec3 a, Vec3 b);
 Vec3 cross(Vec3 a, Vec3 b);
 double length(Vec3 a);
 Vec3 normalised(Vec3 a);  ///< zero stays zero
-/// A unit vector across `tangent` (of length 1), as near to `wanted` as it gets.
+/// A unit vector perpendicular to `tangent` (of length 1), as close to `wanted` as possible.
 Vec3 across(Vec3 tangent, Vec3 wanted);
 
-/// Metres to units, to nearest, saturating at the ends of the world. Not a number gives 0.
+/// Converts metres to units, rounded to nearest, saturating at the ends of the world. NaN gives 0.
 int32_t toUnits(double metres);
 
 /// World to local and back: world = base + offset + scale * (axes * local). The axes are orthonormal columns; a mirror
-/// makes their determinant -1. Scale is uniform and positive: any other would shear what is rotated inside it.
+/// makes their determinant -1. Scale is uniform and positive: any other would shear rotated contents.
 struct Placement {
-  Int3 base;                                              ///< units; low corner of the cell that derives
+  Int3 base;                                              ///< units; low corner of the deriving cell
   Vec3 offset;                                            ///< metres from base
   std::array<double, 9> axes{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major matrix whose columns are the local axes
   double scale = 1;
@@ -43,13 +43,13 @@ struct Placement {
   Int3 snap(Vec3 local) const;       ///< world units, to nearest
 
   Placement moved(Vec3 local) const;
-  /// Turned right-handed by `angle` radians (at most 1e6) about `axis`, which need not have length 1. Quarter turns are
-  /// exact. A zero axis leaves the placement as it is.
+  /// Rotated right-handed by `angle` radians (at most 1e6) about `axis`, which need not have length 1. Quarter turns
+  /// are exact. A zero axis leaves the placement unchanged.
   Placement turned(Vec3 axis, double angle) const;
   Placement scaled(double factor) const;
   Placement mirrored(int axis) const;
 
-  /// The frame of a shape whose centre is at `local`: centre snapped to units, rows rounded once to float.
+  /// The frame of a shape centred at `local`: the centre is snapped to units, and the rows are rounded once to float.
   Frame frame(Vec3 local = {}) const;
 };
 

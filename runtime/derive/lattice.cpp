@@ -24,7 +24,7 @@ int32_t jittered(int32_t size, double jitter, double unit) {
 
 int32_t shifted(int32_t v, int levels) { return v >> levels; }
 
-/// Whether the edge (axis, corner) of the cube of children is in the node's spanning tree: Kruskal over hashed weights.
+/// True if the edge (axis, corner) of the cube of children is in the node's spanning tree: Kruskal over hashed weights.
 /// Corner bits are the child's x, y, z; the bit of `axis` is 0.
 bool inSpanningTree(const Lattice& lattice, PathKey node, int axis, int corner) {
   struct Edge {
@@ -56,7 +56,7 @@ bool inSpanningTree(const Lattice& lattice, PathKey node, int axis, int corner) 
   return false;
 }
 
-/// Whether the face is the one that `key` chooses among the 2^levels by 2^levels (or 2^levels) faces of its plane.
+/// True if `key` chooses the face among the 2^levels by 2^levels (or 2^levels) faces of its plane.
 bool isChosen(const Lattice& lattice, PathKey key, uint64_t draw, FaceId face, int levels) {
   const uint64_t bits = hashCombine(key.value, draw);
   const uint64_t mask = (uint64_t{1} << levels) - 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Values of a program's parameters, as a host sets them.
+// The values of a program's parameters, as set by a host.
 
 #include <string_view>
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace sgm {
 
-/// One number for each of Program::params, in its order; metres, radians and plain ratios.
+/// One number per Program::params, in its order; metres, radians and plain ratios.
 struct ParameterValues {
   std::vector<double> values;
 
   static ParameterValues defaults(const Program& program);
 
-  /// Refuses an unknown name, a number outside of the declared range, or a fraction for a whole parameter, and leaves
-  /// the values as they are.
+  /// Rejects an unknown name, a number outside the declared range, or a fraction for an integer parameter, and then
+  /// leaves the values unchanged.
   Result<void> set(const Program& program, std::string_view name, double value);
 };
 
-/// Stands for a parameter in a set of them, by its index; a few may share one bit.
+/// Represents a parameter in a set of parameters, by its index; several may share one bit.
 inline uint64_t parameterBit(uint32_t index) { return uint64_t{1} << (index % 64); }
 
-/// The parameters whose values differ. Precondition: both are one program's.
+/// The parameters whose values differ. Precondition: both belong to the same program.
 uint64_t changedParameters(const ParameterValues& a, const ParameterValues& b);
 
 }  // namespace sgm

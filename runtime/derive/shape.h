@@ -1,8 +1,8 @@
 #pragma once
-// What a cell of the grammar derives into: implicit nodes with bounds, tags and anchors, never triangles.
+// The result of deriving a cell: implicit nodes with bounds, tags and anchors, never triangles.
 //
 // Everything here is plain data in world units (1/1024 m), so that a grammar chunk can be hashed, cached, moved by an
-// integer offset and compiled into a field program (field/compile.h) without looking at the grammar again.
+// integer offset and compiled to a field program (field/compile.h) without the grammar.
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,8 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// Leaves give a distance in units, negative inside; `size` holds what each line says, in units unless noted.
-/// Combiners act on children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
+/// Leaves give a distance in units, negative inside; each line describes its `size`, in units unless noted. Combiners
+/// act on children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
 enum class ShapeKind : uint8_t {
   sphere,           ///< size: r
   box,              ///< size: half extents x y z
@@ -41,14 +41,14 @@ enum class ShapeKind : uint8_t {
   prism,            ///< polygon in local xz, counter-clockwise seen from +y, extruded along y; size: half height
   unite,            ///< hard union of the children
   meet,             ///< hard intersection
-  subtract,         ///< the first child without all the others
+  subtract,         ///< the first child minus all others
   unite_smooth,     ///< round union, radius `amount` units: max(k, min d) - sqrt(sum max(k - d, 0)^2)
   meet_smooth,      ///< the same by negation
-  subtract_smooth,  ///< the first child without the others, rounded by `amount`
+  subtract_smooth,  ///< the first child minus the others, rounded by `amount`
   sum,              ///< compact-kernel sum over leaves d with inner radius r (Shape::inner_radius):
         ///< (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L, T = the kernel at d = 0, so that a lone leaf keeps
         ///< its surface; L = the largest inner radius / the kernel's slope there. Zero set grows at most to the support
-  morph,        ///< two children: (1 - t) A + t B; t = `expr`, or `amount` where expr is kNone, clamped to 0..1
+  morph,        ///< two children: (1 - t) A + t B; t = `expr`, or `amount` if expr is kNone, clamped to 0..1
   morph_power,  ///< no child; superquadric of radii size[0..2] at t = 0 to size[3..5] at t = 1, its exponent
                 ///< 2 / (1 - t + t/kMaxPower*2): from ellipsoid to box by the exponent
   displace,     ///< one child, plus 1024 * expr (expr in metres)
@@ -61,12 +61,12 @@ inline constexpr float kMaxPower = 20.0f;   ///< exponent of the squarest superq
 
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  uint16_t material = 0;  ///< index into the grammar's materials; 0: inherit what is there (a cut) or the default
+  uint16_t material = 0;  ///< index into the grammar's materials; 0: inherit the existing one (a cut) or the default
   uint16_t tag = 0;       ///< index into the grammar's tags; 0: none
   uint32_t first_child = 0, child_count = 0;  ///< range in GrammarChunk::children
   uint32_t expr = kNone;                      ///< root in GrammarChunk::exprs
-  /// Range in GrammarChunk::points: a prism's corners; of a sweep, a shape of its own or the union of its pieces, the
-  /// line that it follows, for texture coordinates alone.
+  /// Range in GrammarChunk::points: a prism's corners; for a sweep, which is a shape or the union of its pieces, the
+  /// line that it follows, used only for texture coordinates.
   uint32_t first_point = 0, point_count = 0;
   uint32_t block = kNone;       ///< in GrammarChunk::blocks (voxels)
   int32_t detail = 0;           ///< drop the shape at levels whose cell edge is larger, in units; 0: never
@@ -77,7 +77,7 @@ struct Shape {
   Frame frame;
 };
 
-/// Sample-time expressions (`field ...`), as a directed acyclic graph in child-before-parent order.
+/// Expressions that are evaluated per sample (`field ...`), as a directed acyclic graph in child-before-parent order.
 /// Lengths are metres here; a comparison yields 0 or 1.
 enum class ExprOp : uint8_t {
   constant,    ///< value
@@ -110,17 +110,17 @@ struct Expr {
 };
 
 struct NoiseSpec {
-  Int3 origin;                      ///< the lattice has a corner here
+  Int3 origin;                      ///< a corner of the lattice
   int32_t period = kUnitsPerMetre;  ///< of the first octave, in units, at least 1; each next octave halves it
   uint32_t octaves = 1;             ///< 1..12; the field drops those with a period under two cells
   uint32_t seed = 0;
 };
 
-/// Part of a world of voxels, solid or not. That with index i on an axis lies around anchor + i * edge. Bit i of
-/// GrammarChunk::voxels from first_word * 64 on says whether a voxel is solid, x fastest. Along an axis with a count of
-/// 0 all voxels are alike.
+/// Part of a world of voxels, solid or not. Voxel i along an axis is the interval around anchor + i * edge. Bit i of
+/// GrammarChunk::voxels from first_word * 64 on is set if voxel i is solid, x fastest. Along an axis with a count of 0
+/// all voxels are equal.
 struct VoxelBlock {
-  Int3 anchor;       ///< units; of the whole world's voxels, so that the blocks of neighbours share their places
+  Int3 anchor;       ///< units; common to all voxels of the world, so that neighbouring blocks share positions
   int32_t edge = 0;  ///< units
   Int3 first;        ///< index of the lowest voxel
   Int3 count;
@@ -134,19 +134,19 @@ struct VoxelBlock {
   size_t words() const { return (size() + 63) / 64; }
 };
 
-/// Voxels that a block holds beyond the cell of the grammar whose shape reads it, on every side: as many as decide
-/// about the field where that shape does, at every level (field/voxels.h says how they come together).
+/// The number of voxels that a block holds on every side beyond the cell of the grammar whose shape reads it: enough to
+/// determine the field wherever that shape does, at every level (see field/voxels.h).
 inline constexpr int32_t kVoxelMargin = 12;
 
 /// A top-level node. A group is atomic: it adds or cuts as a whole, by hard min and max against other groups.
 struct Group {
   uint32_t root = 0;  ///< in GrammarChunk::shapes
   bool cut = false;
-  IntBox bounds;  ///< holds every point where the root's field is <= 0, at every level
+  IntBox bounds;  ///< contains every point where the root's field is <= 0, at every level
   PathKey key;    ///< canonical order of groups within a layer
 };
 
-/// An oriented gameplay point, emitted only by the cell that holds it.
+/// An oriented gameplay point, emitted only by the cell that contains it.
 struct Anchor {
   Frame frame;
   uint16_t kind = 0, name = 0;  ///< indices into the grammar's names
@@ -156,19 +156,19 @@ struct Anchor {
   friend bool operator==(const Anchor&, const Anchor&) = default;
 };
 
-/// A shape that was left out, and why; the rest of the cell is whole.
+/// A shape that was left out, and the reason; the rest of the cell is complete.
 struct DeriveNote {
   std::string message;
-  std::string path;  ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as overrides name it
+  std::string path;  ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as in overrides
   int line = 0, column = 0;
 };
 
-/// Everything one cell of one layer derives to.
+/// Everything derived from one cell of one layer.
 struct GrammarChunk {
   uint32_t layer = 0;
   Int3 cell;  ///< cell coordinates, in cells
-  /// Whose values were read (parameterBit): with other values of the others alone all of it is the same. What layers
-  /// below have read counts as read here.
+  /// The parameters that were read (parameterBit): changing only the others does not change the result. Includes the
+  /// parameters read by the layers below.
   uint64_t parameters = 0;
   std::pmr::vector<Shape> shapes;
   std::pmr::vector<uint32_t> children;

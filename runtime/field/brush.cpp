@@ -13,13 +13,14 @@ namespace {
 
 Error badSize(const char* what, int64_t size, int32_t least) {
   return {Code::invalid_argument, "a brush's " + std::string(what) + " is " + std::to_string(size) +
-                                      " units; it lies between " + std::to_string(least) + " and " +
+                                      " units; it must be between " + std::to_string(least) + " and " +
                                       std::to_string(kMaxBrushSize) + " (1,024 m)"};
 }
 
 bool inside(int64_t size, int32_t least) { return size >= least && size <= kMaxBrushSize; }
 
-// World to local, from a quaternion of any length: its products over its square, which no root can round.
+// World to local, from a quaternion of any length: its products divided by its squared length, so that no root is
+// rounded.
 Frame frameOf(const Brush& brush) {
   const double x = double{brush.turn[0]}, y = double{brush.turn[1]}, z = double{brush.turn[2]},
                w = double{brush.turn[3]};
@@ -40,7 +41,7 @@ struct Box64 {
   std::array<int64_t, 3> lo{}, hi{};
 };
 
-// Of the shape and its blend; one unit more for what floats round.
+// The bounds of the shape and its blend, plus one unit for the rounding of floats.
 Box64 bounds64(const Brush& brush) {
   std::array<int64_t, 3> reach{};
   reach.fill(brush.radius);
@@ -71,7 +72,8 @@ Result<void> checkBox(const Brush& brush) {
   double square = 0;
   for (float q : brush.turn) square += double{q} * double{q};
   if (!(square >= 1e-12 && square <= 1e12)) {
-    return Error{Code::invalid_argument, "a brush's turn is no rotation: its quaternion's length is 0 or not a number"};
+    return Error{Code::invalid_argument,
+                 "a brush's turn is not a rotation: its quaternion's length is 0 or not a number"};
   }
   return {};
 }

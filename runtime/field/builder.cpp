@@ -330,7 +330,7 @@ Result<void> ProgramBuilder::group(Value root, const IntBox& influence, uint32_t
     Instr in{s.op, 0, of(s.a), 0, of(s.c), s.place, 0, s.params};
     if (begins) settle(s.b);
     in.b = of(s.b);
-    // Operands that end here give their register up first, so that the result may take it over in place.
+    // Operands that end here release their register first, so that the result can reuse it in place.
     release(s.a, i);
     if (!begins) release(s.b, i);
     release(s.c, i);

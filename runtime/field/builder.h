@@ -1,6 +1,5 @@
 #pragma once
-// Builds field programs, group by group. The one place that knows each op's parameter words and that hands out
-// registers.
+// Builds field programs, group by group. The only place that defines each op's parameter words and allocates registers.
 
 #include <span>
 
@@ -16,11 +15,11 @@ struct Value {
   uint32_t id = kNone;
 };
 
-/// Not thread-safe. Sizes are in units unless noted; they must be finite and positive where a size is meant.
-/// Primitives and coordinates read the current place: the sample's position, or the innermost warp's.
+/// Not thread-safe. Lengths are in units unless noted; all numbers must be finite, and sizes positive. Primitives and
+/// coordinates read the current place: the sample's position, or that of the innermost warp.
 class ProgramBuilder {
  public:
-  /// finest_cell in units, at least 1, sets the scale of Q; `solid` and label are the domain's.
+  /// finest_cell in units, at least 1, sets the scale of Q; `solid` and `label` are those of the domain.
   ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
@@ -38,7 +37,7 @@ class ProgramBuilder {
   /// Corners in local xz (x and z of each point, in units), counter-clockwise seen from +y, at least three.
   Value prism(const Frame& frame, float half_height, std::span<const Int3> corners, uint32_t label);
 
-  /// One sample for each point, in units, whole 1024ths. limit: a value as large as it, or beyond, counts as far
+  /// One sample per point, in units, multiples of 1/1024. limit: a value of at least this magnitude counts as far
   /// (1e18).
   Value lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label);
 
@@ -46,20 +45,20 @@ class ProgramBuilder {
   Value blobWeight(Int3 centre, float radius, uint32_t label);
   Value kernelWeight(Value distance, float inner_radius);
 
-  Value constant(float value);  ///< held to +-1e18
-  /// row . (place - anchor), in metres; the row has no unit.
+  Value constant(float value);  ///< clamped to +-1e18
+  /// row . (place - anchor), in metres; the row is dimensionless.
   Value coordinate(Int3 anchor, float row_x, float row_y, float row_z);
-  /// `octaves` of spec.octaves are evaluated; the amplitude stays that of the whole sum.
+  /// Evaluates `octaves` of spec.octaves; the amplitude stays that of the whole sum.
   Value noise(const NoiseSpec& spec, uint32_t octaves);
   /// At least two points. 0 at the first, 1 at the last.
   Value sweep(std::span<const Int3> polyline);
   Value unary(Op op, Value a);                          ///< copy, negate, absolute, floor, square_root
   Value binary(Op op, Value a, Value b);                ///< add to divide, less, minimum, maximum, cut, displace
   Value ternary(Op op, Value a, Value b, Value c);      ///< mix and morph
-  Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falls where upper < lower
+  Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falling if upper < lower
 
   /// Round union and compact-kernel sum over any number of operands: begin, add each, end.
-  /// Read by what adds to it and ends it, and by nothing else.
+  /// Only the functions that add to an accumulator and end it may read it.
   struct Accumulator {
     Value nearest, sum;
     float k = 0;
@@ -73,12 +72,12 @@ class ProgramBuilder {
   /// threshold: the weight of the surface; length in units turns the dimensionless difference into a distance.
   Value endSum(const Accumulator& acc, float threshold, float length);
 
-  /// Reads what follows at p + round(1024 (x, y, z)), metres, until popWarp().
+  /// Evaluates the following values at p + round(1024 (x, y, z)), metres, until popWarp().
   void pushWarp(Value x, Value y, Value z);
   void popWarp();
 
-  /// Ends the group. Groups must come in order of layer, adds before cuts; one that is smooth (a width in units, at
-  /// most 2^20) must be the only one of its layer. limit: more registers or places than there are.
+  /// Ends the group. Groups must be in order of layer, adds before cuts; a smooth one (a width in units, at most 2^20)
+  /// must be the only one of its layer. Error: limit if it needs more registers or places than exist.
   Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth = 0);
 
   FieldProgram finish() { return std::move(program_); }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMaxShapeDepth = 256;
 
-// The field's slope against the compact kernel at the surface of a lone ball of radius 1 (shape.h, `sum`).
+// The field's slope compared with the compact kernel's at the surface of a lone ball of radius 1 (shape.h, `sum`).
 double kernelSlope() {
   const double x = 1.0 / (double{kSumSupport} * double{kSumSupport});
   return 3 * (1 - x) * (1 - x) * 2 * x;
@@ -30,8 +30,8 @@ float kernelThreshold() {
 // Emits one grammar chunk's shapes.
 class ShapeCompiler {
  public:
-  /// box: holds every place that is read; cell_number: as ShapeLabels::Source has it; shapes: null, or to name shapes
-  /// by.
+  /// box: contains every position that is read; cell_number: as in ShapeLabels::Source; shapes: null, or receives the
+  /// shapes that labels name.
   ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
                 ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk),
@@ -42,7 +42,7 @@ class ShapeCompiler {
         builder_(builder),
         known_(chunk.exprs.size(), memory) {}
 
-  /// Nothing where the level drops the whole shape.
+  /// nullopt if the level drops the whole shape.
   Result<std::optional<Value>> root(uint32_t shape) {
     epoch_ = ++epochs_;
     return emit(shape, 0);
@@ -56,7 +56,7 @@ class ShapeCompiler {
     return (s.detail != 0 && cell_ > s.detail) || (s.coarsest != 0 && cell_ < s.coarsest);
   }
 
-  /// Material and tag, or the shape's own number; pieces of one sweep have the number of the whole.
+  /// Material and tag, or the number of the shape; pieces of one sweep have the number of the whole.
   uint32_t labelOf(uint32_t index) {
     const Shape& s = chunk_.shapes[index];
     if (shapes_ == nullptr) return makeLabel(s.material, s.tag);
@@ -67,7 +67,7 @@ class ShapeCompiler {
     return std::span(chunk_.children).subspan(s.first_child, s.child_count);
   }
 
-  // Each expression once a group and place; a shared one keeps its register.
+  // Each expression is emitted once per group and place; a shared one keeps its register.
   Value expr(uint32_t index) {
     Known& known = known_[index];
     if (known.epoch == epoch_) return known.value;
@@ -153,7 +153,7 @@ class ShapeCompiler {
       case ExprOp::mix:
         break;
     }
-    return Op::count;  // none of these takes two operands
+    return Op::count;  // all others do not take two operands
   }
 
   // Octaves with a period under two cells would only alias.
@@ -233,7 +233,8 @@ class ShapeCompiler {
 
   static Emitted some(Value v) { return std::optional<Value>(v); }
 
-  // Hard union or intersection, operand by operand. An intersection that loses an operand is lost as a whole.
+  // Hard union or intersection, operand by operand. If an operand of an intersection is dropped, so is the
+  // intersection.
   Emitted chain(const Shape& s, Op op, int depth, bool all) {
     std::optional<Value> result;
     for (uint32_t child : children(s)) {
@@ -259,8 +260,8 @@ class ShapeCompiler {
     return result;
   }
 
-  // Round union of the children; intersection and subtraction follow by negation. A meet negates all operands, a
-  // subtraction all but the first is already what it should be: -(min round of -a, b, c, ...).
+  // Round union of the children; intersection and subtraction follow by negation. A meet negates all operands. A
+  // subtraction negates only the first: -(min round of -a, b, c, ...).
   Emitted round(const Shape& s, int depth, bool negated, bool only_first) {
     std::optional<ProgramBuilder::Accumulator> acc;
     const auto list = children(s);
@@ -306,8 +307,8 @@ class ShapeCompiler {
     return some(builder_.endSum(*acc, kernelThreshold(), static_cast<float>(double{largest} / kernelSlope())));
   }
 
-  /// Whether a ball's weight is 0 at every place that is read: adding it changes no bit. Under a warp, where places lie
-  /// elsewhere, none is left out.
+  /// True if a ball's weight is 0 at every position that is read: adding it changes no bit. Under a warp, where
+  /// positions differ, none is left out.
   bool weighsNothing(const Shape& ball) const {
     if (warps_ > 0) return false;
     double squared = 0;
@@ -316,7 +317,7 @@ class ShapeCompiler {
       const double away = std::max({read_.lo[axis] - at, at - read_.hi[axis], 0.0});
       squared += away * away;
     }
-    // The rounding of its float distance is far below this.
+    // The rounding of its float distance is far below this factor.
     constexpr double kSafely = 1 + 1e-4;
     const double support = double{ball.size[0]} * double{kSumSupport} * kSafely;
     return squared > support * support;
@@ -342,7 +343,7 @@ class ShapeCompiler {
   Emitted warp(const Shape& s, int depth) {
     const Value x = expr(s.expr), y = expr(s.expr + 1), z = expr(s.expr + 2);
     builder_.pushWarp(x, y, z);
-    // What was read at the outer place must be read again inside.
+    // Values read at the outer place must be read again inside.
     const uint64_t outer = epoch_;
     const IntBox outer_read = read_;
     epoch_ = ++epochs_;
@@ -363,11 +364,11 @@ class ShapeCompiler {
 
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
-  IntBox read_;    ///< holds every place that is read
-  int warps_ = 0;  ///< around what is being emitted
+  IntBox read_;    ///< contains every position that is read
+  int warps_ = 0;  ///< number of warps around the current shape
   int32_t cell_;
   ShapeLabels* shapes_;
-  std::optional<uint32_t> sweep_;  ///< the label of what is being emitted, where that is a piece of a sweep
+  std::optional<uint32_t> sweep_;  ///< the label of the current shape if it is a piece of a sweep
   ProgramBuilder& builder_;
   std::pmr::vector<Known> known_;
   uint64_t epochs_ = 0;
@@ -375,7 +376,7 @@ class ShapeCompiler {
 };
 
 struct Gathered {
-  size_t cell;  ///< of the cells given
+  size_t cell;  ///< index in the given cells
   uint32_t group;
   uint32_t layer;
   bool cut;
@@ -387,10 +388,10 @@ struct Gathered {
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory, std::span<const HostField> hosts,
                                   std::span<const Brush> brushes) {
-  // What grows does so here: each request to `memory` counts there, where other threads count, too.
+  // Growing arrays allocate from this buffer: requests to `memory` are counted there, with contention between threads.
   std::array<std::byte, 8192> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
-  // A host's samples can be large, and what has outgrown its room in scratch stays there.
+  // A host's samples can be large, and memory that an array has outgrown is not freed in the scratch buffer.
   std::pmr::memory_resource* large = hosts.empty() ? &scratch : memory;
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(&scratch);

@@ -1,5 +1,5 @@
 #pragma once
-// Evaluators of field programs. Every one gives the same bits: the scalar one here is the measure of the others.
+// Evaluators of field programs. All produce the same bits; the scalar one here is the reference.
 
 #include <array>
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-inline constexpr size_t kEvalBlock = 256;  ///< points that pass through a program together, in cache
+inline constexpr size_t kEvalBlock = 256;  ///< points that pass through a program together, within the cache
 
-/// Scratch of one thread: reused, grows once to the largest program.
+/// Scratch memory of one thread: reused, grows to the size of the largest program.
 class EvalScratch {
  public:
   explicit EvalScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : words_(memory) {}
@@ -22,7 +22,7 @@ class EvalScratch {
     return words_.data();
   }
 
-  uint64_t operations = 0;  ///< what countingKernels() has added up, and nobody else touches
+  uint64_t operations = 0;  ///< counted by countingKernels() only
 
  private:
   std::pmr::vector<uint32_t> words_;
@@ -43,8 +43,8 @@ struct LatticeBox {
   std::array<size_t, 3> size{};
 };
 
-/// Where a box's samples go: Q of (i, j, k) to q[i + j * row + k * plane]; and of a negative one bit first_bit + i of
-/// signs[j + k * sign_plane] is set.
+/// The destination of a box's samples: Q of (i, j, k) goes to q[i + j * row + k * plane]; if it is negative, bit
+/// first_bit + i of signs[j + k * sign_plane] is set.
 struct LatticeSamples {
   int32_t* q = nullptr;
   size_t row = 0, plane = 0;
@@ -52,7 +52,7 @@ struct LatticeSamples {
   size_t sign_plane = 0, first_bit = 0;
 };
 
-/// Where attributes go, each `count` long; null where not wanted.
+/// The destination of attributes, each `count` long; null if not wanted.
 struct Attributes {
   float* value = nullptr;  ///< units
   float* gradient_x = nullptr;
@@ -63,7 +63,7 @@ struct Attributes {
   uint32_t* label = nullptr;  ///< tag << 16 | material
 };
 
-/// One instruction set's evaluator. The functions are pure but for scratch; any count of points, 0 included.
+/// The evaluator for one instruction set. The functions are pure except for scratch; any count of points, including 0.
 struct FieldKernels {
   const char* name;
   void (*samples)(const ProgramView&, const Points&, EvalScratch&, int32_t* q);
@@ -74,8 +74,8 @@ struct FieldKernels {
 /// Plain float, one point at a time.
 const FieldKernels& scalarKernels();
 
-/// As scalarKernels(), and adds to EvalScratch::operations the instructions of the program times the points: what every
-/// evaluator of this interface does, but for whole vectors at a block's end.
+/// Same as scalarKernels(), but adds to EvalScratch::operations the number of instructions times points: the work of
+/// every evaluator of this interface, except for the padding to whole vectors at a block's end.
 const FieldKernels& countingKernels();
 
 }  // namespace sgm

@@ -1,7 +1,8 @@
-// Arrays of points through the interpreter, in blocks; included where evaluate_kernel.inl would be. An includer defines
-// signMask(p, count), too: bit i is the sign of the i-th integer at p, of which it may read whole vectors.
+// Runs arrays of points through the interpreter, in blocks. This file includes evaluate_kernel.inl and replaces it. The
+// including file also defines signMask(p, count): bit i is the sign of the i-th integer at p; it may read whole
+// vectors.
 
-#ifndef SGM_ONE_BY_ONE  // as tests define it, which compare
+#ifndef SGM_ONE_BY_ONE  // defined by tests that compare with single instructions
 #define SGM_LISTS
 #include "field/operands.inl"
 #endif
@@ -45,7 +46,7 @@ inline void evaluateSamples(const ProgramView& program, const Points& points, Ev
   }
 }
 
-/// The x and y of slices of a box, as many as `padded` points hold.
+/// Loads the x and y of slices of a box, enough for `padded` points.
 inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded) {
   uint32_t *x = f.places, *y = f.places + kEvalBlock, row[kEvalBlock];
   const size_t width = box.size[0];
@@ -53,7 +54,7 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
   size_t at = 0;
   for (size_t j = 0; at + width <= padded; j = j + 1 == box.size[1] ? 0 : j + 1, at += width) {
     const auto height = static_cast<uint32_t>(box.origin.y + static_cast<int32_t>(j) * box.step);
-    if (width == kRow) {  // most boxes: of a length that the compiler knows
+    if (width == kRow) {  // the common case: a length known to the compiler
       memcpy(x + at, row, kRow * sizeof(uint32_t));
       for (size_t i = 0; i < kRow; ++i) y[at + i] = height;
     } else {
@@ -69,7 +70,7 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
 
 inline void evaluateBox(const ProgramView& program, const LatticeBox& box, EvalScratch& scratch,
                         const LatticeSamples& out) {
-  if (box.size[0] > kRow) {  // by columns that are a row wide
+  if (box.size[0] > kRow) {  // in columns of the width of a row
     LatticeBox first = box, rest = box;
     first.size[0] = kRow;
     rest.size[0] -= kRow;

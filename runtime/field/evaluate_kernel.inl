@@ -1,11 +1,11 @@
-// The interpreter, once for every instruction set and device: included into a namespace in which shaders/common/common.h,
-// kLanes, kEvalBlock and the loads and stores of Real and Int are defined. Where SGM_LISTS is defined, too, lists of
-// primitives pass through evaluate_lists.inl, which keeps in registers what goes from one to the next; elsewhere, as on a
-// GPU, whose register file holds them anyway, through one instruction after the other.
+// The interpreter for every instruction set and device. It is included into a namespace that defines
+// shaders/common/common.h, kLanes, kEvalBlock and the loads and stores of Real and Int. If SGM_LISTS is defined,
+// evaluate_lists.inl runs lists of primitives and keeps values in registers between them. Otherwise, as on a GPU, whose
+// register file holds them anyway, instructions run one by one.
 
-inline constexpr size_t kRow = 8;  ///< points of a whole row of a block along x
+inline constexpr size_t kRow = 8;  ///< points of a full row of a block along x
 
-/// The points of a block that is part of a lattice: whole rows, `rows` of them a slice, `slices` slices.
+/// The points of a block in a lattice: full rows, `rows` of them per slice, `slices` slices.
 struct BlockLattice {
   Int3 origin;
   int32_t step;
@@ -16,7 +16,7 @@ struct BlockFrame {
   uint32_t* registers;
   uint32_t* places;
   uint32_t* jacobians;
-  const BlockLattice* lattice = nullptr;  ///< null where points lie anywhere
+  const BlockLattice* lattice = nullptr;  ///< null if the points are arbitrary
 };
 
 // A register holds one plane of kEvalBlock words for its value, and four more (gradient, label) in gradient mode.
@@ -56,7 +56,7 @@ FN Real loadJacobian(const BlockFrame& f, size_t place, size_t entry, size_t i) 
   return loadReal(f.jacobians + (place * 9 + entry) * kEvalBlock + i);
 }
 
-// The gradient by the sample's own position, of something read at a warped place: the transposed Jacobian.
+// The gradient with respect to the sample's own position, for a value at a warped place: by the transposed Jacobian.
 template <bool kGradient>
 FN Dual toWorld(const BlockFrame& f, size_t place, size_t i, const Dual& d) {
   if constexpr (!kGradient) {
@@ -167,7 +167,7 @@ SGM_KERNEL void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t 
   }
 }
 
-// Folds one group into the field, or into what its layer's cuts take away (program.h).
+// Folds one group into the field, or into the union that its layer's cuts remove (program.h).
 template <bool kGradient>
 SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const bool smooth = g.smooth > 0;

@@ -2,8 +2,8 @@
 #include "field/evaluate_noise.inl"
 #endif
 
-// Lists of primitives under one combination, which most programs consist of: what goes from one to the next stays in
-// registers. The same operations in the same order as one instruction after the other, so the same bits. Included by
+// Runs lists of primitives under one combination, the bulk of most programs, and keeps values in registers from one to
+// the next. The operations and their order are those of single instructions, and so are the bits. Included by
 // evaluate_kernel.inl.
 
 template <Op kOp>
@@ -15,8 +15,8 @@ FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
   if constexpr (kOp == Op::blob) return opBlob(px, py, pz, P);
 }
 
-/// How many pairs of a primitive and what adds it to the combination of `add` stand at the beginning. Primitives after
-/// the first share its register, so that nobody reads what the earlier ones leave there.
+/// The number of leading pairs of a primitive and the instruction that adds it to the combination of `add`. Later
+/// primitives overwrite the register of the first, so that no other instruction reads the earlier results.
 SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
   size_t pairs = 0;
   for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
@@ -27,13 +27,13 @@ SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Ins
   return pairs;
 }
 
-/// The points of kTogether vectors, from i on: each addition waits for the one before it, so that vectors side by side
-/// pass through in little more time than one.
+/// The points of kTogether vectors from i on: each addition waits for the previous one, so that several vectors side by
+/// side take little more time than one.
 template <bool kGradient, Op kPrimitive, Op kAdd, size_t kTogether>
 FN void addPairsAt(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t pairs,
                    size_t i) {
   const Instr& add = instrs[1];
-  // The heaviest of a sum only gives its label.
+  // The heaviest operand of a sum only determines its label.
   constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
   Int px[kTogether], py[kTogether], pz[kTogether];
   Dual first[kTogether], second[kTogether], d[kTogether];
@@ -71,7 +71,7 @@ template <bool kGradient, Op kPrimitive, Op kAdd>
 SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
   const size_t pairs = pairsOf(instrs, kPrimitive, instrs[1]);
   size_t i = 0;
-  if constexpr (!kGradient) {  // a gradient's registers are many already
+  if constexpr (!kGradient) {  // gradients already use many registers
     constexpr size_t kTogether = 2;
     for (; i + kTogether * kLanes <= n; i += kTogether * kLanes)
       addPairsAt<kGradient, kPrimitive, kAdd, kTogether>(program, f, instrs, pairs, i);
@@ -80,7 +80,7 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
   return 2 * pairs;
 }
 
-/// Runs the list that `instrs` begin with; returns its length, 0 where it is none.
+/// Runs the list at the beginning of `instrs`; returns its length, or 0 if there is no list.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
 #ifdef SGM_ROWS
@@ -117,7 +117,7 @@ SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, c
   }
 }
 
-/// Runs and folds a group that is one primitive wherever it is asked for; false where it is another.
+/// Runs and folds a group that consists of one unguarded primitive; returns false for any other group.
 template <bool kGradient>
 SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   if (g.count != 1 || g.guarded || g.smooth > 0 || program.instrs[g.first].place != 0) return false;
@@ -139,10 +139,10 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
   }
 }
 
-/// Registers that hold a constant which nobody has written into their planes yet. Most constants are operands of
-/// arithmetic, which takes them as they are, so that they need neither be stored nor loaded.
+/// Constants in registers that are not yet written to their planes. Most constants are operands of arithmetic, which
+/// uses them directly, so that they need not be stored and loaded.
 struct HeldConstants {
-  uint32_t held = 0;  ///< a bit a register
+  uint32_t held = 0;  ///< a bit per register
   float value[kMaxRegisters] = {};
 
   SGM_KERNEL bool has(size_t r) const { return held >> r & 1; }
@@ -155,7 +155,7 @@ struct HeldConstants {
     value[r] = PF(P, 0);
   }
   SGM_KERNEL void forget(uint32_t registers) { held &= ~registers; }
-  /// Writes those that are wanted in their planes.
+  /// Writes the needed constants to their planes.
   template <bool kGradient>
   SGM_KERNEL void settle(const BlockFrame& f, uint32_t registers, size_t n) {
     const uint32_t wanted = held & registers;
@@ -181,7 +181,7 @@ SGM_KERNEL uint32_t writtenMask(const Instr& in) {
   }
 }
 
-/// Runs an operation one of whose two operands is a constant; false where it is another.
+/// Runs an operation with exactly one constant operand; returns false for any other operation.
 template <bool kGradient>
 SGM_KERNEL bool runWithConstant(const BlockFrame& f, const Instr& in, const HeldConstants& constants, size_t n) {
 #define SGM_WITH(NAME, FUNCTION)                                                                                  \
@@ -221,7 +221,7 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
       continue;
     }
     if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
-      constants.forget(1u << in.dst);  // the accumulation's own registers hold none
+      constants.forget(1u << in.dst);  // the accumulation's own registers hold no constants
       at += done;
       continue;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A bounding volume hierarchy over a grammar chunk's groups, so that a mesh chunk never scans all of a cell's shapes.
+// A bounding volume hierarchy over a grammar chunk's groups, so that a mesh chunk need not scan all shapes of a cell.
 
 #include <memory_resource>
 #include <vector>
@@ -25,7 +25,7 @@ class GroupIndex {
 
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint32_t> order_;
-  std::pmr::vector<IntBox> bounds_;  ///< of the groups, in that order
+  std::pmr::vector<IntBox> bounds_;  ///< of the groups, in the order of order_
 };
 
 }  // namespace sgm

@@ -11,10 +11,10 @@ namespace sgm {
 namespace {
 
 constexpr double kStepsAUnit = 1024;
-/// Of the samples of a box that is far from the surface, which are all alike.
+/// The spacing of samples for a box that is far from the surface; all of them are equal.
 constexpr int32_t kFarSpacing = 1 << 22;
 
-/// Whole steps: no two hosts' last bits, and no denormals between them (shaders/common/lattice.h).
+/// Whole steps, so that the last bits of hosts do not matter and there are no denormals (shaders/common/lattice.h).
 float wholeSteps(float sample) {
   const double held = std::clamp(double{sample}, -double{kLargestSample}, double{kLargestSample});
   return static_cast<float>(std::floor(held * kStepsAUnit + 0.5) / kStepsAUnit);
@@ -31,7 +31,7 @@ Error badSample(const SampleLattice& at, size_t i, const std::string& what) {
   return {Code::invalid_argument, text};
 }
 
-/// A chunk that trusts the steepness and one that samples would not fit together.
+/// Otherwise a chunk that relies on the steepness and a chunk that samples would not match.
 Result<void> checkSteepness(const HostField& field, const SampleLattice& at, std::span<const float> values) {
   const size_t row = at.count[0], layer = row * at.count[1];
   const double most = double{field.steepness} * at.spacing;
@@ -56,13 +56,14 @@ Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::s
   return field.steepness > 0 ? checkSteepness(field, at, values) : Result<void>();
 }
 
-/// Where one sample shows that all of the lattice counts as far: on which side of the surface; else 0.
+/// Returns the far value with the sign of its side if one sample proves that the whole lattice counts as far; otherwise
+/// 0.
 Result<float> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
   SampleLattice middle = lattice;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    // One of the lattice's own points: a host knows no others.
+    // A point of the lattice itself: the host may not know others.
     const int64_t cells = lattice.count[a] - 1, before = cells / 2, after = cells - before;
     middle.origin[axis] = static_cast<int32_t>(lattice.origin[axis] + before * lattice.spacing);
     middle.count[a] = 1;
@@ -71,7 +72,7 @@ Result<float> farSide(const HostField& field, const SampleLattice& lattice, doub
   }
   float sample = 0;
   if (Result<void> taken = takeSamples(field, middle, {&sample, 1}); !taken) return taken.error();
-  // What checkSteepness() lets pass, the steps that samples were rounded by, and what is lost in mixing them.
+  // The change that checkSteepness() accepts, plus the rounding of samples and of their interpolation.
   const double change = double{field.steepness} * std::sqrt(square) * (1 + 1e-5) + 1;
   if (std::abs(double{sample}) - change < limit * (1 + 1e-5)) return 0.0f;
   return sample < 0 ? -1.0f : 1.0f;
@@ -87,11 +88,11 @@ Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, cons
   const double limit = steep > 0 ? std::max(steep, double{kWidestHostBlend}) : double{kFarSample};
   const Result<float> side = steep > 0 ? farSide(field, lattice, limit) : Result<float>(0.0f);
   if (!side) return side.error();
-  // Nothing lies between samples that are alike, so that it does not matter where they stand.
+  // Between equal samples all values are equal, so that their positions do not matter.
   if (*side != 0) lattice = {{0, 0, 0}, kFarSpacing, {4, 4, 4}};
   const std::optional<size_t> points = latticePoints(lattice);
   if (!points) {
-    return Error{Code::limit, "the box takes more samples of a field of the host's than fit; ask for a smaller one"};
+    return Error{Code::limit, "the box takes more samples of a host field than fit; ask for a smaller one"};
   }
   std::pmr::vector<float> samples(*points, *side * kLargestSample, memory);
   if (*side == 0) {

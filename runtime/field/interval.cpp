@@ -12,8 +12,8 @@ namespace sgm {
 namespace {
 
 constexpr double kLimit = 1e37;
-constexpr double kHeld = 1e18;   // results of expressions end here (real.h, settleReal)
-constexpr double kTiny = 1e-30;  // and are 0 under this
+constexpr double kHeld = 1e18;   // results of expressions are clamped to this (real.h, settleReal)
+constexpr double kTiny = 1e-30;  // and are 0 below this
 
 constexpr double errorOf(Op op) {
   switch (op) {
@@ -43,8 +43,8 @@ Interval clamped(Interval a, double lo, double hi) { return {std::clamp(a.lo, lo
 
 Interval kept(Interval a) { return clamped(a, -kHeld, kHeld); }
 
-// Offsets from c along one axis, saturated as the evaluators do. That makes none of them change faster with the
-// position, so what is said below of slopes holds at any distance.
+// Offsets from c along one axis, saturated as in the evaluators. Saturation makes none of them change faster with the
+// position, so the bounds on slopes below hold at any distance.
 Interval offsets(Interval axis, double c) { return clamped({axis.lo - c, axis.hi - c}, -2147483648.0, 2147483647.0); }
 
 Interval squared(Interval a) {
@@ -52,7 +52,7 @@ Interval squared(Interval a) {
   return {a.lo <= 0 && a.hi >= 0 ? 0.0 : std::min(l, h), std::max(l, h)};
 }
 
-// (1 - t) a + t b over all t of an interval: linear in t, so its ends decide; linear in a and b likewise.
+// (1 - t) a + t b over all t of an interval: linear in t, so its ends suffice; the same for a and b.
 Interval blend(Interval a, Interval b, Interval t) {
   auto at = [&](double s) {
     const Interval p = product(a, {1 - s, 1 - s}), q = product(b, {s, s});
@@ -62,7 +62,7 @@ Interval blend(Interval a, Interval b, Interval t) {
   return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
 }
 
-// Exact zero where the kernel is certainly spent: an operand that adds exactly nothing may be dropped.
+// Exact zero if the kernel is certainly 0: an operand that adds exactly nothing may be dropped.
 Interval kernelBounds(Interval x, double error) {
   auto cube = [](double v) {
     const double k = std::max(0.0, 1 - v);
@@ -83,18 +83,18 @@ CentredBox centred(const PlaceBox& b) {
           (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
 }
 
-// Squared distance from a ball's centre to the box: its range is exact.
+// Squared distance from a ball's centre to the box; the range is exact.
 Interval distance2(const uint32_t* p, const PlaceBox& b) {
   auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
   const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
   return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
 }
 
-// No octave's slope passes 15/4 by its period: the largest that any of the twelve directions at the eight corners can
-// give (in the middle of a cell, along an axis).
+// The slope of an octave is at most 15/4 per period: the largest that any of the twelve directions at the eight corners
+// can give (in the middle of a cell, along an axis).
 constexpr double kNoiseSlope = 3.7501;
 
-// The value in the middle, and what the slope makes of the way to the corners: little in small boxes.
+// The value at the middle, plus or minus the slope times the distance to the corners: small for small boxes.
 Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   constexpr Interval all{-1, 1};
   double slope = 0, weight = realAt(p, 5) * kNoiseSlope;
@@ -104,7 +104,7 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   const std::array<Interval, 3> axes{box.x, box.y, box.z};
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = axes[static_cast<size_t>(axis)];
-    // The lattice wraps around where an offset would leave the integers.
+    // The lattice wraps around if an offset would leave the integers.
     const double anchor = wholeAt(p, axis);
     if (side.lo - anchor < -2147483648.0 || side.hi - anchor > 2147483647.0) return all;
     middle[axis] = static_cast<int32_t>(std::floor((side.lo + side.hi) / 2));
@@ -117,8 +117,8 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
 }
 
-// What is monotone in the distances from its own three planes, from the ranges of those in the box: nearly tight where
-// the frame stands straight, however long the box's diagonal is.
+// Bounds values that are monotone in the distances from the three local planes, by the ranges of these in the box:
+// nearly tight if the frame is axis-aligned, however long the box's diagonal is.
 struct LocalRange {
   std::array<double, 3> near{}, far{};  ///< |q| by local axis, at least and at most
 };
@@ -157,9 +157,9 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
   return std::sqrt(outer_a * outer_a + outer_b * outer_b) + std::min(std::max(a, b), 0.0);
 }
 
-// A distance from something convex is convex, so that it lies nowhere under its tangent in the middle of the box; and
-// nothing is farther away than from the point of the axis that is nearest there. Neither is wider than half the diagonal
-// each way.
+// The distance from a convex set is convex, so it is nowhere below its tangent at the middle of the box; and it is
+// nowhere larger than the distance from the point of the axis that is nearest to the middle. Neither bound is wider
+// than half the diagonal each way.
 Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
@@ -182,7 +182,7 @@ Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   return {std::max(lowest, 0.0) - realAt(p, 8), std::sqrt(far2) - realAt(p, 8)};
 }
 
-// Often tighter than a value in the middle and half the diagonal each way; all there is where nothing is known.
+// Often tighter than a value at the middle and half the diagonal each way; everything if nothing is known.
 Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   switch (op) {
     case Op::box: {
@@ -194,7 +194,7 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
       return {cylinderDistance(realAt(p, 13), realAt(p, 14), r.near),
               cylinderDistance(realAt(p, 13), realAt(p, 14), r.far)};
     }
-    case Op::truncone: {  // between the cylinders that it holds and that hold it
+    case Op::truncone: {  // between its inscribed and its enclosing cylinder
       const LocalRange r = localRange(p, c);
       const double bottom = realAt(p, 13), top = realAt(p, 14), height = realAt(p, 15);
       return {cylinderDistance(std::max(bottom, top), height, r.near),
@@ -213,7 +213,7 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-// At least as far as anything of the box is from the centre: by axes, which takes no root.
+// At least the distance of any point of the box from the centre: by axes, without a root.
 double farthestOffset(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return std::abs(offsets({at, at}, wholeAt(p, word)).lo); };
   return offset(c.x, 1) + c.hx + offset(c.y, 2) + c.hy + offset(c.z, 3) + c.hz;
@@ -293,8 +293,8 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
   const double radius = std::sqrt(c.hx * c.hx + c.hy * c.hy + c.hz * c.hz);
   const double error = errorOf(op) * (farthestOffset(p, c) + sizeSum(op, p)) + radius * 1e-6;
   if (op == Op::power_morph) {
-    // Between its ends the norm falls as t grows the exponent, and the radii move: bounded from both ends of t, with
-    // the two effects taken apart. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
+    // Between its ends the norm falls as t increases the exponent, and the radii change: bounded from both ends of t,
+    // with the two effects separated. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
     const Interval s = clamped(t, 0, 1);
     if (s.lo == s.hi) {
       const double v = referencePowerMorph(p, s.lo, c.x, c.y, c.z);
@@ -352,7 +352,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     }
     case Op::square_root: {
       const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
-      return widened(r, error * r.hi + 1e-15);  // the root of what counts as 0
+      return widened(r, error * r.hi + 1e-15);  // the root of values that count as 0
     }
     case Op::add:
       return widened(kept({a.lo + b.lo, a.hi + b.hi}), error * (magnitude(a) + magnitude(b)));
@@ -371,7 +371,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     case Op::less:
       return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
     case Op::smoothstep: {
-      // t is clamped before anything else is rounded, so its ends give exactly 0 and 1.
+      // t is clamped before any other rounding, so its ends give exactly 0 and 1.
       const double inv = realAt(p, 1);
       const Interval raw = product({a.lo - realAt(p, 0), a.hi - realAt(p, 0)}, {inv, inv});
       const Interval t = widened(raw, error * std::abs(inv) * (magnitude(a) + std::abs(realAt(p, 0))));
@@ -424,7 +424,7 @@ Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
 }
 
 Interval boundRoundUnion(Interval a, Interval b, double k) {
-  // Monotone in both, and never above the nearer one.
+  // Monotone in both operands, and never above the nearer one.
   const Interval nearest{std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
   const double u = std::clamp(k - a.lo, 0.0, 1e9), v = std::clamp(k - b.lo, 0.0, 1e9), root = std::sqrt(u * u + v * v);
   if (u == 0 || v == 0) return nearest;

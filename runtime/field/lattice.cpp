@@ -14,7 +14,7 @@ constexpr double kFarAway = double{kFarSample};
 constexpr int64_t kMostPoints = int64_t{1} << 25;
 constexpr double kFarthest = 1 << 30;
 
-/// How far along an axis, in cells: at least 1, for the first and the last cell have slopes alone.
+/// The coordinate along an axis, in cells: at least 1, because the first and the last cell only provide slopes.
 double along(const uint32_t* p, int axis, double at) {
   const double last = wholeAt(p, kCountWord + axis) - 2;
   const double offset = std::clamp(at - wholeAt(p, 1 + axis), 0.0, kFarthest);
@@ -30,7 +30,7 @@ double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
   return realAt(p + kSamplesWord, static_cast<int>((z * column + y) * row + x));
 }
 
-/// Mixed from the corners of a cell. at: in cells.
+/// Interpolated from the corners of a cell. at: in cells.
 double mixedAt(const uint32_t* p, const std::array<double, 3>& at) {
   std::array<int64_t, 3> cell{};
   std::array<double, 3> t{};
@@ -102,7 +102,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
     }
   }
   const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
-  // Within one cell the corners of the box decide, for along each axis the value is a line.
+  // Within one cell the corners of the box suffice, because the value is linear along each axis.
   if (last[0] == first[0] + 1 && last[1] == first[1] + 1 && last[2] == first[2] + 1) {
     all = {kFarAway, -kFarAway};
     for (int corner = 0; corner < 8; ++corner) {
@@ -112,7 +112,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
       all = {std::min(all.lo, value), std::max(all.hi, value)};
     }
   }
-  // What may count as far may be as far.
+  // Values that may count as far may be as large as the far value.
   const double limit = realAt(p, kLimitWord);
   const double lo = all.lo - slack, hi = all.hi + slack;
   return {lo >= limit    ? kFarAway

@@ -1,6 +1,5 @@
 #pragma once
-// Samples on a lattice of whole positions: what a field from outside of the grammar comes to
-// (shaders/common/lattice.h).
+// Samples on a lattice of integer positions: the form of a field from outside the grammar (shaders/common/lattice.h).
 
 #include <array>
 #include <cstddef>
@@ -17,18 +16,18 @@ struct SampleLattice {
   std::array<uint32_t, 3> count{4, 4, 4};  ///< along x, y, z; an op reads at least four along each
 };
 
-/// A value that counts as far. Samples are no larger than kLargestSample.
+/// The value that counts as far. The magnitude of samples is at most kLargestSample.
 inline constexpr float kFarSample = 1e18f, kLargestSample = 1e12f;
 
-/// The points of the cells that hold the box, and of one more on every side: a world's lattice of that spacing goes
-/// through the origin, so that boxes which share a cell share its samples. Where the world ends the last whole cell
-/// stands for what is left of it.
+/// The points of the cells that contain the box, and of one more cell on every side. The lattice of a spacing passes
+/// through the world's origin, so that boxes which share a cell share its samples. At the end of the world, the last
+/// whole cell replaces the rest.
 SampleLattice latticeAround(const IntBox& box, int32_t spacing);
 
-/// Nothing: more than an op can have (2^25, none farther than 2^30 units from the origin along an axis).
+/// The number of points; nullopt if it exceeds the limit of an op (2^25 points, extent 2^30 units along an axis).
 std::optional<size_t> latticePoints(const SampleLattice& lattice);
 
-/// What the op comes to over a box of positions, and, in double precision, at one of them. p: its parameters.
+/// The bounds of the op over a box of positions, and its value at one of them in double precision. p: its parameters.
 Interval boundLattice(const uint32_t* p, const PlaceBox& box);
 double referenceLattice(const uint32_t* p, double x, double y, double z);
 

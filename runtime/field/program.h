@@ -1,12 +1,12 @@
 #pragma once
-// A field program: immutable straight-line code by group, and the fold that joins the groups.
+// A field program: immutable straight-line code per group, and the fold that combines the groups.
 //
 // At a point p the field starts as `initial` (the domain: far inside or far outside). Layer by layer, the groups whose
-// influence box holds p add, f = min(f, g), and then those that cut take their union away, f = max(f, -min g). A smooth
-// group is a layer of its own and blends with what is there: by the round union of f and g, or of -f and g, negated
-// (roundUnion in shaders/common/combine.h). That the box decides is part of the field's definition, so the value at p
-// never depends on which chunk asks. Everything is in units (1/1024 m).
-// Shareable between threads; evaluators keep their scratch apart.
+// influence box contains p are added, f = min(f, g), and then the union of those that cut is removed, f = max(f, -min
+// g). A smooth group is a layer of its own and blends with the existing field: by the round union of f and g, or, for a
+// cut, by the negated round union of -f and g (roundUnion in shaders/common/combine.h). The influence boxes are part of
+// the field's definition, so the value at p does not depend on the chunk that evaluates it. Everything is in units
+// (1/1024 m). Programs can be shared between threads; evaluators have their own scratch.
 
 #include <cstdint>
 #include <memory_resource>
@@ -26,13 +26,13 @@ enum class Op : uint8_t {
 
 const char* opName(Op op);
 
-inline constexpr int kMaxRegisters = 32;  ///< of one group
+inline constexpr int kMaxRegisters = 32;  ///< per group
 inline constexpr int kMaxPlaces = 8;      ///< positions: 0 is the sample's own, the others are warped
-/// The domain's field, in units: beyond every value, so that a cut that is not there takes nothing away from anything.
+/// The domain's field, in units: beyond every value, so that an absent cut removes nothing.
 inline constexpr float kFar = 1.0e30f;
 
-/// One operation. Registers dst, a, b, c; place is the position that a POSITION op reads (and a warp starts from; its
-/// result's number is dst). Accumulating ops use dst and b as their two registers and a as the operand.
+/// One operation. Registers dst, a, b, c; place is the position that a POSITION op reads and from which a warp starts;
+/// the place of its result is dst. Accumulating ops use dst and b as their two registers and a as the operand.
 struct Instr {
   Op op = Op::constant;
   uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;
@@ -44,21 +44,21 @@ static_assert(sizeof(Instr) == 12);
 struct ProgramGroup {
   IntBox influence;
   uint32_t first = 0, count = 0;  ///< range in instrs
-  uint32_t layer = 0;             ///< groups of a layer stand together, its adds before its cuts
+  uint32_t layer = 0;             ///< groups of a layer are consecutive, its adds before its cuts
   uint8_t result = 0;             ///< register
   bool cut = false;
-  bool guarded = true;  ///< false where every sample asked for is known to lie in the influence box
-  float smooth = 0;     ///< width of the blend in units, only of the one group of a layer; 0: min and max
+  bool guarded = true;  ///< false if every requested sample is known to lie in the influence box
+  float smooth = 0;     ///< width of the blend in units, only for the single group of a layer; 0: min and max
 };
 
-/// What an evaluator reads. Does not own.
+/// The input of an evaluator. Does not own the arrays.
 struct ProgramView {
   std::span<const Instr> instrs;
   std::span<const uint32_t> params;
   std::span<const ProgramGroup> groups;
   float initial = kFar;
   uint32_t initial_label = 0;  ///< tag << 16 | material
-  float q_scale = 1;           ///< Q by unit: 1024 / finest cell edge in units
+  float q_scale = 1;           ///< Q per unit: 1024 / finest cell edge in units
 };
 
 struct FieldProgram {
@@ -71,7 +71,7 @@ struct FieldProgram {
 
   explicit FieldProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : instrs(memory), params(memory), groups(memory) {}
-  /// The same one in other memory.
+  /// A copy in other memory.
   FieldProgram(const FieldProgram& other, std::pmr::memory_resource* memory)
       : instrs(other.instrs, memory),
         params(other.params, memory),
@@ -85,7 +85,7 @@ struct FieldProgram {
 
 inline constexpr uint32_t makeLabel(uint16_t material, uint16_t tag) { return uint32_t{tag} << 16 | material; }
 
-/// Q = floor(f * scale + 0.5): scale for a finest cell of so many units.
+/// Q = floor(f * scale + 0.5): the scale for a finest cell of this many units.
 inline float quantiseScale(int32_t finest_cell_units) {
   return static_cast<float>(1024.0 / static_cast<double>(finest_cell_units));
 }

@@ -1,12 +1,12 @@
 #pragma once
-// Interval pruning (Keeter 2020): a program cut down to what matters in a box of positions. Every sample and every
-// attribute in the box keeps its bits, because an operand is dropped only where it provably changes none.
+// Interval pruning (Keeter 2020): reduces a program to the part that matters in a box of positions. Every sample and
+// every attribute in the box keeps its bits, because an operand is dropped only if it provably changes none of them.
 
 #include "field/interval.h"
 
 namespace sgm {
 
-/// A pruned program. Reads its parent's parameters, which must outlive it; reused as scratch from box to box.
+/// A pruned program. Reads its parent's parameters, which must outlive it; reused as scratch for several boxes.
 struct PrunedProgram {
   std::pmr::vector<Instr> instrs;
   std::pmr::vector<ProgramGroup> groups;
@@ -20,7 +20,7 @@ struct PrunedProgram {
       : instrs(memory), groups(memory) {}
 
   ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
-  /// No sample of the box is quantised to another sign.
+  /// All samples of the box are quantised to the same sign.
   bool solid() const { return field.hi * static_cast<double>(q_scale) < -0.51; }
   bool empty() const { return field.lo * static_cast<double>(q_scale) > -0.49; }
 };
@@ -34,15 +34,15 @@ class PruneScratch {
     Interval value;
     bool met, whole, live;
   };
-  std::pmr::vector<Interval> marks;  ///< by instr: what decides whether it stays (prune_kernel.inl)
+  std::pmr::vector<Interval> marks;  ///< by instr: decides whether it stays (prune_kernel.inl)
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };
 
-/// What is left of a program that is proven uniform, solid or empty: nothing, or what its values need.
+/// The result for a program proven to be uniformly solid or empty: drop everything, or keep what its values need.
 enum class Uniform { drop, keep };
 
-/// Prunes `program` to `box` (closed, every position that will be asked for). out must not be the view's own storage.
+/// Prunes `program` to `box` (closed; contains all positions to be sampled). out must not be the storage of the view.
 void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out,
            Uniform uniform = Uniform::drop);
 

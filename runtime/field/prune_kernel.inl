@@ -1,10 +1,11 @@
-// Interval pruning, once for every arithmetic of bounds: included into a namespace which defines
+// Interval pruning for any arithmetic of bounds. This file is included into a namespace that defines
 //   Scalar, Bound                      a number, and its lowest and highest value: lo, hi
-//   Places, movePlaces                 a box of positions, and where a warp takes it
+//   Places, movePlaces                 a box of positions, and its image under a warp
 //   boundPosition, boundOperands, boundRoundShare, boundRoundEnd, boundSumEnd, boundRoundUnion, boundRoundCut
-//   GroupBounds                        value, a Bound; met, whole, live: the box meets the group's, lies in it, needs it
-//   kNever, kLess, kMore               beyond every bound; factors that outweigh the rounding of a sum
-//   minOf, maxOf, floatOf              of two numbers; the float that a parameter's word is
+//   GroupBounds                        value, a Bound; met, whole, live: the box meets the group's, lies in it,
+//                                      needs it
+//   kNever, kLess, kMore               beyond every bound; factors that exceed the rounding of a sum
+//   minOf, maxOf, floatOf              of two numbers; the float in a parameter's word
 
 #include "field/operands.inl"
 
@@ -54,10 +55,10 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
 
-// Which registers hold the floor of what another one still holds: what lies above its floor is from 0 to 1, which the
-// bounds of the two do not tell.
+// Registers that hold the floor of another register's current value: the difference of a value and its floor is from 0
+// to 1, which their bounds do not show.
 struct FloorSources {
-  uint32_t known = 0;  // registers that hold such a floor
+  uint32_t known = 0;                   // registers that hold such a floor
   uint32_t floors[kMaxRegisters] = {};  // of each register's value: the registers that hold its floor
   uint8_t source[kMaxRegisters] = {};
 
@@ -74,8 +75,8 @@ struct FloorSources {
   }
 };
 
-// Bounds of one group's result; a mark by instr for the way back: the choice of a min, max, cut or morph in lo, and the
-// bounds of the operand of an accumulation.
+// Bounds one group's result, and writes a mark per instr for the backward pass: the choice of a min, max, cut or morph
+// in lo, and the bounds of the operand of an accumulation.
 template <class Marks>
 SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, const Places& box, Marks marks) {
   Bound r[kMaxRegisters];
@@ -150,7 +151,7 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
   return r[g.result];
 }
 
-// Walks a group backwards and keeps what its result needs: keep(instr), the last one first.
+// Walks a group backwards and keeps the instructions that its result needs: calls keep(instr), the last one first.
 template <class Marks, class Keep>
 SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Marks marks, const Keep& keep) {
   uint32_t live = 1u << g.result, live_places = 0;
@@ -211,8 +212,8 @@ SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Mar
   }
 }
 
-// Folds a smooth group into the field's bounds. Where it is k away and no nearer than the field, the field keeps its
-// bits; where the field is, the group takes its place.
+// Folds a smooth group into the field's bounds. If the group is at least k away and no nearer than the field, the field
+// keeps its bits; if the field is, the group replaces it.
 SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) {
   const Scalar k = Scalar{g.smooth};
   const Bound under = field, distance = g.cut ? Bound{-under.hi, -under.lo} : under;
@@ -223,13 +224,13 @@ SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) 
   return !g.cut && b.whole && under.lo >= k && under.lo > b.value.hi;
 }
 
-/// What the box makes of a program.
+/// The bounds of a program over the box.
 struct FieldBounds {
   Bound field;
-  bool hidden = false;  ///< what the domain is never shows: it may begin as anything
+  bool hidden = false;  ///< the domain never shows: its initial value has no effect
 };
 
-// Bounds of the field, and by group whether anything of it is left. box and places: the same box.
+// Bounds the field, and marks the groups that still have an effect. box and places: the same box.
 template <class Marks, class Groups>
 SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box, const Places& places, Marks marks,
                                   Groups bounds) {
@@ -246,7 +247,7 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
     if (b.met) b.value = boundGroup(program, g, places, marks);
     return b;
   };
-  // What lies below the layer of `first` never shows.
+  // Nothing below the layer of `first` shows.
   size_t keep_from = 0;
   auto replaceBelow = [&](size_t first) {
     for (size_t i = keep_from; i < first; ++i) bounds[i].live = false;
@@ -278,7 +279,8 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
       }
     }
     const Bound joined{minOf(field.lo, adds.lo), minOf(field.hi, adds.hi)};
-    // An add above the layer's ceiling never is the minimum; a cut above another cut, or under the solid, never shows.
+    // An add above the layer's upper bound is never the minimum; a cut above another cut, or under the solid, never
+    // shows.
     const bool replaced = adds.hi < field.lo;
     for (size_t i = first; i < last; ++i) {
       GroupBounds& b = bounds[i];

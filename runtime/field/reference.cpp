@@ -15,13 +15,13 @@ struct Local {
   double x, y, z;
 };
 
-// Not the C library's hypot and pow: libraries differ in their last bits, and derivation asks for bounds.
+// The C library's hypot and pow are not used: libraries differ in their last bits, and derivation depends on bounds.
 double hypotenuse(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
-// An offset by axis, as far as an int32 goes: there the evaluators saturate (real.h).
+// An offset along an axis, clamped to the range of an int32, where the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
 
-// p: the words of the centre.
+// p: the parameter words of the centre.
 Local offsetFrom(const uint32_t* p, double x, double y, double z) {
   return {minus(x, wholeAt(p, 0)), minus(y, wholeAt(p, 1)), minus(z, wholeAt(p, 2))};
 }
@@ -39,7 +39,8 @@ double corner(double a, double b) {
 }
 
 double trunconeDistance(double radial, double y, double bottom, double top, double h) {
-  // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h) mirrored at the axis: nearest of its three outer edges.
+  // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h), mirrored at the axis: the nearest of its three outer
+  // edges.
   const std::array<std::array<double, 2>, 4> corners{{{0, -h}, {bottom, -h}, {top, h}, {0, h}}};
   double best = 1e300;
   for (size_t i = 0; i < 3; ++i) {
@@ -130,7 +131,7 @@ double roundUnion(double a, double b, double k) {
   return u > 0 && v > 0 ? std::min(nearest, k - hypotenuse(u, v)) : nearest;
 }
 
-// Of an expression's result: real.h, settleReal.
+// Settles the result of an expression: see real.h, settleReal.
 double settle(double x) { return std::abs(x) < 1e-30 ? 0.0 : std::clamp(x, -1e18, 1e18); }
 
 }  // namespace
@@ -334,7 +335,7 @@ double referenceField(const ProgramView& program, Int3 p) {
       field = g.cut ? -joined : joined;
       continue;
     }
-    // max(f, -g) one cut after another is the same as taking their union away.
+    // max(f, -g) for one cut after another equals removing their union.
     field = g.cut ? std::max(field, -r[g.result]) : std::min(field, r[g.result]);
   }
   return field;

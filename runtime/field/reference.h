@@ -1,6 +1,6 @@
 #pragma once
-// The judge: every op once more, in double precision, from its geometric definition. Close to the float evaluators,
-// never equal; the same bits everywhere. Interval bounds take its value at a box's centre.
+// The reference: every op in double precision, from its geometric definition. It is close to the float evaluators,
+// never equal, with the same bits everywhere. Interval bounds use its value at a box's centre.
 
 #include <bit>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// A word of an operation's parameters as what it holds: a float, or an int32.
+/// Decodes a parameter word of an operation: a float, or an int32.
 inline double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 inline double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 

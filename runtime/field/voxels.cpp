@@ -12,7 +12,7 @@ namespace {
 
 using Counts = std::pmr::vector<uint16_t>;
 
-/// Of samples at one level. Along an axis of a block: voxels from one to the next, and the half width of the tent.
+/// The sampling at one level, along an axis of a block: voxels per sample, and the half width of the tent.
 struct Sampling {
   int32_t step = 1, tent = 2;
 };
@@ -23,7 +23,7 @@ Sampling samplingAt(int32_t edge, int32_t cell) {
   return {4, 4};
 }
 
-/// Voxels of a block by their index in the world; beyond its end those that are nearest.
+/// The voxels of a block by their index in the world; beyond its end, the nearest ones.
 Counts unpacked(const GrammarChunk& chunk, const VoxelBlock& block, Int3 first, const std::array<size_t, 3>& count,
                 std::pmr::memory_resource* memory) {
   const auto held = [&](int axis, int64_t i) {
@@ -46,7 +46,7 @@ Counts unpacked(const GrammarChunk& chunk, const VoxelBlock& block, Int3 first, 
   return out;
 }
 
-/// Weighted sums along an axis, one at each sample; `count` becomes their number.
+/// Weighted sums along an axis, one per sample; sets `count` to their number.
 Counts tented(const Counts& in, std::array<size_t, 3>& count, size_t axis, size_t samples, Sampling sampling) {
   size_t inner = 1, outer = 1;
   for (size_t a = 0; a < axis; ++a) inner *= count[a];
@@ -68,7 +68,7 @@ Counts tented(const Counts& in, std::array<size_t, 3>& count, size_t axis, size_
   return out;
 }
 
-/// A sample of so many weighted solid ones of all, in units.
+/// The value of a sample with this weighted number of solid voxels out of all, in units.
 int64_t valueOf(int64_t solid, int64_t all, int64_t edge, Sampling sampling) {
   const int64_t most = edge - edge / 8;
   return std::clamp(floorDiv((all - 2 * solid) * edge * (sampling.tent / 2), all), -most, most);
@@ -91,7 +91,7 @@ std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape
                                           int32_t cell, std::pmr::vector<float>& samples) {
   const VoxelBlock& block = chunk.blocks[shape.block];
   const Sampling sampling = samplingAt(block.edge, cell);
-  // Beyond one edge from the box that is farther from 0 than any sample.
+  // Beyond one edge from the box, the box is farther from 0 than any sample.
   IntBox decides;
   for (int axis = 0; axis < 3; ++axis) {
     const auto half = static_cast<int64_t>(shape.size[static_cast<size_t>(axis)]) + block.edge;
@@ -130,7 +130,7 @@ std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape
   const bool sided = sampling.tent == 2;
   samples.clear();
   samples.reserve(size_t{at.count[0]} * at.count[1] * at.count[2]);
-  /// Of a sample: the one that stands for it where all along an axis are alike, and its voxel.
+  /// For a sample: its representative if all samples along an axis are equal, and its voxel.
   const auto held = [&](size_t axis, size_t i) { return count[axis] == 1 ? size_t{0} : i; };
   const auto voxel = [&](size_t axis, size_t i) {
     return voxels[axis] == 1 ? size_t{0}

@@ -1,5 +1,5 @@
 #pragma once
-// Whether one file is right, be it a world or a library.
+// Checks one file, which may be a world or a library.
 
 #include <string_view>
 
@@ -9,12 +9,12 @@ namespace sgm {
 
 struct CheckResult {
   CompileResult compiled;
-  /// The file is for others to import: it declares rules, lets and fields, and nothing that only a root has. Its
-  /// program has no layers then.
+  /// The file is a library for import: it declares rules, lets and fields, and nothing that only a root has. Its
+  /// program has no layers.
   bool library = false;
 };
 
-/// compileGrammar, but a library that has no start is right by itself.
+/// Like compileGrammar, but a library without a start is valid by itself.
 CheckResult checkFile(std::string_view text, std::string_view path, const CompileOptions& options = {});
 
 }  // namespace sgm

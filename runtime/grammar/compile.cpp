@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-/// False, with an error, where the text is longer than allowed.
+/// Returns false, after an error, if the text is too long.
 bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& sink) {
   const size_t limit = std::min<size_t>(limits.text_bytes, 0x7FFFFFFFu);
   if (text.size() <= limit) return true;
@@ -25,7 +25,7 @@ bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& si
   return false;
 }
 
-/// Whether a file has nothing that an imported one may not have, and something to import.
+/// Whether a file has only content that is allowed in an import, and something to import.
 bool isLibrary(const ModuleSyntax& root) {
   bool gives = false;
   for (const Item& item : root.items) {
@@ -71,14 +71,14 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   const uint32_t unread = sink.errorCount();
   check.library = libraries && isLibrary(syntax[0]);
   if (unread == 0) {
-    // Printed before the checker resolves names, which rewrites calls.
+    // Print before the checker resolves names, which rewrites calls.
     program->canonical = printModule(*program, syntax[0]);
     program->hash = hashText("sgm 1");
     for (const ModuleSyntax& module : syntax)
       program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
     for (const Asset& asset : program->assets) program->hash = hashCombine(program->hash, asset.hash);
   }
-  // What was parsed is checked, whatever else was not: one run tells all that is wrong.
+  // The parsed part is checked even after errors, so that one run reports all problems.
   if (!sink.full()) {
     Checker checker(*program, names, syntax, options.limits, sink, check.library);
     checker.run();

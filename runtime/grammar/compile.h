@@ -1,5 +1,5 @@
 #pragma once
-// Text to Program: the front door of the language. Grammar text is untrusted: size, depth, count and time are capped.
+// Compiles text to a Program. Grammar text is untrusted: size, depth, count and time are limited.
 
 #include <memory>
 #include <optional>
@@ -13,17 +13,18 @@
 
 namespace sgm {
 
-/// The program is there exactly where no diagnostic is an error. Diagnostics are in order of file and place.
+/// The program exists exactly if no diagnostic is an error. Diagnostics are in order of file and place.
 struct CompileResult {
   std::shared_ptr<const Program> program;
   std::vector<Diagnostic> diagnostics;
-  std::vector<SourceFile> files;  ///< what was read, for renderDiagnostic
+  std::vector<SourceFile> files;  ///< the files read, for renderDiagnostic
 };
 
 /// Thread-safe: no state is kept between calls. `path` is only for messages. May throw std::bad_alloc.
 CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options = {});
 
-/// `sgm fmt`: the canonical layout of one file, comments kept; a fixed point. Needs correct syntax only.
+/// `sgm fmt`: the canonical layout of one file, with its comments; formatting it again changes nothing. Needs only
+/// correct syntax.
 struct FormatResult {
   std::optional<std::string> text;
   std::vector<Diagnostic> diagnostics;

@@ -1,9 +1,9 @@
-# sgm_install_part(COMPONENT TARGET): the first of a folder's install rules, which all are COMPONENT's. Where TARGET is
-# not built the folder's other rules are passed over, and that is said; a component that is asked for by name must be
-# built. So a tree in which some targets were built installs these, and nothing that refers to what is not there.
+# sgm_install_part(COMPONENT TARGET): the first of a folder's install rules, which all belong to COMPONENT. If TARGET is
+# not built, skips the folder's other rules with a message; for an explicitly requested component this is an error. So a
+# tree in which only some targets were built installs these, without references to missing files.
 function(sgm_install_part component target)
   set_property(GLOBAL APPEND PROPERTY SGM_COMPONENTS ${component})
-  # A rule's code stands as it is in the folder's install script, which return() leaves.
+  # The code is inserted into the folder's install script, which return() leaves.
   install(CODE "
 if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
   set(sgm_lack \"sgm: the ${component} is not built (cmake --build '${PROJECT_BINARY_DIR}' --target ${target})\")

@@ -1,5 +1,5 @@
 #pragma once
-// Area and volume of triangles (section 7.1 and 7.2 of the paper).
+// Area and volume of triangles (sections 7.1 and 7.2 of the paper).
 
 #include "base/jobs.h"
 #include "measure/triangles.h"
@@ -7,26 +7,27 @@
 namespace sgm::measure {
 
 struct AreaVolume {
-  /// Equation 7, which prints a vector: the sum of half the length of each triangle's cross product.
+  /// Equation 7, which the paper prints as a vector: the sum of half the length of each triangle's cross product.
   double area = 0;
-  /// Half the sum of the cross products. 0 for a closed surface, up to rounding; 0 does not prove that it is closed.
+  /// Half the sum of the cross products. 0 for a closed surface, up to rounding; but 0 does not prove that it is
+  /// closed.
   Point area_vector;
   /// By the divergence theorem: a sixth of the sum of the triple products, about `centre`. Exact for a closed mesh;
-  /// negative where its triangles face inward; what is covered twice counts twice.
+  /// negative if its triangles face inward; overlapping parts count twice.
   double volume = 0;
-  Point low, high;  ///< around the triangles' corners; 0 where there is none
-  /// Where the triple products count from: the middle of low and high, so that a mesh far out loses nothing. About
-  /// another origin o an open mesh has volume + dot(centre - o, area_vector) / 3, by which the parts of a closed
-  /// surface add up.
+  Point low, high;  ///< around the triangles' corners; 0 if there is none
+  /// The origin of the triple products: the middle of low and high, so that a mesh far from the origin loses no
+  /// precision. About another origin o, an open mesh has volume + dot(centre - o, area_vector) / 3, and these values of
+  /// the parts of a closed surface add up to its volume.
   Point centre;
 
   double volumeAbout(Point origin) const { return volume + dot(centre - origin, area_vector) / 3; }
 };
 
-/// Contract: the coordinates are finite. The same bits for any number of threads.
+/// Precondition: the coordinates are finite. The same bits for any number of threads.
 AreaVolume areaVolume(const Triangles& mesh, JobSystem& jobs);
 
-/// Of one triangle: twice its area along its normal.
+/// Twice the area of a triangle along its normal.
 inline Point crossOf(Point a, Point b, Point c) { return asset::cross(b - a, c - a); }
 
 }  // namespace sgm::measure

@@ -1,5 +1,5 @@
 #pragma once
-// A tree of boxes over triangles, to find those that may meet.
+// A bounding volume hierarchy over triangles, to find pairs that may intersect.
 
 #include <array>
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace sgm::measure {
 
-/// A complete binary tree over the triangles in the order of a space-filling curve (Morton), one a leaf. Node n has the
-/// children 2 n and 2 n + 1; node 1 is the root.
+/// A complete binary tree over the triangles in Morton order, one per leaf. Node n has the children 2 n and 2 n + 1;
+/// node 1 is the root.
 class Bvh {
  public:
-  /// In single precision, rounded outwards. One around nothing overlaps none.
+  /// In single precision, rounded outwards. An empty box overlaps no other box.
   struct Box {
     float low[3], high[3];
 
-    /// Without a branch: which comparison fails is anyone's guess.
+    /// Branchless: the comparisons are unpredictable.
     bool overlaps(const Box& other) const {
       int all = 1;
       for (int axis = 0; axis < 3; ++axis) {
@@ -31,24 +31,25 @@ class Bvh {
     }
   };
 
-  /// Contract: the coordinates are at most kFarthest. At most 120 bytes a triangle.
+  /// Precondition: the coordinates are at most kFarthest. Takes at most 120 bytes per triangle.
   Bvh(const Triangles& mesh, JobSystem& jobs);
 
   size_t leaves() const { return boxes_.size() / 2; }
   const Box& box(size_t node) const { return boxes_[node]; }
   bool isLeaf(size_t node) const { return node >= leaves(); }
-  /// Of a leaf that has one: those at the end of the last row may have none, and their boxes overlap nothing.
+  /// The triangle of a leaf that has one: leaves at the end of the last row may be empty; their boxes overlap no other
+  /// box.
   uint32_t triangle(size_t leaf) const { return order_[leaf - leaves()]; }
 
-  /// Two nodes whose leaves may meet each other; the same one twice: whose leaves may meet among themselves.
+  /// Two nodes whose leaves may overlap each other; twice the same node: leaves that may overlap among themselves.
   using Pair = std::pair<uint32_t, uint32_t>;
-  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there
-  /// are as many: what several threads then walk.
+  /// Splits the search for several threads: every pair of leaves with overlapping boxes belongs to exactly one of the
+  /// returned pairs. Returns at least about `parts` of them if there are as many.
   std::vector<Pair> parts(size_t parts) const;
 
-  /// Where a walk over the leaves under a pair stands: it goes on where it stopped.
+  /// The state of a walk over the leaves under a pair, so that it can be resumed.
   struct Walk {
-    // Each row of the tree leaves three pairs at most behind.
+    // Each row of the tree leaves at most three pairs.
     std::array<Pair, 3 * 32 + 4> waiting;
     size_t count = 0;
 
@@ -56,8 +57,9 @@ class Bvh {
     bool ended() const { return count == 0; }
   };
 
-  /// Calls visit(a, b) with the triangles of each two leaves of the walk whose boxes overlap, and stops after so many
-  /// steps: a call, with those that it returns besides, or a look at two nodes. Returns how many it took.
+  /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap, and stops after
+  /// `most_steps` steps: a call counts as one, plus the steps that it returns, and so does a visit of two nodes.
+  /// Returns the steps taken.
   template <class Visit>
   uint64_t visitPairs(Walk& walk, uint64_t most_steps, Visit&& visit) const {
     uint64_t steps = 0;
@@ -76,17 +78,17 @@ class Bvh {
     return steps;
   }
 
-  /// The part of the line through a place along an axis, the place included: towards higher coordinates, or lower ones.
+  /// The ray from a point along an axis, including the point: towards higher or lower coordinates.
   struct Column {
     int axis = 2;
     bool above = true;
   };
 
-  /// Calls visit(triangle) for each whose box meets that part of the place's line. Returns whether it came to the end
-  /// within so many steps, each a look at a node.
+  /// Calls visit(triangle) for each triangle whose box meets that ray. Returns true if it finished within `most_steps`
+  /// visited nodes.
   template <class Visit>
   bool visitColumn(Point at, Column column, uint64_t most_steps, Visit&& visit) const {
-    // Each row of the tree leaves one node at most behind.
+    // Each row of the tree leaves at most one node.
     std::array<uint32_t, 34> waiting;
     waiting[0] = 1;
     size_t count = 1;
@@ -111,7 +113,7 @@ class Bvh {
   }
 
  private:
-  /// Writes the pairs of children that overlap, four at most, and returns how many they are. into: room for four.
+  /// Writes the overlapping pairs of children, at most four, and returns their number. into: room for four.
   size_t split(Pair pair, Pair* into) const {
     const auto [a, b] = pair;
     size_t count = 0;
@@ -126,7 +128,7 @@ class Bvh {
       push(2 * a, 2 * a + 1);
       return count;
     }
-    // Both stand in one row of the tree.
+    // Both are in the same row of the tree.
     push(2 * a, 2 * b);
     push(2 * a, 2 * b + 1);
     push(2 * a + 1, 2 * b);

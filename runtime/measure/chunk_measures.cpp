@@ -42,11 +42,11 @@ const char* defectName(Defect defect) {
     case Defect::open_edge:
       return "open edges";
     case Defect::turned_edge:
-      return "turned edges";
+      return "misoriented edges";
     case Defect::nonmanifold_edge:
       return "non-manifold edges";
     case Defect::pinched_vertex:
-      return "pinched vertices";
+      return "non-manifold vertices";
     case Defect::folded:
       return "folded triangles";
     case Defect::self_intersection:

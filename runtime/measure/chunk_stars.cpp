@@ -37,26 +37,26 @@ class StarCounter {
         ends += countStar(v, star);
       }
     }
-    // Each edge was met at both of its ends.
+    // Each edge was counted at both of its ends.
     counts_.edges = static_cast<uint32_t>(ends / 2);
     return counts_;
   }
 
  private:
   static constexpr uint64_t kNobody = UINT64_MAX;
-  /// One word, as a Corner.
+  /// One word, as in Corner.
   static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
-  /// An edge from the vertex in question, as a node of its link.
+  /// An edge from the current vertex, as a node of its link.
   struct Node {
     uint32_t vertex, parent, out, in;
   };
 
-  /// By the vertex that they are at, in the order of triangles.
+  /// Sorts corners by their vertex, in the order of triangles.
   void sortCorners(std::span<const uint32_t> indices) {
     for (const uint32_t v : indices) ++first_[v];
     uint32_t sum = 0;
     for (uint32_t& first : first_) first = sum += first;
-    // From the last to the first, so that each ends where it begins.
+    // From the last to the first, so that each range ends at its beginning.
     for (size_t at = indices.size(); at != 0; at -= 3) {
       const uint32_t a = indices[at - 3], b = indices[at - 2], c = indices[at - 1];
       corners_[--first_[a]] = Corner::of(b, c);
@@ -65,7 +65,7 @@ class StarCounter {
     }
   }
 
-  /// Notes who comes next at each corner; whether each does so once.
+  /// Records the next vertex of each corner; returns true if each occurs once.
   bool meet(uint32_t v, std::span<const Corner> star) {
     bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
@@ -76,7 +76,7 @@ class StarCounter {
     return once;
   }
 
-  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
+  /// True if the star is one closed fan in which each edge has two triangles in opposite directions, the usual case.
   /// Precondition: meet().
   bool isCycle(uint32_t v, std::span<const Corner> star) {
     if (star.size() < 3) return false;
@@ -90,9 +90,9 @@ class StarCounter {
     return false;
   }
 
-  /// Whether the star is one open fan; then the edges at its ends are counted. Precondition: meet().
+  /// True if the star is one open fan; then counts the edges at its ends. Precondition: meet().
   bool isPath(uint32_t v, std::span<const Corner> star) {
-    // The one that nobody leads to is what the others' places lack to the sum of all.
+    // The start, which no corner leads to, is the sum of all positions minus the sum of the others.
     size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
     for (const Corner& corner : star) {
       const uint64_t seen = seen_[corner.previous()];
@@ -107,7 +107,7 @@ class StarCounter {
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
     }
-    // Who comes to an end has met none twice.
+    // A fan that ends has met no vertex twice.
     if (seen_[star[at].previous()] >> 32 == v) return false;
     for (const uint32_t end : {star[start].next(), star[at].previous()}) {
       if (end > v) countOpen(v, end);
@@ -122,7 +122,7 @@ class StarCounter {
 
   uint32_t nodeOf(uint32_t v, uint32_t other) {
     uint64_t& seen = seen_[other];
-    const uint32_t mark = v | uint32_t{1} << 31;  // not that of isCycle
+    const uint32_t mark = v | uint32_t{1} << 31;  // differs from that of isCycle
     if (seen >> 32 != mark) {
       const auto place = static_cast<uint32_t>(nodes_.size());
       seen = seenBy(mark, place);
@@ -131,7 +131,7 @@ class StarCounter {
     return static_cast<uint32_t>(seen);
   }
 
-  /// Any star; how many edges it has.
+  /// Handles any star; returns the number of its edges.
   size_t countStar(uint32_t v, std::span<const Corner> star) {
     nodes_.clear();
     opposite_.clear();

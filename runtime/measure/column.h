@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles lie over or under a place, along z: what "inside" is counted by.
+// Finds the triangles above or below a point along z, to decide whether the point is inside.
 
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::measure {
 
-/// As sgm::turnOver (mesh/column.h), of doubles.
+/// Same as sgm::turnOver (mesh/column.h), for doubles.
 int turnOver(const std::array<Point, 3>& t, double x, double y);
 
 }  // namespace sgm::measure

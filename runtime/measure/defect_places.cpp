@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 11> kNames{"open_edge",  "turned_edge", "
                                                   "degenerate", "flat",        "duplicate",        "inside_out",
                                                   "nested",     "folded",      "self_intersection"};
 
-/// What is far from flat needs no exact answer.
+/// A triangle that is far from flat needs no exact test.
 bool nearlyFlat(const Triangles& mesh, const Triangle& t) {
   const Point a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
   const double longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
@@ -62,7 +62,7 @@ void addOfEdges(const Triangles& mesh, const Edges& edges, const Cut* cut, Place
     if (around.size() > 2) add(DefectKind::nonmanifold_edge);
     if (around.size() == 2 && beginOf(triangles, around[0]) == beginOf(triangles, around[1]))
       add(DefectKind::turned_edge);
-    // Each is met at its three edges: that opposite to its highest corner tells.
+    // Each duplicate is found at its three edges; the one opposite to its highest corner records it.
     for (size_t i = 1; i < around.size() && !places.full(DefectKind::duplicate); ++i) {
       const uint32_t apex = apexOf(triangles, around[i]);
       if (apex < beginOf(triangles, around[i]) || apex < endOf(triangles, around[i])) continue;

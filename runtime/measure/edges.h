@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles meet along each edge.
+// The triangles that meet along each edge.
 
 #include <cstdint>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace sgm::measure {
 
-/// Side k of triangle i, from its corner k to the next one, is the half edge 3 i + k; so a half edge also names the
-/// corner that it begins at.
+/// Side k of triangle i, from its corner k to the next one, is the half edge 3 i + k; so a half edge also identifies
+/// the corner at which it begins.
 using HalfEdge = uint32_t;
 
 inline HalfEdge nextHalf(HalfEdge half) { return half % 3 == 2 ? half - 2 : half + 1; }
@@ -19,11 +19,11 @@ inline uint32_t endOf(std::span<const Triangle> triangles, HalfEdge half) {
   return triangles[half / 3][(half % 3 + 1) % 3];
 }
 
-/// Half edges grouped by the edge they lie on, whatever their direction; edges rise by their lower vertex, then their
-/// higher one, half edges of one edge by number. Triangles with a corner twice have none.
+/// Half edges grouped by their edge, regardless of direction. Edges are sorted by their lower vertex, then by their
+/// higher one; half edges of one edge by number. Triangles with a repeated corner have none.
 class Edges {
  public:
-  /// Contract: at most 2^32 / 3 triangles. About 12 bytes a half edge.
+  /// Precondition: at most 2^32 / 3 triangles. Takes about 12 bytes per half edge.
   explicit Edges(const Triangles& mesh);
 
   size_t count() const { return start_.size() - 1; }
@@ -33,7 +33,7 @@ class Edges {
 
  private:
   LargeVector<HalfEdge> halves_;
-  LargeVector<uint32_t> start_;  ///< of each edge, and the end
+  LargeVector<uint32_t> start_;  ///< start of each edge, and the end
 };
 
 }  // namespace sgm::measure

@@ -1,5 +1,5 @@
 #pragma once
-// The exact predicates by the names that measures use.
+// The exact predicates under the names that measures use.
 
 #include "asset/exact_sign.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The arithmetic of predicates over doubles (mesh/triangle_pair.h, mesh/column.h).
+// The predicates on doubles for mesh/triangle_faults.h and mesh/column.h.
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ struct ExactSigns {
 
   static int orientation(Point a, Point b, Point c, Point d) { return measure::orientation(a, b, c, d); }
   static int orientationAlong(int drop, Point a, Point b, Point c) { return measure::orientationAlong(drop, a, b, c); }
-  /// The axis along which it is seen largest, so that the sign is quick to tell.
+  /// The axis along which the triangle looks largest, so that the sign is quick to determine; -1 if it is flat.
   static int seenAlong(const std::array<Point, 3>& t) {
     const Point normal = asset::cross(t[1] - t[0], t[2] - t[0]);
     int best = 0;

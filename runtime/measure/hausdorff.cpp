@@ -14,8 +14,8 @@ namespace sgm::measure {
 namespace {
 
 constexpr uint32_t kMostCuts = 64;
-// What one job takes. Fixed, so that results do not depend on the number of threads; small, since one search may look
-// at much of the other surface where all of that is equally far.
+// The size of one job. Fixed, so that results do not depend on the number of threads; small, since one search may visit
+// much of the other surface if all of it is equally far.
 constexpr size_t kSampledTogether = 128;  // triangles, or points
 constexpr size_t kRefinedTogether = 64;   // parts
 
@@ -23,7 +23,7 @@ using Part = std::array<Point, 3>;
 
 Point middleOf(const Part& part) { return (1.0 / 3) * (part[0] + part[1] + part[2]); }
 
-/// Part `number` of the cuts^2 alike of a triangle: row by row from the side opposite to its first corner.
+/// Part `number` of the cuts^2 equal parts of a triangle: row by row from the side opposite to its first corner.
 Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   const auto at = [&](uint32_t i, uint32_t j) {
     const double u = static_cast<double>(i) / cuts, v = static_cast<double>(j) / cuts;
@@ -36,14 +36,14 @@ Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   return {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
 }
 
-/// The distance of a surface's places to another one.
+/// The distance from points of a surface to another surface.
 class Distances {
  public:
   Distances(const Triangles& to, JobSystem& jobs) : to_(to), tree_(to, jobs) {}
 
   Nearest from(Point place, uint32_t guess) const { return nearestOf(to_, tree_, place, guess); }
 
-  /// What no place of the part is farther than. The distance changes by no more than one moves.
+  /// An upper bound for all points of the part: the distance changes by no more than a point moves.
   double atMost(const Part& part, const Nearest& of_middle) const {
     const Point middle = middleOf(part);
     double reach = 0;
@@ -51,8 +51,7 @@ class Distances {
     return std::min(of_middle.distance + reach, atMost(part, of_middle.triangle));
   }
 
-  /// The same by one triangle alone, whichever: the distance to it, which is convex, is largest in a corner of the
-  /// part.
+  /// The same from a single triangle, any one: the distance to it is convex, and so is largest at a corner of the part.
   double atMost(const Part& part, uint32_t triangle) const {
     const Triangle& t = to_.triangles[triangle];
     const Part corners{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
@@ -66,7 +65,7 @@ class Distances {
   Bvh tree_;
 };
 
-/// What one job has found.
+/// The result of one job.
 struct Found {
   double at_least = -1;
   Point farthest;
@@ -79,26 +78,26 @@ struct Found {
   }
 };
 
-/// A part that may hold the farthest place.
+/// A part that may contain the farthest point.
 struct Candidate {
   double at_most = 0;
   Part part;
-  uint32_t triangle = 0;  ///< the one that is nearest to its middle
+  uint32_t triangle = 0;  ///< the one nearest to its middle
 
   friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
 };
 
-/// A quarter of a candidate. Where it cannot be farther than what is enough, its middle was not looked at.
+/// A quarter of a candidate. If its bound is low enough, its middle is not searched.
 struct Quarter {
   Candidate rest;
   double distance = -1;  ///< of its middle
 };
 
-/// Cuts the parts with the highest bounds, some at a time, until none is worth it, and returns the highest bound.
+/// Splits the parts with the highest bounds, several at a time, until none is worth it; returns the highest bound.
 double refine(const Distances& distances, std::vector<Candidate> candidates, const HausdorffSettings& settings,
               JobSystem& jobs, Found& found) {
   std::priority_queue<Candidate> open({}, std::move(candidates));
-  double settled = found.at_least;  // the highest bound of the parts that are no longer open
+  double settled = found.at_least;  // the highest bound of the parts no longer open
   uint64_t left = settings.refinements;
   std::vector<Candidate> cut;
   std::vector<std::array<Quarter, 4>> quarters(kRefinedTogether);
@@ -143,8 +142,8 @@ Error wrong(const char* message) { return {Code::invalid_argument, message}; }
 
 Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const HausdorffSettings& settings,
                               JobSystem& jobs) {
-  if (settings.cuts < 1 || settings.cuts > kMostCuts) return wrong("triangles are cut into 1 to 64 along an edge");
-  if (!(settings.tolerance >= 0)) return wrong("the tolerance is not a number from 0");
+  if (settings.cuts < 1 || settings.cuts > kMostCuts) return wrong("the cuts along an edge must be 1 to 64");
+  if (!(settings.tolerance >= 0)) return wrong("the tolerance is not a number of 0 or more");
   OneSided result;
   if (from.triangles.empty()) return result;
   if (to.triangles.empty()) return wrong("a mesh without triangles has no distance");

@@ -19,7 +19,7 @@ struct Bend {
   double angle = 0, edge = 0;  ///< d, and |e|
 };
 
-/// Nothing where there is no edge or no normal.
+/// nullopt if there is no edge or no normal.
 std::optional<Bend> bendOf(Point v1, Point v2, Point n1, Point n2) {
   const Point e = v2 - v1;
   const double edge = length(e), l1 = length(n1), l2 = length(n2);
@@ -117,7 +117,7 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
       c.flat += std::fabs(bend->angle) <= kFlatAngle;
       c.convex += bend->angle < -kFlatAngle;
       c.concave += bend->angle > kFlatAngle;
-      // Equation 14. At the upper end v R is R itself.
+      // Equation 14. At the upper end, v R equals R.
       const auto bin = static_cast<int32_t>(std::floor(valueOf(*bend, settings) * bins)) + 1;
       ++c.bins[static_cast<size_t>(std::clamp(bin, result.first_bin, last_bin) - result.first_bin)];
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
 constexpr size_t kSide = kChunkSamples;
-constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // beside a vertex's border planes
+constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // besides a vertex's border planes
 
 bool isWithin(const Vertex& v, int lo, int hi) {
   return std::min({v.x, v.y, v.z}) >= lo && std::max({v.x, v.y, v.z}) <= hi;
@@ -25,7 +25,7 @@ uint8_t planesOfEdge(const Vertex& v) {
                               (v.z == kEnd) << 5);
 }
 
-/// That of the face which a face vertex belongs to, which it may lie off.
+/// The border plane of the face that a face vertex belongs to, which the vertex may be off.
 uint8_t planesOfFeature(const Vertex& v) {
   if ((v.kind & kFeatureOfCell) != 0) return 0;
   const int axis = v.kind >> 6 & 3, at = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -109,7 +109,7 @@ class BodyMeasurer {
     }
   }
 
-  /// Of the edges that start in a row of samples, how many have ends that differ.
+  /// The number of edges that start in a row of samples and whose ends differ.
   uint32_t crossedEdges(size_t row) const {
     const bool y_ends = row % kSide == kChunkCells, z_ends = row / kSide == kChunkCells;
     const uint64_t signs = signs_[row], cells = (uint64_t{1} << kChunkCells) - 1;
@@ -136,14 +136,14 @@ class BodyMeasurer {
       ++topology_.compared;
     }
     for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
-    // Vertices on crossed edges are one an edge, or misplaced.
+    // Vertices on crossed edges are one per edge, or misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
     scratch_.corners.resize(3 * size_t{part_.triangles});
-    // What is written here cannot be mistaken for what is read, so that sums stay in registers.
+    // A local variable cannot alias the data that is read, so that sums stay in registers.
     TermSums sums;
     uint32_t against = 0, flat = 0, degenerate = 0;
     uint32_t* kept = indices_.data();
@@ -185,7 +185,7 @@ class BodyMeasurer {
     count(Defect::degenerate) = degenerate;
   }
 
-  /// Feature vertices that a crease has split are one again: of equal place and kind, and so of equal key.
+  /// Joins feature vertices that a crease has split: those of equal position and kind, and so of equal key.
   void joinFeatures() {
     const size_t slots = std::bit_ceil(2 * features_);
     constexpr uint32_t kFree = UINT32_MAX;
@@ -214,7 +214,7 @@ class BodyMeasurer {
     size_t kept = 0;
     for (size_t at = 0; at < indices_.size(); at += 3) {
       const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      // They lie in one place, and are counted.
+      // They have one position, and are counted.
       if (a == b || b == c || c == a) continue;
       indices_[kept++] = a;
       indices_[kept++] = b;

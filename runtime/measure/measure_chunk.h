@@ -1,5 +1,5 @@
 #pragma once
-// Measures a chunk as it is meshed (chunk_measures.h).
+// Measures a meshed chunk (chunk_measures.h).
 
 #include <memory_resource>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace sgm::measure {
 
-/// A part's vertices, and its triangles, whose indices count from first_vertex.
+/// A part's vertices, and its triangles, whose indices start at first_vertex.
 struct PartView {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;
@@ -22,14 +22,14 @@ struct PartView {
 inline PartView viewOf(const MeshPart& part) { return {part.vertices, part.indices}; }
 PartView viewOf(const PackedMesh& mesh, size_t part);
 
-/// Memory that goes from chunk to chunk: as much as the largest needs, some 80 bytes a triangle. One thread at a time.
+/// Memory that is reused for several chunks: about 80 bytes per triangle of the largest one. Not thread-safe.
 struct MeasureScratch {
   StarScratch stars;
-  std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and what else the measurer notes
+  std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and further marks of the measurer
   std::pmr::vector<PackedDirection> directions;  ///< by vertex
-  std::pmr::vector<uint32_t> indices;            ///< of triangles that are not left out
-  std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that stand for one
-  std::pmr::vector<PairCorner> corners;          ///< three a triangle that has an area
+  std::pmr::vector<uint32_t> indices;            ///< of triangles that are not excluded
+  std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that count as one
+  std::pmr::vector<PairCorner> corners;          ///< three per triangle with an area
   PairScratch pairs;
 
   explicit MeasureScratch(std::pmr::memory_resource* memory)
@@ -43,12 +43,12 @@ struct MeasureScratch {
         pairs(memory) {}
 };
 
-/// Measures the body into parts[0] and topology. signs: those of its samples (ChunkSamples::signs), or empty. Fewer
-/// than 2^20 triangles, so that no sum overflows, whatever they are. Some 35 ns a triangle. Throws std::bad_alloc.
+/// Measures the body into parts[0] and topology. signs: of its samples (ChunkSamples::signs), or empty. Precondition:
+/// fewer than 2^20 triangles, so that no sum can overflow. Takes about 35 ns per triangle. Throws std::bad_alloc.
 void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,
                  ChunkMeasures& measures);
 
-/// Likewise a seam, of which only the first two defects, degenerate triangles, area and flux are measured.
+/// Measures a seam: only the first two defects, degenerate triangles, area and flux.
 PartMeasures measureSeam(const PartView& seam);
 
 }  // namespace sgm::measure

@@ -1,5 +1,5 @@
 #pragma once
-// All that is measured of one triangle mesh.
+// All measures of one triangle mesh.
 
 #include <optional>
 #include <string>
@@ -16,28 +16,28 @@
 namespace sgm::measure {
 
 struct MeshSettings {
-  double weld = 0;  ///< weldPoints()'s tolerance, in the mesh's unit
+  double weld = 0;  ///< tolerance of weldPoints(), in the mesh's unit
   HistogramSettings histogram;
   bool self_intersections = true;
-  /// For what lies close together or above each other, times the number of triangles: where a mesh needs more steps
-  /// than that, MeshMeasures::complete() is false.
+  /// Steps per triangle for geometry that lies close together or stacked: if a mesh needs more,
+  /// MeshMeasures::complete() is false.
   uint64_t steps_a_triangle = 5000;
-  std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
-  std::optional<Cut> cut;       ///< where the mesh was cut from a larger one
-  MeasureProgress progress;     ///< of the search for self-intersections, which takes longest
+  std::optional<double> cubes;  ///< the edge of the cubes to count; nullopt: none are counted
+  std::optional<Cut> cut;       ///< set if the mesh was cut from a larger one
+  MeasureProgress progress;     ///< of the search for self-intersections, the longest step
 };
 
 struct MeshMeasures {
   size_t points = 0, triangles = 0;  ///< as given
-  size_t unused_points = 0;          ///< that no triangle has
-  size_t welded_points = 0;          ///< that fell on others
-  size_t non_finite = 0;             ///< triangles with a corner beyond kFarthest or NaN: left out of all that follows
+  size_t unused_points = 0;          ///< that no triangle uses
+  size_t welded_points = 0;          ///< merged into others
+  size_t non_finite = 0;             ///< triangles with a corner beyond kFarthest or NaN: excluded from all below
   std::optional<uint32_t> first_non_finite;
 
-  /// Of the welded mesh, by vertices. What degenerate, flat, folded and cut are: mesh/triangle_faults.h.
+  /// Of the welded mesh, by vertices. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
   MeshReport identity;
   size_t flat_triangles = 0;
-  size_t slivers = 0;  ///< of quality below kSliver, those without area included
+  size_t slivers = 0;  ///< of quality below kSliver, including those without area
   AreaVolume sums;
   Shells parts;
   Nesting nesting;
@@ -45,35 +45,34 @@ struct MeshMeasures {
   Histogram histogram;
   std::optional<CubeVolumes> cubes;
   uint64_t cut_edges = 0;           ///< of identity.open_edges: those in MeshSettings::cut
-  std::vector<DefectPlace> places;  ///< what is wrong, by kind
+  std::vector<DefectPlace> places;  ///< defects, by kind
 
   size_t withoutArea() const { return identity.degenerate_triangles + flat_triangles; }
   int64_t euler() const;                  ///< summed over shells
-  std::optional<uint64_t> genus() const;  ///< likewise; nothing where one has none
-  /// Every edge has two triangles that go along it in opposite directions, every vertex one fan, and none is there
-  /// twice or has a corner twice. True of a mesh without triangles.
+  std::optional<uint64_t> genus() const;  ///< also summed; nullopt if a shell has none
+  /// Every edge has two triangles that use it in opposite directions, every vertex has one fan, and no triangle occurs
+  /// twice or has a repeated corner. True for a mesh without triangles.
   bool watertight() const { return identity.closed() && non_finite == 0; }
-  /// A solid's surface: watertight, facing outward, covered once, without triangles that have no area or that cut each
-  /// other (where that was asked), and all of it was looked at. True of a mesh without triangles.
+  /// A solid's surface: watertight, facing outward, covered once, without triangles that have no area or intersect (if
+  /// that was requested), and completely examined. True for a mesh without triangles.
   bool valid() const;
-  /// The same of a mesh that was cut: every open edge lies in the cut, and nothing else is wrong. True where valid.
+  /// The same for a cut mesh: every open edge lies in the cut, and there is no other defect. True if valid().
   bool validButForCut() const;
-  /// Whether the volume counts some places several times, or not as what they are.
+  /// True if the volume counts some parts several times, or with the wrong sign.
   bool overlaps() const {
     return nesting.nested > 0 || nesting.inside_out > 0 || (self_intersections && self_intersections->pairs > 0);
   }
-  /// Whether all that was asked was looked at: `valid` may be false for want of that alone.
+  /// True if everything requested was examined: otherwise valid() may be false only for that reason.
   bool complete() const;
 };
 
 /// 4 sqrt(3) area / (sum of the squared edges): 1 for equal edges.
 inline constexpr double kSliver = 0.05;
 
-/// normals of `mesh` are not asked: the histogram's are smoothNormals() of the welded mesh, which any file has.
-/// Contract: that of Triangles. Pure; the same for any number of threads.
-/// Triangles are numbered as given, whatever was left out. Memory: some 200 bytes a triangle of a closed mesh,
-/// 500 where each is alone. Errors: limit for more than 2^32 / 3 triangles or 2^32 points; those of histogramOf and
-/// cubeVolumes.
+/// The normals of `mesh` are not used: the histogram's are smoothNormals() of the welded mesh, which exist for any
+/// file. Precondition: that of Triangles. Pure; the same for any number of threads. Triangles keep their numbers, even
+/// if some are excluded. Memory: about 200 bytes per triangle of a closed mesh, 500 if each is isolated. Errors: limit
+/// for more than 2^32 / 3 triangles or 2^32 points; those of histogramOf and cubeVolumes.
 Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs);
 
 }  // namespace sgm::measure

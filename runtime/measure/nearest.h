@@ -1,5 +1,5 @@
 #pragma once
-// The place on a mesh that is nearest to a point.
+// The point of a mesh that is nearest to a given point.
 
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::measure {
 
-/// The nearest place of a triangle, which may have no area. What is returned lies in the triangle, up to rounding.
+/// The nearest point of a triangle, which may have no area. The result lies in the triangle, up to rounding.
 Point nearestOn(const std::array<Point, 3>& triangle, Point to);
 
 struct Nearest {
@@ -16,8 +16,8 @@ struct Nearest {
   uint32_t triangle = 0;
 };
 
-/// tree: of the same triangles, of which there is at least one. guess: any of them; the nearer it lies, the sooner the
-/// search ends. Which of several that are equally near is found depends on it. Pure.
+/// tree: of the same triangles, of which there is at least one. guess: any of them; the nearer it is, the sooner the
+/// search ends. It also decides which of several equally near points is found. Pure.
 Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t guess = 0);
 
 }  // namespace sgm::measure

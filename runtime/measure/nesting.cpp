@@ -10,12 +10,12 @@
 namespace sgm::measure {
 namespace {
 
-/// Whether the shell has an inside: only such ones make a place lie in a solid.
+/// True if the shell has an inside: only such shells can surround a point with solid.
 bool bounds(const Shell& shell) { return shell.closed() && shell.manifold; }
-/// Whether a cut may have opened the shell, so that it has an inside as far as the mesh goes.
+/// True if a cut may have opened the shell, so that it has an inside within the mesh.
 bool boundsUpToCut(const Shell& shell) { return !shell.closed() && shell.manifold; }
 
-/// The height of a triangle that is seen along z over a place or under it.
+/// The height of a triangle that lies above or below a point along z.
 double heightAt(const std::array<Point, 3>& t, Point at) {
   const Point normal = crossOf(t[0], t[1], t[2]);
   const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
@@ -23,16 +23,16 @@ double heightAt(const std::array<Point, 3>& t, Point at) {
   return height >= low ? std::min(height, high) : low;
 }
 
-/// What an open shell says of a place.
+/// The side of an open shell on which a point lies.
 enum class BesideCut : uint8_t { unknown, in_solid, in_open };
 
-/// With another axis for z. Triangles go round the same way.
+/// Moves another axis to z. The orientation of triangles is unchanged.
 Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]}; }
 
 constexpr int kColumns = 6;
 
-/// Asks the nearest open shell above a place. If no shell lies there, or the shell only touches the line, the function
-/// asks below, then along the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
+/// Tests the nearest open shell above a point. If there is none, or it only touches the line, tests below, then along
+/// the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t most_steps) {
   for (int number = 0; number < kColumns; ++number) {
@@ -40,7 +40,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
     const int away = column.above ? 1 : -1;
     const Point place = turned(at, column.axis);
     double nearest = std::numeric_limits<double>::infinity();
-    int facing = 0;  // of the triangles there: those that face away from the place, less those that face it
+    int facing = 0;  // number of triangles there that face away from the point, minus those that face it
     const bool ended = tree.visitColumn(at, column, most_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
       if (shell == kNoShell || !boundsUpToCut(parts.shells[shell])) return;
@@ -63,7 +63,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
 
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
                            uint64_t most_steps) {
-  // On the way up to where nothing is, each triangle that faces up leaves a solid.
+  // On the way up to empty space, each triangle that faces up leaves a solid.
   int depth = 0;
   const bool ended = tree.visitColumn(at, {}, most_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
@@ -81,7 +81,7 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? most_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
-  // Without an open shell all shells stand in one space: in the open, if one of them faces outward.
+  // Without an open shell, all shells are in one space: not in a solid, if one of them faces outward.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
                        std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);

@@ -19,7 +19,7 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   for (const Bvh::Pair& pair : tree.parts(kParts)) parts.push_back({Bvh::Walk(pair), {}, 0});
   std::mutex mutex;
   uint64_t done = 0;
-  // What some parts leave of their shares the others have in the next round, whichever thread was quick.
+  // Steps that some parts leave of their shares go to the others in the next round, regardless of the speed of threads.
   uint64_t left = most_steps;
   for (;;) {
     std::vector<Part*> open;

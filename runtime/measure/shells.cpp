@@ -50,7 +50,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
   result.objects = objectsOf(mesh);
   result.of_triangle = LargeVector<uint32_t>(triangles.size(), kNoShell, mesh.memory);
   LargeVector<uint32_t>& number = result.of_triangle;
-  // Triangles with a corner twice are in no edge, and stay alone.
+  // Triangles with a repeated corner have no edge, and stay isolated.
   const auto degenerate = [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   for (uint32_t i = 0; i < triangles.size(); ++i) {
     if (degenerate(triangles[i])) continue;
@@ -81,7 +81,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
       shell.manifold = false;
     }
   }
-  // Most meshes have none, and need no memory for it.
+  // Most meshes have no borders, and need no memory for them.
   const size_t border_fans = border_halves.empty() ? 0 : fans.size();
   UnionFind borders(border_fans, mesh.memory);
   for (const HalfEdge half : border_halves) borders.join(fans.rootOf(half), fans.rootOf(nextHalf(half)));

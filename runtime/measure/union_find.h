@@ -1,5 +1,5 @@
 #pragma once
-// Which of n things belong together.
+// Groups of connected elements.
 
 #include <cstdint>
 #include <numeric>

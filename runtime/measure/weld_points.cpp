@@ -23,13 +23,13 @@ uint64_t mixed(uint64_t h) {
 
 uint64_t hashOf(const Cell& cell) { return mixed(cell.x + mixed(cell.y + mixed(cell.z + 0x2545F4914F6CDD1Du))); }
 
-/// Heads of lists of kept points by cell: open addressing over their numbers, at most half full.
+/// Heads of lists of kept points by cell: a hash table with open addressing, at most half full.
 class Cells {
  public:
   Cells(size_t points, std::pmr::memory_resource* memory)
       : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone, memory) {}
 
-  /// The slot of the cell, or the empty one where it would be. cellOf: of a kept point.
+  /// The slot of the cell, or the empty one for it. cellOf: of a kept point.
   template <class CellOf>
   uint32_t& slot(const Cell& cell, CellOf&& cellOf) {
     size_t at = hashOf(cell) & (slots_.size() - 1);
@@ -42,16 +42,16 @@ class Cells {
 };
 
 Cell bitsOf(Point p) {
-  // Adding 0 makes 0 of -0.
+  // Adding 0 turns -0 into 0.
   return {std::bit_cast<uint64_t>(p.x + 0.0), std::bit_cast<uint64_t>(p.y + 0.0), std::bit_cast<uint64_t>(p.z + 0.0)};
 }
 
-/// Of a grid with that edge, in edges.
+/// The cell of a grid with that edge.
 Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)}; }
 
 class Welder {
  public:
-  /// Room for all points takes no memory before it is used; to grow would copy them.
+  /// Memory reserved for all points costs nothing before it is used; growing would copy them.
   Welder(size_t points, double tolerance, std::pmr::memory_resource* memory)
       : tolerance_(tolerance), cells_(points, memory), kept_(memory), next_(memory) {
     kept_.reserve(points);
@@ -77,7 +77,7 @@ class Welder {
     return cells_.slot(cell, [this](uint32_t kept) { return cellOf(kept_[kept]); });
   }
 
-  /// The kept point of lowest number within the tolerance.
+  /// The kept point with the lowest number within the tolerance.
   uint32_t near(Point p) {
     uint32_t best = kNone;
     const Point grid = gridOf(p, tolerance_);
@@ -92,13 +92,13 @@ class Welder {
   double tolerance_;
   Cells cells_;
   LargeVector<Point> kept_;
-  LargeVector<uint32_t> next_;  ///< of the same cell; with a tolerance alone
+  LargeVector<uint32_t> next_;  ///< of the same cell; only with a tolerance
 };
 
 }  // namespace
 
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
-  // Where the next number is further off than the tolerance, only equal ones are near.
+  // If the next representable number is farther away than the tolerance, only equal coordinates are near.
   double farthest = 0;
   for (const Point& p : mesh.points) {
     for (const double v : {p.x, p.y, p.z})

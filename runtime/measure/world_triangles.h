@@ -1,5 +1,5 @@
 #pragma once
-// A region of a world as triangles to be measured.
+// Converts a region of a world to triangles for measuring.
 
 #include "asset/triangle_mesh.h"
 #include "mesh/weld.h"

@@ -14,7 +14,7 @@
 namespace sgm {
 namespace {
 
-/// Pieces of a diagonal that is looked at.
+/// The number of sampled pieces of a diagonal.
 constexpr int32_t kPieces = 16;
 
 class Joiner {
@@ -50,7 +50,7 @@ class Joiner {
     return corner;
   }
 
-  /// Those within the chunk that a crease passes through, by name.
+  /// The ambiguous faces within the chunk that a crease passes through, by name.
   std::pmr::vector<AmbiguousFace> ambiguousFaces() const {
     std::pmr::vector<AmbiguousFace> faces(memory_);
     for (const SurfaceLoop& loop : loops_.body().all()) {
@@ -67,7 +67,7 @@ class Joiner {
     return faces;
   }
 
-  /// The face of a loop's side, if another side of the cell lies in it.
+  /// The face of a loop's side if another side of the cell lies in it.
   std::optional<AmbiguousFace> ambiguousFace(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
     const FaceName name = loops_.faceOf(loop, a, b);
     if (isInBorder(name)) return std::nullopt;
@@ -76,13 +76,13 @@ class Joiner {
       if (c == a || sharedFace(body_.keys[c], body_.keys[d]) != name.axis || loops_.faceOf(beside, c, d) != name)
         return;
       face = AmbiguousFace{name, {cornerBetween(a, b), cornerBetween(c, d)}};
-      // In one order, from whichever side and cell.
+      // A fixed order, independent of side and cell.
       if (isBefore(face->solid[1], face->solid[0])) std::swap(face->solid[0], face->solid[1]);
     });
     return face;
   }
 
-  /// Those faces whose solid corners are joined by a straight line in the solid.
+  /// The faces whose solid corners are joined by a straight line in the solid.
   std::pmr::vector<AmbiguousFace> joinedByField(std::pmr::vector<AmbiguousFace>&& faces,
                                                 const FieldSampler& field) const {
     std::pmr::vector<Int3> points(memory_);
@@ -116,7 +116,7 @@ class Joiner {
     return at != border_.end() && !(side < *at) && !at->places.empty() ? &*at : nullptr;
   }
 
-  /// The triangles of a loop that is rounded (mesh/sharp_loops.h): its own, or a fan with its border's face vertices.
+  /// The triangles of a rounded loop (mesh/sharp_loops.h): its own, or a fan with its border's face vertices.
   LoopTriangles roundedTriangles(const Int3& cell, const CellLoop& loop) const {
     std::array<FanPoint, kLongestBodyLoop*(1 + FacePlaces::kMost)> ring;
     std::array<BorderVertex, kLongestBodyLoop * FacePlaces::kMost> at_border;
@@ -166,14 +166,14 @@ class Joiner {
   static bool isAtBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) == 0 || std::max({cell.x, cell.y, cell.z}) == kChunkCells - 1;
   }
-  /// Whether a cell beside it may be at the border.
+  /// True if an adjacent cell may be at the border.
   static bool isNearBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) <= 1 || std::max({cell.x, cell.y, cell.z}) >= kChunkCells - 2;
   }
   bool hasBorderVertices(const Int3& cell) const {
     return isAtBorder(cell) && std::binary_search(border_cells_.begin(), border_cells_.end(), cell, isBefore);
   }
-  /// Calls visit for the cells up to two away.
+  /// Calls visit for the cells at most two away.
   template <class Visit>
   static void visitAround(const Int3& cell, const Visit& visit) {
     for (int32_t z = std::max(cell.z - 2, 0); z <= std::min(cell.z + 2, kChunkCells - 1); ++z)
@@ -182,7 +182,7 @@ class Joiner {
           if (const Int3 other{x, y, z}; !(other == cell)) visit(other);
   }
 
-  /// Whether the loops of a cell have triangles that meet as they should. As meshed they do.
+  /// True if the loops of a cell have triangles that do not intersect. Loops as meshed satisfy this.
   bool isSound(const Int3& cell) const {
     if (!loops_.isJoinedAt(cell)) return true;
     const CellLoops of_cell = loops_.loopsOf(cell);
@@ -197,8 +197,8 @@ class Joiner {
     return isClearOfOthers(cell, of_cell, made);
   }
 
-  /// Whether loops keep clear of those in the cells around theirs. Face vertices at the chunk's border may lie in the
-  /// next cell: so a loop with some may meet all loops beside it, and loops with some that are two cells away.
+  /// True if loops keep clear of those in the cells around theirs. Face vertices at the chunk's border may lie in the
+  /// next cell: so a loop with such vertices may meet all adjacent loops, and similar loops that are two cells away.
   bool isClearOfOthers(const Int3& cell, const CellLoops& of_cell, std::span<const LoopTriangles> made) const {
     if (border_cells_.empty() || !isNearBorder(cell)) return true;
     const bool has_own = hasBorderVertices(cell);
@@ -210,7 +210,7 @@ class Joiner {
       if (!is_clear || !(is_beside ? has_own || has_others : has_own && has_others)) return;
       const CellLoops others = loops_.loopsOf(other);
       for (const CellLoop& loop : others.loops()) {
-        // What is not sound yet is tested by itself.
+        // Unsound loops are tested separately.
         if (!loop.canTriangulate()) continue;
         const LoopTriangles theirs = roundedTriangles(other, loop);
         for (size_t i = 0; i < of_cell.count; ++i) is_clear = is_clear && !anyMeets(made[i], theirs);
@@ -219,7 +219,7 @@ class Joiner {
     return is_clear;
   }
 
-  /// Leaves faces as they are meshed, one by one, until the loops of all cells are sound.
+  /// Leaves faces as meshed, one by one, until the loops of all cells are sound.
   void giveUpFaulty() {
     std::pmr::vector<Int3> left(memory_);  // to be tested, the next one last
     const std::span<const AmbiguousFace> faces = loops_.faces();
@@ -245,7 +245,7 @@ class Joiner {
     });
   }
 
-  /// Gives up one face of a cell, and returns it: the first that makes the cell sound, or else the first.
+  /// Gives up one face of a cell, and returns it: the first face that makes the cell sound, or else the first face.
   FaceName giveUpOne(const Int3& cell) {
     std::optional<FaceName> first;
     for (const FaceName& name : FaceName::of(cell)) {
@@ -284,7 +284,7 @@ class Joiner {
   const MeshPart& body_;
   const Creases& creases_;
   const std::span<const SharpSide> border_;
-  std::pmr::vector<Int3> border_cells_;  ///< in order
+  std::pmr::vector<Int3> border_cells_;  ///< sorted
   std::pmr::memory_resource* memory_;
 };
 

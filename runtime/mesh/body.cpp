@@ -13,7 +13,7 @@ constexpr size_t kSide = kChunkSamples;
 constexpr size_t kPlane = kSide * kSide;
 constexpr uint64_t kCellBits = (uint64_t{1} << kChunkCells) - 1;
 
-/// The crossed edges owned by the samples of one row, one word an axis.
+/// The crossed edges owned by the samples of one row, one word per axis.
 struct RowEdges {
   uint64_t x, y, z;
 };
@@ -24,7 +24,7 @@ RowEdges crossedEdges(const uint64_t* signs, size_t y, size_t z) {
           z < kChunkCells ? row[0] ^ row[kSide] : 0};
 }
 
-/// What the first pass finds: how much there will be, and the cases of the active cells in order.
+/// The result of the first pass: the sizes of the output, and the cases of the active cells in order.
 struct Census {
   size_t vertices = 0;
   size_t triangles = 0;
@@ -60,12 +60,12 @@ void takeCensus(const uint64_t* signs, Census& census) {
   }
 }
 
-/// Vertex numbers by owning sample and axis, of the two sample planes that a layer of cells lies between.
+/// Vertex numbers by owning sample and axis, for the two sample planes around a layer of cells.
 struct EdgeNumbers {
   uint32_t of[2][kPlane * 3];
 };
 
-/// Where the vertex number of each cube edge lies, from the numbers of the cell's lowest sample, for even and odd
+/// The offset of the vertex number of each cube edge from the numbers of the cell's lowest sample, for even and odd
 /// layers.
 struct EdgeOffsets {
   int32_t of[2][kCubeEdges];
@@ -85,7 +85,7 @@ constexpr EdgeOffsets makeEdgeOffsets() {
 }
 constexpr EdgeOffsets kEdgeOffsets = makeEdgeOffsets();
 
-/// Writes the vertices that the samples of plane z own, and their numbers.
+/// Writes the vertices owned by the samples of plane z, and their numbers.
 uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, uint32_t number, MeshPart& part,
                        uint32_t* numbers) {
   const int32_t corner_z = grid.origin.z + static_cast<int32_t>(z) * grid.cell;

@@ -34,7 +34,7 @@ Int3 BodyLoops::cornerOf(const Int3& cell) const {
   return corner;
 }
 
-/// The cell of a triangle: the only one that has the edges of all three corners.
+/// The cell of a triangle: the only one with the edges of all three corners.
 Int3 BodyLoops::cellOf(size_t first_index) const {
   Int3 cell;
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ void BodyLoops::findLoops() {
       return std::find(indices.data() + loop.first_index, indices.data() + at, v) != indices.data() + at;
     };
     take();
-    // A loop's triangles stand together, and loops of a cell have no vertex in common.
+    // A loop's triangles are consecutive, and loops of a cell have no vertex in common.
     while (at < indices.size() && cellOf(at) == loop.cell &&
            (joins(indices[at]) || joins(indices[at + 1]) || joins(indices[at + 2]))) {
       take();

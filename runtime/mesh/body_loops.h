@@ -1,5 +1,5 @@
 #pragma once
-// The loops of marching cubes that a chunk's body is made of: as meshed, or with joined faces (mesh/ambiguous_faces.h).
+// The marching cubes loops of a chunk's body: as meshed, or with joined faces (mesh/ambiguous_faces.h).
 
 #include <algorithm>
 #include <array>
@@ -15,13 +15,14 @@ namespace sgm {
 /// The axis of the face that two edges of a cell share; -1 if they share none.
 int sharedFace(const VertexKey& a, const VertexKey& b);
 
-/// Of a cell: as meshed it has at most kLongestCubeLoop vertices, but joined loops have more (mesh/ambiguous_faces.h).
+/// The longest loop of a cell: at most kLongestCubeLoop as meshed, but joined loops are longer
+/// (mesh/ambiguous_faces.h).
 inline constexpr int kLongestBodyLoop = kCubeEdges;
 
-/// The number of a cube's edge that a vertex is on (mesh/tables.h). corner: the cube's lowest, in units.
+/// The number of the cube edge that a vertex lies on (mesh/tables.h). corner: the lowest of the cube, in units.
 uint8_t cubeEdge(const VertexKey& key, const Int3& corner);
 
-/// A loop of cut edges in one cell. Its vertices go round counter-clockwise seen from the void, from the lowest edge.
+/// A loop of cut edges in one cell. Its vertices are counter-clockwise seen from the void, from the lowest edge on.
 struct SurfaceLoop {
   Int3 cell;                                          ///< from the chunk's origin, in cells
   std::array<uint32_t, kLongestBodyLoop> vertices{};  ///< of the body
@@ -29,10 +30,10 @@ struct SurfaceLoop {
   uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
 };
 
-/// The loops of a body without features, in the order of its triangles. Throws std::bad_alloc.
+/// The loops of a body without features, in the order of its triangles. The constructor throws std::bad_alloc.
 class BodyLoops {
  public:
-  /// Borrows the body. Good until its triangles change.
+  /// Borrows the body; valid until its triangles change.
   BodyLoops(const ChunkGrid& grid, const MeshPart& body, std::pmr::memory_resource* memory);
 
   const ChunkGrid& grid() const { return grid_; }
@@ -54,11 +55,11 @@ class BodyLoops {
       }
     }
   }
-  /// In units.
+  /// The lowest corner of a cell, in units.
   Int3 cornerOf(const Int3& cell) const;
 
  private:
-  /// Of a row of cells.
+  /// The pieces of a row of cells.
   static constexpr int32_t kPieces = 4;
   static size_t pieceOf(const Int3& cell) {
     return static_cast<size_t>((cell.z * kChunkCells + cell.y) * kPieces + cell.x / (kChunkCells / kPieces));
@@ -70,7 +71,7 @@ class BodyLoops {
   const ChunkGrid grid_;
   const MeshPart& part_;
   std::pmr::vector<SurfaceLoop> loops_;
-  std::pmr::vector<uint32_t> starts_;  ///< in loops_, by piece; one more at the end
+  std::pmr::vector<uint32_t> starts_;  ///< start in loops_ of each piece; one more at the end
 };
 
 }  // namespace sgm

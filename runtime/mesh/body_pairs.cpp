@@ -7,11 +7,11 @@
 namespace sgm {
 namespace {
 
-// Cells are counted from two below the chunk on.
+// Cells are counted from two below the chunk.
 constexpr int kBelow = 2, kCells = kChunkCells + 2 * kBelow + 1;
 constexpr int kLeast = -kBelow * kSubcell, kMost = (kChunkCells + kBelow) * kSubcell;
 constexpr int kMostSpan = 4 * kSubcell;
-/// Of one cell: a sound body has at most a dozen.
+/// Per cell: a sound body has at most a dozen.
 constexpr size_t kMostInCell = 64;
 
 using Cell = std::array<int, 3>;
@@ -65,12 +65,12 @@ class PairCounter {
       last = triangle.home;
     }
     if (sorted) return;
-    // Those of one cell do not stand together, as those of our bodies do: each is compared with all around it.
+    // The triangles of a cell are not consecutive, unlike those of our bodies: each is compared with all around it.
     wide_ = count;
     for (PairTriangle& triangle : triangles_) triangle.wide = true;
   }
 
-  /// Pairs of one cell that are not wide.
+  /// Compares pairs within one cell that are not wide.
   void compareInCells() {
     const size_t count = triangles_.size();
     for (size_t t = 0; t + 1 < count; ++t) {
@@ -85,7 +85,7 @@ class PairCounter {
     }
   }
 
-  /// The cells that a triangle has more of than their low faces.
+  /// The cells that contain more of a triangle than their low faces do.
   void cellsOf(const PairTriangle& triangle, Cell& low, Cell& high) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       low[axis] = cellAt(triangle.low[axis]);
@@ -116,13 +116,13 @@ class PairCounter {
     uint32_t sum = 0;
     for (uint32_t& at : first) at = sum += at;
     scratch_.listed.resize(sum);
-    // From the last to the first, so that each cell's begin where they begin.
+    // From the last to the first, so that first[cell] ends as the start of each cell.
     forAll([&](uint32_t cell, uint32_t t) { scratch_.listed[--first[cell]] = t; });
   }
 
   void compareWide(uint32_t t) {
     const PairTriangle& triangle = triangles_[t];
-    // What touches a low face may lie below it alone.
+    // A triangle that touches a low face may lie only below it.
     Cell from, to;
     for (size_t axis = 0; axis < 3; ++axis) {
       from[axis] = std::max(0, cellAt(triangle.low[axis] - 1));
@@ -137,7 +137,7 @@ class PairCounter {
         bool here = true;
         for (size_t axis = 0; axis < 3; ++axis) {
           here &= seen.low[axis] <= triangle.high[axis] && triangle.low[axis] <= seen.high[axis];
-          // In the first of the cells that both are in.
+          // Counted in the first common cell.
           here &= std::max(from[axis], cellAt(seen.low[axis])) == cell[axis];
         }
         if (here) compare(t, other);

@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// In 1/256 of a cell: how far a face vertex may move for convenience.
+/// In 1/256 of a cell: how far a face vertex may be moved to simplify.
 constexpr int32_t kClose = 8;
 
 bool hasTwoLoops(const std::array<int32_t, 8>& q) {
@@ -19,7 +19,7 @@ bool hasTwoLoops(const std::array<int32_t, 8>& q) {
   return (kCubeFirstLoop[solid] >> 24 & 1) != 0;
 }
 
-/// From a point off the surface to the tangent of a third plane that lies in front of the two: one step of Newton's.
+/// From a point off the surface to the tangent of a third plane in front of the two: one Newton step.
 std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& from, const FieldSample& sample) {
   const double u = sample.gradient[static_cast<size_t>((side.axis + 1) % 3)];
   const double v = sample.gradient[static_cast<size_t>((side.axis + 2) % 3)];
@@ -29,7 +29,7 @@ std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& fro
   return FacePoint{from[0] - step * u, from[1] - step * v};
 }
 
-/// A point on the grid, in the side's square or the one beside it, or as near to it as that has places; nullopt if it
+/// A point on the grid, in the side's square or the adjacent one, or the nearest point with places there; nullopt if it
 /// is more than a cell away.
 std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32_t cell) {
   const auto outside = [](int32_t at) { return std::max(-at, at - kSubcell); };
@@ -40,7 +40,7 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
     if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
     place[k == 0 ? u : v] = static_cast<int32_t>(at);
   }
-  // A place close to the edge is as good in the side's own square, where nothing comes in its way.
+  // A place close to the edge is moved into the side's own square, where nothing interferes.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
   const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMostOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
@@ -49,7 +49,7 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
   return place;
 }
 
-/// Whether a side that goes from its one end to the other by way of two places does not cross itself.
+/// True if the path from one end of a side to the other by way of two places does not cross itself.
 bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, const Int3& second, int32_t cell) {
   const auto u = static_cast<size_t>((side.axis + 1) % 3), v = static_cast<size_t>((side.axis + 2) % 3);
   const auto placeOfEnd = [&](uint32_t end) {
@@ -65,13 +65,13 @@ bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, 
     return area > 0 ? 1 : area < 0 ? -1 : 0;
   };
   const Int3 from = placeOfEnd(side.from), to = placeOfEnd(side.to);
-  // The first and last pieces lie on the two sides of one of them.
+  // The first and last segments lie on the two sides of one of them.
   const bool apart =
       turn(from, first, second) * turn(from, first, to) > 0 || turn(second, to, from) * turn(second, to, first) > 0;
   return apart && turn(from, first, second) != 0 && turn(first, second, to) != 0;
 }
 
-/// Gives sides at the border their places, and returns those that have any.
+/// Places the vertices of sides at the border, and returns the sides that have places.
 class SurfacePlaces {
  public:
   SurfacePlaces(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
@@ -92,7 +92,7 @@ class SurfacePlaces {
     std::optional<Int3> single, first, second;
   };
 
-  /// Where the planes of a side's ends meet.
+  /// Places vertices where the planes of a side's ends meet.
   void placeMeetings(std::span<SharpSide> sides, std::pmr::vector<SharpSide*>& placed) {
     std::pmr::vector<SharpSide*> tried(points_.get_allocator());
     for (SharpSide& side : sides) {
@@ -134,7 +134,7 @@ class SurfacePlaces {
     cut_off_.push_back(cut);
   }
 
-  /// Where a third plane meets those of a side's ends, or on it.
+  /// Places vertices where a third plane meets those of a side's ends, or on it.
   void placeCutOff(std::pmr::vector<SharpSide*>& placed) {
     points_.clear();
     for (const CutOff& cut : cut_off_) {
@@ -172,8 +172,8 @@ class SurfacePlaces {
   std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Gives sides their places, as they have them if no rounded loop is in their way, and returns those that have any: in
-/// one square, where the surface passes once through the side's own.
+/// Places the vertices of sides, as if no rounded loop interfered, and returns the sides that have places: in one
+/// square, if the surface passes once through the side's own.
 std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                                         std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
   std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
@@ -202,7 +202,7 @@ std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSample
   return placed;
 }
 
-/// Takes the places of sides whose rounded loops would meet others.
+/// Removes the places of sides whose rounded loops would intersect others.
 class RoundedLoops {
  public:
   RoundedLoops(const ChunkGrid& grid, const FieldSampler& field, std::pmr::memory_resource* memory)

@@ -1,13 +1,13 @@
 #pragma once
-// The one rule behind marching cubes and seam cells, on any closed cell. It runs at build time (generate_tables.cpp)
-// and in tests; the runtime reads the tables that it makes (tables.h).
+// The common rule of marching cubes and seam cells, for any closed cell. It runs at build time (generate_tables.cpp)
+// and in tests; the runtime reads the generated tables (tables.h).
 //
-// The rule. On every face of a cell, walk the corners counter-clockwise as seen from outside. Each maximal run of solid
-// corners is cut off by one directed segment, from the edge where the walk enters the run to the edge where it leaves
-// it. The segments of a cell close into loops, counter-clockwise as seen from the void. Since the rule reads the face's
-// own signs alone, two cells that share a face make the same segments, reversed.
+// The rule. On every face of a cell, walk the corners counter-clockwise as seen from outside. One directed segment cuts
+// off each maximal run of solid corners, from the edge where the walk enters the run to the edge where it leaves it.
+// The segments of a cell form loops, counter-clockwise as seen from the void. Since the rule depends only on the face's
+// own signs, two cells that share a face produce the same segments, reversed.
 //
-// Canonical order. A loop starts at its edge of lowest number; the loops of a case come by their first edges.
+// Canonical order. A loop starts at its edge of lowest number; the loops of a case are sorted by their first edges.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ struct Cell {
     return static_cast<int>(at - edges.begin());
   }
 
-  /// Bit f is set for each face f that edge e lies in. A diagonal between two edges is allowed where the masks are
+  /// Bit f is set for each face f that contains edge e. A diagonal between two edges is allowed if their masks are
   /// disjoint.
   uint32_t facesOfEdge(int e) const {
     uint32_t mask = 0;
@@ -43,7 +43,7 @@ struct Cell {
   }
 };
 
-/// Corners, edges and faces of a cube, numbered as tables.h says.
+/// Corners, edges and faces of a cube, numbered as in tables.h.
 inline Cell cubeCell() {
   Cell cell{8, {}, {}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,7 +61,7 @@ inline Cell cubeCell() {
   return cell;
 }
 
-/// The seam cell over the high face of a fine chunk (the coarse chunk lies beyond), numbered as tables.h says.
+/// The seam cell over the high face of a fine chunk (the coarse chunk lies beyond), numbered as in tables.h.
 inline Cell seamCell() {
   const auto fine = [](int a, int b) { return a + 3 * b; };
   const auto coarse = [](int a, int b) { return 9 + a + 2 * b; };

@@ -10,7 +10,7 @@ namespace {
 uint32_t addCrossing(const ChunkGrid& grid, const Int3& cell, uint32_t edge, const std::array<int32_t, 8>& q,
                      MeshPart& part) {
   const auto axis = static_cast<int>(edge / 4);
-  Int3 start;  // the corner at which the edge starts, from the cell
+  Int3 start;  // the corner at which the edge starts, relative to the cell
   start[axis == 0 ? 1 : 0] = static_cast<int32_t>(edge & 1);
   start[axis == 2 ? 1 : 2] = static_cast<int32_t>(edge >> 1 & 1);
   const auto from = static_cast<size_t>(start.x | start.y << 1 | start.z << 2);

@@ -1,5 +1,5 @@
 #pragma once
-// The loops of single cells, apart from any body.
+// The loops of single cells, without a body.
 
 #include <array>
 #include <memory_resource>

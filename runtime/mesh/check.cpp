@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A corner of a triangle, from the vertex it is at: the two others in order.
+/// A corner of a triangle at its vertex: the two other vertices, in order.
 struct Corner {
   uint32_t next, previous;
 };
@@ -44,7 +44,7 @@ struct CornersByVertex {
   std::span<const Corner> around(size_t v) const { return {corners.data() + start[v], start[v + 1] - start[v]}; }
 };
 
-/// Counts the edges from v to vertices of higher number, each once in the whole mesh.
+/// Counts the edges from v to vertices of higher number, so that each edge of the mesh is counted once.
 void countEdges(size_t v, std::span<const Corner> around, std::vector<uint32_t>& out, std::vector<uint32_t>& in,
                 MeshReport& report) {
   out.clear();
@@ -68,7 +68,7 @@ void countEdges(size_t v, std::span<const Corner> around, std::vector<uint32_t>&
   }
 }
 
-/// Counts pairs of triangles with the same vertices at their vertex of lowest number.
+/// Counts pairs of triangles with the same vertices, at their vertex of lowest number.
 void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::pair<uint32_t, uint32_t>>& opposite,
                      MeshReport& report) {
   opposite.clear();
@@ -80,7 +80,8 @@ void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::
 
 enum class Link { cycle, path, broken };
 
-/// link: the corners around a vertex, sorted here by `next`. Each leads from its next vertex to its previous one.
+/// link: the corners around a vertex, sorted here by `next`. Each corner leads from its next vertex to its previous
+/// one.
 Link classifyLink(std::vector<Corner>& link) {
   std::sort(link.begin(), link.end(), [](const Corner& a, const Corner& b) { return a.next < b.next; });
   const auto find = [&](uint32_t from) {
@@ -90,7 +91,7 @@ Link classifyLink(std::vector<Corner>& link) {
   };
   for (size_t i = 1; i < link.size(); ++i)
     if (link[i].next == link[i - 1].next) return Link::broken;
-  // A path starts at the one corner that nothing leads to; a cycle may start anywhere.
+  // A path starts at the only corner without a predecessor; a cycle may start anywhere.
   std::vector<bool> led_to(link.size());
   for (const Corner& c : link) {
     const size_t to = find(c.previous);
@@ -164,7 +165,7 @@ std::string describe(const MeshReport& r) {
                                                    {"unmatched edges", r.unmatched_edges},
                                                    {"repeated edges", r.repeated_edges},
                                                    {"non-manifold edges", r.non_manifold_edges},
-                                                   {"pinched vertices", r.pinched_vertices},
+                                                   {"non-manifold vertices", r.pinched_vertices},
                                                    {"border vertices", r.border_vertices},
                                                    {"degenerate triangles", r.degenerate_triangles},
                                                    {"duplicate triangles", r.duplicate_triangles}};

@@ -1,5 +1,5 @@
 #pragma once
-// The vocabulary of meshing: a chunk's samples, packed vertices, meshes with their six seams, vertex keys.
+// The basic types of meshing: a chunk's samples, packed vertices, meshes with their six seams, vertex keys.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ enum class Face : uint8_t { x_lo, x_hi, y_lo, y_hi, z_lo, z_hi };
 inline constexpr int faceAxis(Face f) { return static_cast<int>(f) >> 1; }
 inline constexpr bool faceIsHigh(Face f) { return static_cast<int>(f) & 1; }
 
-/// Where a chunk lies: its lowest corner in units and its cell edge in units (finest cell << level).
+/// The position of a chunk: its lowest corner in units and its cell edge in units (finest cell << level).
 struct ChunkGrid {
   Int3 origin;
   int32_t cell = kUnitsPerMetre;
@@ -29,8 +29,8 @@ struct ChunkGrid {
 };
 
 /// Quantised samples of one chunk. q has kChunkSamples^3 entries, x fastest, then y, then z.
-/// signs has one word a row (y + z * kChunkSamples): bit x is set where sample x is solid (Q < 0).
-/// q is only defined at the ends of edges whose ends differ in sign; signs are always right.
+/// signs has one word per row (y + z * kChunkSamples): bit x is set if sample x is solid (Q < 0).
+/// q is only defined at the ends of edges whose ends differ in sign; signs are always defined.
 struct ChunkSamples {
   std::pmr::vector<int32_t> q;
   std::pmr::vector<uint64_t> signs;
@@ -40,12 +40,12 @@ struct ChunkSamples {
         signs(size_t{kChunkSamples} * kChunkSamples, memory) {}
 };
 
-/// Which crossed edge a vertex stands for; the word that tells it is part of the vertex, so that whoever sees only
-/// positions can form exact keys (VertexKey). Feature vertices have kinds of their own (mesh/feature_kind.h).
+/// The crossed edge that a vertex stands for. The kind is part of the vertex, so that positions alone suffice to derive
+/// exact keys (VertexKey). Feature vertices have kinds of their own (mesh/feature_kind.h).
 enum VertexKind : uint16_t {
-  kOwnEdge = 0,      ///< of the chunk's own level: one coordinate is no multiple of kSubcell, the edge's axis
-  kCoarserEdge = 1,  ///< of the level above, in seams alone: one coordinate is no multiple of 2 * kSubcell
-  kLateralEdge = 2,  ///< in seams alone: sits on a corner of the level above and joins the two levels
+  kOwnEdge = 0,      ///< of the chunk's own level: one coordinate, the edge's axis, is not a multiple of kSubcell
+  kCoarserEdge = 1,  ///< of the level above, only in seams: one coordinate is not a multiple of 2 * kSubcell
+  kLateralEdge = 2,  ///< only in seams: lies on a corner of the level above and joins the two levels
 };
 
 /// A packed vertex, 16 bytes, the same on every backend.
@@ -55,16 +55,16 @@ struct Vertex {
   uint16_t material;           ///< index into the grammar's materials
   int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags
-  uint16_t kind;               ///< a VertexKind, 0 throughout a body; or a feature vertex's
+  uint16_t kind;               ///< a VertexKind, 0 throughout a body; or a kind of a feature vertex
 };
 static_assert(sizeof(Vertex) == 16);
 
-/// A crossed edge, and so a vertex, told apart without any tolerance. It follows from a chunk and a packed vertex:
-/// corner is the vertex's place rounded down to the grid of the edge's level, axis the coordinate that is no multiple
-/// of that level's cell; the fan of a lateral edge follows from the blocks around the chunk (mesh/fans.h). A grid edge
-/// starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins the two
-/// levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so that
-/// every vertex's link is one cycle even where the two levels' fields differ.
+/// Identifies a crossed edge, and so a vertex, without any tolerance. It follows from a chunk and a packed vertex:
+/// corner is the vertex's position rounded down to the grid of the edge's level, axis the coordinate that is not a
+/// multiple of that level's cell; the fan of a lateral edge follows from the blocks around the chunk (mesh/fans.h). A
+/// grid edge starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins the
+/// two levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so that
+/// every vertex's link is one cycle even if the two levels' fields differ.
 struct VertexKey {
   Int3 corner;
   uint8_t level = 0;
@@ -73,25 +73,25 @@ struct VertexKey {
   friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
 };
 inline constexpr uint8_t kLateral = 3;
-/// Axes of feature vertices (mesh/sharpen.h). kFaceVertex + the axis that its face stands on, with the face's lowest
-/// corner; kCellVertex with the cell's. `fan` tells the sides of a face, and the loops of a cell, apart; kSecondOfSide
-/// is added to it for the second face vertex of a side.
+/// Axes of feature vertices (mesh/sharpen.h). kFaceVertex plus the normal axis of its face, with the face's lowest
+/// corner; kCellVertex with the cell's lowest corner. `fan` distinguishes the sides of a face, and the loops of a cell;
+/// kSecondOfSide is added to it for the second face vertex of a side.
 inline constexpr uint8_t kFaceVertex = 4;
 inline constexpr uint8_t kCellVertex = 7;
 inline constexpr uint8_t kSecondOfSide = 8;
 
-/// Two 32-bit sums of mixed words, keyed by their index: equal on any device, in any order of addition.
+/// Two 32-bit sums of mixed words, keyed by their index: the same on any device and in any order of addition.
 struct ContentHash {
   uint32_t a = 0, b = 0;
   friend auto operator<=>(const ContentHash&, const ContentHash&) = default;
   uint64_t value() const { return uint64_t{b} << 32 | a; }
 };
 
-/// A part of a chunk that is drawn as a whole: the body, or one seam. Triangles index this part's own vertices.
+/// A part of a chunk that is drawn as a whole: the body, or one seam. Triangles index the part's own vertices.
 struct MeshPart {
   RawVector<Vertex> vertices;
-  RawVector<uint32_t> indices;  ///< three a triangle, counter-clockwise seen from the void
-  RawVector<VertexKey> keys;    ///< one a vertex
+  RawVector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the void
+  RawVector<VertexKey> keys;    ///< one per vertex
   ContentHash hash;             ///< of vertices and indices
 
   explicit MeshPart(std::pmr::memory_resource* memory = std::pmr::get_default_resource())

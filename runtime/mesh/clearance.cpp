@@ -13,9 +13,9 @@ constexpr int kLast = kChunkSamples - 1;
 constexpr size_t kPitch = 40;  // of a row of values: whole vectors
 constexpr uint64_t kOwnSamples = (uint64_t{1} << kChunkCells) - 1;
 
-/// Squares of the distances to what is solid, one axis after the other: the nearest of a plane's is among the nearest
-/// of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions). Within a chunk a window of
-/// 2 reach + 1 is so short that looking at all of it wins.
+/// Squared distances to the nearest solid sample, one axis after the other: the nearest of a plane is among the nearest
+/// of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions). Within a chunk a window of 2
+/// reach + 1 is so short that searching it entirely is fastest.
 class SquaredDistances {
  public:
   SquaredDistances(const ChunkSignsAround& around, int most, std::pmr::memory_resource* memory)
@@ -24,7 +24,7 @@ class SquaredDistances {
   }
 
   std::pmr::vector<uint16_t> run() const {
-    const auto side = static_cast<size_t>(kChunkSamples + 2 * reach_);  // samples that are looked at, on each axis
+    const auto side = static_cast<size_t>(kChunkSamples + 2 * reach_);  // examined samples on each axis
     std::pmr::vector<int16_t> rows(side * side * kPitch, most_, memory_);
     for (size_t z = 0; z < side; ++z) {
       for (size_t y = 0; y < side; ++y)
@@ -50,14 +50,14 @@ class SquaredDistances {
  private:
   static int chunkOf(int sample) { return sample < 0 ? 0 : sample > kLast ? 2 : 1; }
 
-  /// y, z: of the middle chunk's samples, or beyond it by up to the reach.
+  /// y, z: samples of the middle chunk, or beyond it by up to the reach.
   void alongRow(int y, int z, int16_t* values) const {
     const int j = chunkOf(y), k = chunkOf(z);
     const auto row = [&](int i) {
       return around_[static_cast<size_t>(i + 3 * j + 9 * k)]->row(y - (j - 1) * kChunkCells, z - (k - 1) * kChunkCells);
     };
     const uint64_t own = row(1);
-    // Samples of the lower chunk but the shared one; of the upper one likewise.
+    // Samples of the lower chunk except the shared one, and of the upper one in the same way.
     const uint64_t low = reach_ > 0 ? row(0) & kOwnSamples : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
     if ((own | low | high) == 0) return;
     int away = low != 0 ? std::countl_zero(low) - (64 - kChunkCells) : 2 * kChunkCells;
@@ -74,7 +74,7 @@ class SquaredDistances {
     }
   }
 
-  /// to: the least of the 2 reach + 1 rows from `from` on, each with the square of how far it is from their middle.
+  /// to: the minimum over the 2 reach + 1 rows from `from` on, each plus its squared distance from the middle row.
   void nearest(const int16_t* from, size_t pitch, int16_t* to) const {
     for (int d = -reach_; d <= reach_; ++d, from += pitch) {
       const auto square = static_cast<int16_t>(d * d);
@@ -85,7 +85,7 @@ class SquaredDistances {
   const ChunkSignsAround& around_;
   const int16_t most_;
   std::pmr::memory_resource* memory_;
-  int reach_ = 0;  ///< a solid sample farther off than this on an axis is at least `most` away
+  int reach_ = 0;  ///< a solid sample farther than this along an axis is at least `most` away
 };
 
 }  // namespace

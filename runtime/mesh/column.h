@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles lie over or under a place, along z: the inside of a closed surface is counted by them.
+// Finds the triangles above or below a point along z, to decide whether the point is inside a closed surface.
 
 #include <array>
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace sgm {
 
-/// 1 where the triangle covers (x, y) of the place seen along z and faces up, -1 where it faces down, 0 where it does
-/// not cover it. Of triangles around a common edge or corner those that go round the same way share the places on it
-/// out, so that a closed surface is crossed as often upward as downward, exactly. Signs: as IntegerSigns
-/// (mesh/triangle_faults.h), of which orientationAlong is taken.
+/// Returns 1 if the triangle covers (x, y) of the point seen along z and faces up, -1 if it faces down, 0 if it does
+/// not cover it. A point on a common edge or corner of triangles with the same orientation is covered by exactly one of
+/// them, so that a closed surface has exactly as many upward as downward crossings. Signs: as IntegerSigns
+/// (mesh/triangle_faults.h), of which orientationAlong is used.
 template <class Signs>
 int turnOver(const std::array<typename Signs::Place, 3>& t, const typename Signs::Place& place) {
   const int round = Signs::orientationAlong(2, t[0], t[1], t[2]);
@@ -18,7 +18,7 @@ int turnOver(const std::array<typename Signs::Place, 3>& t, const typename Signs
     typename Signs::Place a = t[k], b = t[(k + 1) % 3];
     if (round < 0) std::swap(a, b);
     const int side = Signs::orientationAlong(2, a, b, place);
-    // A place on the edge belongs to the triangle on its one side.
+    // A point on the edge belongs to the triangle on one fixed side.
     const bool owns = b.y < a.y || (b.y == a.y && b.x > a.x);
     if (side < 0 || (side == 0 && !owns)) return 0;
   }

@@ -11,12 +11,12 @@ namespace {
 constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
 constexpr double kOffSurface = 1.0 / 25;  // of a cell
 constexpr double kSlide = 1.0 / 128;      // of a cell
-constexpr double kLeastSine = 0.05;      // of the angle between two lines in a face, for their meeting to be known well
-constexpr double kOnCrease = 3.0 / 256;  // of a cell: nearer, triangles are slivers as thin as their rounding
+constexpr double kLeastSine = 0.05;       // of the angle between two lines in a face, for a well-conditioned meeting
+constexpr double kOnCrease = 3.0 / 256;   // of a cell: if nearer, triangles are slivers as thin as their rounding
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
 
-/// The unit vector of a gradient; 0 where it has no length.
+/// The unit vector of a gradient; 0 if it has no length.
 Vector3 directionOf(const FieldSample& s) {
   Vector3 n = gradientOf(s);
   const double steepness = std::sqrt(dot(n, n));
@@ -56,14 +56,14 @@ void Creases::touch() {
   }
 }
 
-/// The point of a vertex's edge at `step` 256ths of it.
+/// The point of a vertex's edge at `step` 256ths of the edge.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;
   point[part_.keys[vertex].axis] += localUnits(step, grid_.cell);
   return point;
 }
 
-/// Samples the field at one place on each of these vertices' edges.
+/// Samples the field at one point on the edge of each vertex.
 std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps,
                                                    Sampled what) const {
   std::pmr::vector<Int3> points(memory_);
@@ -74,7 +74,7 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
   return samples;
 }
 
-/// Moves vertices that lie off the surface, on grid edges that pass through a crease, by bisection.
+/// Moves vertices that are off the surface, on grid edges that pass through a crease, by bisection.
 void Creases::slide() {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
   for (uint32_t v = 0; v < tangents_.size(); ++v) {
@@ -180,7 +180,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
     const Range range = rangeOn(k, corner, across);
     const double lo = range.least * step - units[axis], hi = range.most * step - units[axis];
     if (std::fabs(along[axis]) < 1e-6) {
-      // A crease along the border of the chunk may lie outside by 1/256, by which onGrid moves the place.
+      // A crease along the border of the chunk may be outside by 1/256, by which onGrid moves the place.
       if (lo > step || hi < -step) return std::nullopt;
       continue;
     }
@@ -191,7 +191,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
   const double at = std::clamp(0.0, least, most);
   Vector3 place;
   for (size_t k = 0; k < 3; ++k) {
-    // For the rounding of the ends.
+    // Includes the rounding of the ends.
     const double lo = -kMostOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMostOutside) * step;
     place[k] = std::clamp(units[k] + at * along[k], lo, hi);
   }

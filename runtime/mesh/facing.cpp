@@ -3,8 +3,8 @@
 namespace sgm {
 namespace {
 
-/// Of a cell's face: by how much of twice its area, times the normals of its vertices, a sliver may face inward because
-/// its corners are rounded.
+/// For a cell's face: the part of twice its area, times the normals of its vertices, by which a sliver may face inward
+/// because its corners are rounded.
 constexpr double kFold = 0.02;
 
 }  // namespace

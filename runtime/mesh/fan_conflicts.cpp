@@ -12,14 +12,14 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// Whether a fan, seen along some direction, goes round its centre once, and always the same way: then no two of its
-/// triangles lie upon each other there. Most fans about a cell vertex do.
+/// True if a fan, seen along some direction, goes around its centre once, always in the same direction: then no two of
+/// its triangles overlap. Most fans around a cell vertex satisfy this.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
-  // A fan about one of its own corners does not go round it.
+  // A fan around one of its own corners does not go around it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
   for (size_t i = 1; i < fan.size(); ++i)
     if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;
-  // Along the axes, and from the eight octants.
+  // Along the axes and towards the octants.
   constexpr std::array<Int3, 7> kDirections{Int3{1, 0, 0},  Int3{0, 1, 0},  Int3{0, 0, 1}, Int3{1, 1, 1},
                                             Int3{1, 1, -1}, Int3{1, -1, 1}, Int3{-1, 1, 1}};
   std::array<std::array<int64_t, 3>, LoopTriangles::kMost> areas;
@@ -30,7 +30,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
     areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
   }
   for (const Int3& d : kDirections) {
-    // Seen along d, a line through the centre: points on it have across . (p - centre) = 0.
+    // Seen along d, a line through the centre: its points have across . (p - centre) = 0.
     const Int3 across = d.x != 0 && d.y != 0 ? Int3{d.y, -d.x, 0}
                         : d.x != 0           ? Int3{0, 1, 0}
                         : d.y != 0           ? Int3{0, 0, 1}
@@ -52,7 +52,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
   return false;
 }
 
-/// Where the features of loops may lie, and which loops may meet for them.
+/// The boxes of the features of loops, and the pairs of loops that may intersect.
 class Neighbours {
  public:
   Neighbours(const SharpLoops& sharp, std::pmr::memory_resource* memory)
@@ -64,13 +64,13 @@ class Neighbours {
     }
   }
 
-  /// The place of a loop of the body among the sharp ones; kNone if it is not sharp.
+  /// The index of a body's loop in the sharp ones; kNone if it is not sharp.
   uint32_t placeOf(uint32_t loop) const { return place_[loop]; }
 
-  /// After a change of the centre of a sharp loop.
+  /// Call after the centre of a sharp loop has changed.
   void update(uint32_t place) { features_[place] = featuresOf(sharp_.loops[place]); }
 
-  /// Calls visit(number) for all loops that may meet a loop, but for the loop itself.
+  /// Calls visit(number) for all other loops that may intersect a loop.
   template <class Visit>
   void visit(uint32_t loop, const Visit& visit) const {
     const PlaceBox own = boxOf(loop);
@@ -82,8 +82,8 @@ class Neighbours {
     visitCells(loop, own, lo, hi, visit);
   }
 
-  /// As visit, but without fans that reach out of their cells, if the loop's own features do not. These meet no others
-  /// but those of the same cell and of cells that share a face with it.
+  /// Same as visit, but without fans that extend out of their cells, if the loop's own features do not. Such fans meet
+  /// only those of the same cell and of cells that share a face with it.
   template <class Visit>
   void visitFromInside(uint32_t loop, const Visit& visit) const {
     if (!isInside(loop)) return this->visit(loop, visit);
@@ -98,7 +98,7 @@ class Neighbours {
       }
     }
   }
-  /// Whether visitFromInside(loop) comes to another loop that may meet it.
+  /// True if visitFromInside(loop) visits another loop that may intersect it.
   bool visitsFromInside(uint32_t loop, uint32_t other) const {
     const Int3 &at = body_.all()[loop].cell, &beside = body_.all()[other].cell;
     return std::abs(at.x - beside.x) + std::abs(at.y - beside.y) + std::abs(at.z - beside.z) <= 1 || !isInside(loop);
@@ -106,7 +106,7 @@ class Neighbours {
 
  private:
   struct Boxes {
-    PlaceBox all, off_squares;  ///< off_squares: without face vertices that lie in the inside of their side's square
+    PlaceBox all, off_squares;  ///< off_squares: without face vertices inside their side's square
   };
 
   template <class Visit>
@@ -116,8 +116,8 @@ class Neighbours {
     });
   }
 
-  /// Whether the features of a sharp loop lie in its cell, which is not at the chunk's border, and only those in
-  /// squares on its faces.
+  /// True if all features of a sharp loop lie in its cell, which is not at the chunk's border, and only face vertices
+  /// within squares lie on its faces.
   bool isInside(uint32_t loop) const {
     const Int3& cell = body_.all()[loop].cell;
     const Boxes& boxes = features_[place_[loop]];
@@ -154,9 +154,9 @@ class Neighbours {
     box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
     return box;
   }
-  /// Whether a plane between the cells has the features of each loop strictly on its own side, but for face vertices in
-  /// the inside of their squares. In that plane both have what plain loops have there, which meet as they should, and
-  /// those face vertices: in different squares, or in a square of which they share the side.
+  /// True if a plane between the cells separates the features of the two loops strictly, except face vertices inside
+  /// their squares. In that plane both have the edges of plain loops, which are disjoint as required, and those face
+  /// vertices: in different squares, or in a square where they share the side.
   bool areApart(uint32_t a, uint32_t b) const {
     const Int3 &at = body_.all()[a].cell, &other = body_.all()[b].cell;
     for (int k = 0; k < 3; ++k) {
@@ -189,11 +189,11 @@ class Neighbours {
 
   const SharpLoops& sharp_;
   const BodyLoops& body_;
-  std::pmr::vector<uint32_t> place_;  ///< in sharp_.loops, by loop of the body
+  std::pmr::vector<uint32_t> place_;  ///< index in sharp_.loops, by loop of the body
   std::pmr::vector<Boxes> features_;  ///< by sharp loop, in 1/256 of a cell from the chunk's origin
 };
 
-/// The triangles that loops have now, made when they are asked for.
+/// The current triangles of loops, computed on request.
 class PresentTriangles {
  public:
   PresentTriangles(const SharpLoops& sharp, const Neighbours& neighbours, std::pmr::memory_resource* memory)
@@ -211,7 +211,7 @@ class PresentTriangles {
     make(b);
     return sgm::anyMeets(of(a), of(b));
   }
-  /// After a change of the loop.
+  /// Call after the loop has changed.
   void forget(const SharpLoop& loop) {
     at_[loop.loop].count = 0;
     for (const uint32_t s : loop.sides) {
@@ -222,9 +222,9 @@ class PresentTriangles {
   }
 
  private:
-  static constexpr size_t kUsual = 8;  ///< triangles of a sharp loop
+  static constexpr size_t kUsual = 8;  ///< triangles of a sharp loop, usually
 
-  /// Those of one loop, in triangles_ and boxes_; 0 are not made.
+  /// The triangles of one loop, in triangles_ and boxes_; 0 if not yet computed.
   struct Range {
     uint32_t begin = 0, count = 0;
     PlaceBox box;
@@ -256,7 +256,7 @@ class PresentTriangles {
   std::pmr::vector<PlaceBox> boxes_;  ///< of triangles_
 };
 
-/// How far the centre of a fan lies outside of its cell; less than 0 inside.
+/// How far the centre of a fan lies outside its cell; negative inside.
 int32_t outsideOf(const SharpLoops& sharp, const SharpLoop& loop) {
   if (!loop.isFan()) return 0;
   const Int3& cell = sharp.of(loop).cell;
@@ -291,10 +291,10 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       return s != kNone && !sharp.sides[s].places.empty() && !sharp.hasFaceVertices(sharp.sides[s]);
     });
   };
-  // Numbers of sharp loops; and for each when it was tested last and when it changed, counted in tests.
+  // Indices of sharp loops; and for each the times of its last test and change, counted in tests.
   std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
   std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
-  std::pmr::vector<uint64_t> order(memory);  // of the dirty ones, below their rank
+  std::pmr::vector<uint64_t> order(memory);  // of the dirty ones, in the bits below their rank
   uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
   const auto visitSharing = [&](const SharpLoop& loop, const auto& visit) {
@@ -305,7 +305,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
     }
   };
   while (!dirty.empty()) {
-    // Around a corner of the solid many loops have it for their centre: the one whose cell it is in shall keep it.
+    // At a corner of the solid it is the centre of many loops: the loop whose cell contains it shall keep it.
     order.clear();
     for (const uint32_t number : dirty) {
       const auto rank = static_cast<uint32_t>(kMostOutside - outsideOf(sharp, sharp.loops[number]));
@@ -318,7 +318,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
-      // With all of its face vertices the fan is sound; some may be lost by now.
+      // With all of its face vertices the fan is sound; some may be lost now.
       bool faulty = lacksVertex(loop) && !isSound(sharp.trianglesOf(loop));
       neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
@@ -336,7 +336,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       visitSharing(loop, [&](uint32_t other) { changed_at[other] = now; });
       changed.push_back(number);
     }
-    // A changed loop, and the loops that have lost a face vertex to it, lie beside others.
+    // A changed loop, and the loops that lost a face vertex because of it, are adjacent to others.
     dirty.clear();
     const auto spread = [&](uint32_t number) {
       dirty.push_back(number);

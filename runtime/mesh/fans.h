@@ -1,12 +1,12 @@
 #pragma once
-// Which lateral edge of a seam a vertex belongs to, where the octree's levels meet in a corner.
+// Finds the lateral edge of a seam that a vertex belongs to at corners where octree levels meet.
 //
-// Around a corner of the fine grid that is also one of the coarse grid lie 8 octants: octant bits 0, 1, 2 say whether
-// it is on the high side in x, y, z. Between octants that share a face lie 12 quarter planes, the quads: quad 4 * axis
-// + b0 + 2 * b1 has its normal along axis and lies on the low (0) or high (1) side of the corner on the two other axes,
-// the lower axis first. Where one of its octants is coarser and the other is not, a seam cell covers the quad, with one
-// lateral edge at the corner. Seam cells that meet along an axis from the corner share a lateral pentagon; so the
-// lateral edges at a corner fall into cycles, each a vertex of its own. The fan of a cycle is its lowest quad.
+// Around a corner of the fine grid that is also one of the coarse grid lie 8 octants: bits 0, 1, 2 of an octant are set
+// if it is on the high side in x, y, z. Between octants that share a face lie 12 quarter planes, the quads: quad 4 *
+// axis + b0 + 2 * b1 has its normal along axis and lies on the low (0) or high (1) side of the corner on the two other
+// axes, the lower axis first. If one of its octants is coarser and the other is not, a seam cell covers the quad, with
+// one lateral edge at the corner. Seam cells that meet along an axis from the corner share a lateral pentagon; so the
+// lateral edges at a corner form cycles, each of which is a vertex. The fan of a cycle is its lowest quad.
 
 #include <array>
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace sgm {
 
-/// The fan of the lateral edge that the seam cell over `quad` has. Bit o of coarser: octant o belongs to a chunk
-/// coarser than the seam's fine level. Precondition: one octant of the quad is coarser, the other is not. In a
-/// checkerboard around an axis, which the octree's rules exclude, all four seam cells there share a fan.
+/// The fan of the lateral edge of the seam cell over `quad`. Bit o of coarser: octant o belongs to a chunk coarser than
+/// the seam's fine level. Precondition: exactly one octant of the quad is coarser. In a checkerboard around an axis,
+/// which the octree's rules exclude, all four seam cells there share a fan.
 int lateralFan(uint8_t coarser, int quad);
 
-/// The 26 blocks of a chunk's own size around it, and itself in the middle: bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1) for
-/// the block at offset (dx, dy, dz) in chunk sizes. As a mask it says which blocks belong to a chunk of a coarser
-/// level.
+/// The 26 blocks of a chunk's own size around it, and the chunk in the middle: bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1)
+/// for the block at offset (dx, dy, dz) in chunk sizes. As a mask, it marks the blocks that belong to a chunk of a
+/// coarser level.
 using Neighbourhood = uint32_t;
 inline constexpr Neighbourhood neighbourBit(int dx, int dy, int dz) {
   return 1u << ((dx + 1) + 3 * (dy + 1) + 9 * (dz + 1));

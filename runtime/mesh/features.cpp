@@ -26,7 +26,7 @@ SharpLoops Features::find() && {
   return std::move(sharp_);
 }
 
-/// Whether a crease passes through a loop without a sharp side, by way of vertices that lie on it.
+/// True if a crease passes through a loop without a sharp side, along vertices that lie on it.
 bool Features::passesVertices(const SurfaceLoop& loop) const {
   const auto next = [&](uint32_t i) { return loop.vertices[(i + 1) % loop.count]; };
   bool any = false;
@@ -72,7 +72,7 @@ void Features::findSides() {
       if (!creases_.isSharp(a, b)) continue;
       sharp.sides[i] =
           static_cast<uint32_t>(std::lower_bound(names.begin(), names.end(), nameOf(a, b)) - names.begin());
-      // The cell on the high side of the face has its corner in the face's plane.
+      // The cell on the high side of the face has its lowest corner in the face's plane.
       SharpSide& side = sharp_.sides[sharp.sides[i]];
       const bool is_high = body_.cornerOf(loop.cell)[side.axis] == side.corner[side.axis];
       side.loops[is_high ? 1 : 0] = number;
@@ -80,7 +80,7 @@ void Features::findSides() {
   }
 }
 
-/// The places for the centre of a loop's fan, best first.
+/// The candidate centres of a loop's fan, best first.
 Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   Centres centres;
   const SurfaceLoop& loop = of(sharp);
@@ -152,8 +152,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   return centres;
 }
 
-/// Gives each loop the first of its possible centres that makes a sound fan, with one look at the field for all of one
-/// rank; strips look for themselves.
+/// Gives each loop the first candidate centre that makes a sound fan, with one field sampling for all candidates of one
+/// rank; strips sample by themselves.
 void Features::placeCellVertices() {
   std::pmr::vector<uint32_t> without(sharp_.loops.size(), memory_), left(memory_);
   std::iota(without.begin(), without.end(), 0);
@@ -179,7 +179,7 @@ void Features::placeCellVertices() {
   }
 }
 
-/// Makes a loop another fan: about the same centre with other diagonals, or about the next centre.
+/// Changes the fan of a loop: the same centre with other diagonals, or the next centre.
 bool Features::takeNextCentre(SharpLoop& sharp) const {
   if (sharp.isFan() && !sharp.by_patches && takeAs(sharp.centre, true, sharp)) return true;
   while (const std::optional<FanCentre> centre = nextCentre(sharp)) {
@@ -191,7 +191,7 @@ bool Features::takeNextCentre(SharpLoop& sharp) const {
   return false;
 }
 
-/// The next of a loop's possible centres, which counts as tried then; nullopt if all were.
+/// The next candidate centre of a loop, which is then marked as tried; nullopt if all were.
 std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   const Centres centres = centresOf(sharp);
   while (sharp.tried < centres.all().size()) {
@@ -203,15 +203,15 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   return std::nullopt;
 }
 
-/// Makes a loop a fan about a centre, if that fan is sound and faces out of the solid.
+/// Makes a loop a fan around a centre if that fan is sound and faces out of the solid.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
   if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
-  // About a face vertex, diagonals to the centre may lie in the face of the chunk.
+  // Around a face vertex, diagonals to the centre may lie in the face of the chunk.
   return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
 }
 
-/// Makes a loop a strip, if that is sound and the middles of its triangles lie on the surface.
+/// Makes a loop a strip if that is sound and the middles of its triangles lie on the surface.
 bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
   if (!facesOut(strip, creases_)) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the sharp features of a body: where its face and cell vertices lie (mesh/sharp_loops.h).
+// Finds the sharp features of a body: the positions of its face and cell vertices (mesh/sharp_loops.h).
 
 #include <array>
 #include <memory_resource>
@@ -10,20 +10,20 @@
 
 namespace sgm {
 
-/// Throws std::bad_alloc.
+/// Its functions throw std::bad_alloc.
 class Features {
  public:
-  /// Borrows all. creases: of all vertices of the body, settled. border: borderSides of the body.
+  /// Borrows all arguments. creases: of all vertices of the body, settled. border: borderSides of the body.
   Features(const BodyLoops& body, const Creases& creases, std::span<const SharpSide> border, const FieldSampler& field,
            std::pmr::memory_resource* memory);
 
-  /// Once.
+  /// Call once.
   SharpLoops find() &&;
 
  private:
   static constexpr uint32_t kNone = SharpLoops::kNone;
 
-  /// Some centres of one fan.
+  /// Candidate centres of one fan.
   class Centres {
    public:
     void add(const FanCentre& centre) {

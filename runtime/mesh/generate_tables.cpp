@@ -1,5 +1,5 @@
-// Writes the case tables as one C++ source file: generate_tables OUTPUT. Built for the host, run by CMake at build
-// time.
+// Writes the case tables as one C++ source file: generate_tables OUTPUT. It is built for the host; CMake runs it at
+// build time.
 
 #include <cstdio>
 #include <fstream>
@@ -17,8 +17,8 @@ void writeArray(std::ofstream& out, const std::string& declaration, const std::v
   out << "\n};\n";
 }
 
-/// For each case: where its bytes start, its bytes (length, edges, length, edges, ...), and how many triangles it
-/// makes.
+/// Writes for each case the offset of its bytes, its bytes (length, edges, length, edges, ...), and its number of
+/// triangles.
 void writeCell(std::ofstream& out, const Cell& cell, const std::string& name, const std::string& start_type) {
   std::vector<size_t> starts{0}, bytes, triangles, faces, first;
   for (uint32_t solid = 0; solid < 1u << cell.corners; ++solid) {

@@ -1,12 +1,12 @@
 #pragma once
-// The content hash of a mesh part: an index-keyed sum that a GPU computes in any order of addition.
+// The content hash of a mesh part: an index-keyed sum that a GPU can compute in any order of addition.
 //
 // A vertex is four words (x | y << 16, z | material << 16, normal_x | normal_y << 16, tag | kind << 16), an index
 // is one. Word w at place i, with i = 4 * vertex + word for vertices and 2^31 + n for the n-th index, is mixed to
 //   h = w ^ (i * 0x9E3779B9 + 0x85EBCA6B)
 //   h ^= h >> 16, h *= 0x7FEB352D, h ^= h >> 15, h *= 0x846CA68B, h ^= h >> 16
 // and a = sum of h, b = sum of h * (2 i + 1), all modulo 2^32. An empty part has a = b = 0. At one place different
-// words have different h, so that a change of a single word always shows.
+// words have different h, so that a change of a single word always changes the hash.
 
 #include <span>
 
@@ -30,21 +30,21 @@ inline void addWord(ContentHash& sum, uint32_t word, uint32_t place) {
   sum.b += h * (2 * place + 1);
 }
 
-/// Fills part.hash from its vertices and indices; keys are not content.
+/// Fills part.hash from its vertices and indices; keys are not part of the content.
 void hashPart(MeshPart& part);
 
-/// One part in its place, as a chunk's neighbours and a region see it.
+/// One part with its grid, for a chunk's neighbours and for regions.
 struct PlacedPart {
   const MeshPart* mesh = nullptr;
   ChunkGrid grid;
   int number = 0;  ///< 0 for the body, 1 + Face for a seam
 };
 
-/// A part's hash mixed with where it lies and which part of its chunk it is: 0 for the body, 1 + Face for a seam.
+/// A part's hash mixed with its position and its number in the chunk: 0 for the body, 1 + Face for a seam.
 ContentHash hashPlaced(ContentHash part, const ChunkGrid& grid, int number);
 
-/// The hash of a set of parts: the sum over its parts, each mixed with where it lies. Equal in any order; a part
-/// without triangles adds nothing, so that it does not matter whether empty chunks are listed. Reads the parts' hashes.
+/// The hash of a set of parts: the sum over its parts, each mixed with its position. The order has no effect, nor do
+/// parts without triangles, so that empty chunks may be listed or not. Reads the parts' hashes.
 ContentHash hashParts(std::span<const PlacedPart> parts);
 
 }  // namespace sgm

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
 
-/// How far a point of contact lies off another plane.
+/// The distance of a tangent point from another plane.
 double offPlane(const Tangent& plane, const Tangent& other) {
   return std::fabs(dot(plane.normal, between(plane.point, other.point)) - plane.distance);
 }
@@ -40,7 +40,7 @@ class InnerVertices {
     FieldSample sample;
   };
 
-  /// Where a side's face vertex would lie if there were no others.
+  /// Finds the positions of face vertices without regard to their neighbours.
   void findIdeals() {
     ideals_.reserve(sharp_.sides.size());
     for (const SharpSide& side : sharp_.sides) {
@@ -54,14 +54,14 @@ class InnerVertices {
     }
   }
 
-  /// The place nearest to a side's middle on the crease of two planes, in units from the side's corner.
+  /// The point nearest to a side's middle on the crease of two planes, in units from the side's corner.
   Vector3 nearestOnCrease(const Tangent& a, const Tangent& b, const SharpSide& side) const {
     const Vector3 from = between(side.corner, creases_.tangent(side.from).point);
     const Vector3 to = between(side.corner, creases_.tangent(side.to).point);
     return Creases::nearestOnCrease(a, b, side.corner, times(plus(from, to), 0.5));
   }
 
-  /// Of a loop in which several creases meet, the point nearest to its vertices' planes; in units from `corner`.
+  /// For a loop in which several creases meet, the point nearest to its vertices' planes; in units from `corner`.
   Vector3 meetingPoint(const SharpLoop& sharp, const Int3& corner) const {
     const SurfaceLoop& loop = sharp_.of(sharp);
     Vector3 middle{};
@@ -80,8 +80,8 @@ class InnerVertices {
     return plus(middle, PlaneAxes(planes).step(3));
   }
 
-  /// The next place on a side's crease, in a loop that it is a side of: that of the loop's next side there, or the
-  /// point in which the crease ends. In units from the side's corner.
+  /// The next point on a side's crease within one of its loops: that of the loop's next side there, or the point in
+  /// which the crease ends. In units from the side's corner.
   Vector3 nextOnCrease(uint32_t own, uint32_t loop) const {
     const SharpSide& side = sharp_.sides[own];
     const auto idealOf = [&](uint32_t other) {
@@ -97,14 +97,14 @@ class InnerVertices {
       along = other;
       ++others_along;
     }
-    // Where nothing follows the side's own place stands for it, so that two sides do not get one mean.
+    // If there is no next point, the side's own point replaces it, so that two sides do not get the same mean.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
     // Other creases pass through the loop, too.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 
-  /// The mean of a side's own ideal place, twice, and the next places on its crease.
+  /// The mean of a side's own ideal point, with weight two, and the next points on its crease.
   Vector3 meanOnCrease(uint32_t own) const {
     Vector3 sum = times(ideals_[own], 2);
     for (const uint32_t loop : sharp_.sides[own].loops)
@@ -130,7 +130,7 @@ class InnerVertices {
     }
   }
 
-  /// Choices for the sides that have none on the surface: there a third plane cuts the crease of the ends' planes off.
+  /// Choices for the sides that have none on the surface: a third plane cuts off the crease of their ends' planes.
   void chooseCutOff() {
     const std::pmr::vector<Choice> tried = std::move(choices_);
     choices_.clear();
@@ -140,7 +140,7 @@ class InnerVertices {
       if (!side.places.empty() || !is_last) continue;
       const Tangent &a = creases_.tangent(side.from), &b = creases_.tangent(side.to);
       const Tangent& third = side.third.emplace(tangentAt(tried[i].point, tried[i].sample));
-      // An end in the third plane lies on a crease of that itself, and its normal is of no one plane.
+      // An end in the third plane lies on a crease of that plane itself, and its normal belongs to no single plane.
       std::array<const Tangent*, 2> ends{&a, &b};
       if (offPlane(third, a) < offPlane(third, b)) std::swap(ends[0], ends[1]);
       for (const Tangent* end : ends) choose(tried[i].side, *end, third, nearestOnCrease(*end, third, side));

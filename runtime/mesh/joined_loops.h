@@ -1,5 +1,5 @@
 #pragma once
-// The loops of a body's cells where ambiguous faces are joined (mesh/ambiguous_faces.h).
+// The loops of a body's cells with joined ambiguous faces (mesh/ambiguous_faces.h).
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// By the cell on the high side of a face, and the axis that the face stands on.
+/// Identifies a face by the cell on its high side and its normal axis.
 struct FaceName {
   Int3 cell;
   int axis = 0;
@@ -41,7 +41,7 @@ struct FaceName {
 struct AmbiguousFace {
   FaceName name;
   std::array<Int3, 2> solid;  ///< its solid corners, in units
-  bool is_joined = true;      ///< whether its solid corners are joined
+  bool is_joined = true;      ///< true if its solid corners are joined
 };
 
 /// A loop of one cell: its vertices, in 1/256 of a cell from the chunk's origin.
@@ -51,9 +51,9 @@ struct CellLoop {
   std::array<LoopPoint, kLongestBodyLoop> points;
   int count = 0;
 
-  /// Whether it has triangles without a diagonal in a face of its cell.
+  /// True if it has a triangulation without a diagonal in a face of its cell.
   bool canTriangulate() const;
-  /// Its triangles, three vertices each, kept in `triangles`. Precondition: canTriangulate().
+  /// Its triangles, three vertices each, stored in `triangles`. Precondition: canTriangulate().
   std::span<const uint32_t> triangulated(Triangles& triangles) const;
 };
 
@@ -65,14 +65,14 @@ struct CellLoops {
   std::span<const CellLoop> loops() const { return {all.data(), count}; }
 };
 
-/// The loops of all cells of a body, some of whose faces are joined.
+/// The loops of all cells of a body, with some faces joined.
 class JoinedLoops {
  public:
   /// Borrows the body.
   JoinedLoops(const BodyLoops& body, std::pmr::memory_resource* memory) : body_(body), faces_(memory) {}
 
   const BodyLoops& body() const { return body_; }
-  /// The face that two vertices of a loop lie in, which share one.
+  /// The face that contains two vertices of a loop; the two must share one.
   FaceName faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const;
   /// Calls visit(loop, from, to) for every side of a cell's loops as meshed.
   template <class Visit>
@@ -83,7 +83,7 @@ class JoinedLoops {
     });
   }
 
-  /// By name, without repetition.
+  /// Sorted by name, without duplicates.
   void setFaces(std::pmr::vector<AmbiguousFace>&& faces) { faces_ = std::move(faces); }
   std::span<const AmbiguousFace> faces() const { return faces_; }
   bool isJoined(const FaceName& name) const;
@@ -95,13 +95,13 @@ class JoinedLoops {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  /// The part of a loop in one face of a cell.
+  /// The segment of a loop in one face of a cell.
   struct Side {
     uint32_t from = 0, to = 0;
-    uint32_t face = kNone;  ///< number of the ambiguous face, if it may be joined
+    uint32_t face = kNone;  ///< index of the ambiguous face, if it may be joined
   };
 
-  /// The sides of all loops of a cell, and the loops that they make.
+  /// The sides of all loops of a cell, from which the loops are built.
   struct CellSides {
     std::array<Side, kCubeEdges> all;
     size_t count = 0;

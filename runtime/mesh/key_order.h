@@ -1,5 +1,5 @@
 #pragma once
-// Vertex keys packed for sorting, each with its place among all vertices that are sorted.
+// Vertex keys packed for sorting, each with its index among all sorted vertices.
 
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// Ordered by key (in an order of its own, not VertexKey's), then by place.
+/// Ordered by key (in an order different from VertexKey's), then by index.
 struct OrderedKey {
   uint64_t high, low;
   uint32_t place;

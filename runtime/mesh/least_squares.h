@@ -1,6 +1,6 @@
 #pragma once
 // The point nearest to a set of planes: the minimiser of dual contouring's quadratic error function (Ju et al. 2002),
-// by Jacobi's eigenvalue iteration. Doubles with + - * / sqrt alone: the same bits everywhere.
+// by Jacobi's eigenvalue iteration. Doubles with + - * / sqrt alone, so the bits are the same everywhere.
 
 #include <array>
 #include <cmath>
@@ -11,10 +11,10 @@
 
 namespace sgm {
 
-/// Planes normal . (x - start) = distance, summed up.
+/// Sums over planes normal . (x - start) = distance.
 struct PlaneSum {
-  std::array<Vector3, 3> squares{};  ///< of the normals: their outer products
-  Vector3 right{};                   ///< normals times distances
+  std::array<Vector3, 3> squares{};  ///< sum of the outer products of the normals
+  Vector3 right{};                   ///< sum of normals times distances
 
   void add(const Vector3& normal, double distance) {
     for (size_t i = 0; i < 3; ++i) {
@@ -24,7 +24,7 @@ struct PlaneSum {
   }
 };
 
-/// What planes tell of the nearest point, by direction.
+/// The eigenvectors and eigenvalues of a PlaneSum.
 class PlaneAxes {
  public:
   explicit PlaneAxes(const PlaneSum& planes) : right_(planes.right) {
@@ -45,8 +45,8 @@ class PlaneAxes {
     for (size_t k = 0; k < 3; ++k) told_[k] = a[k][k];
   }
 
-  /// The step from the sum's start to the nearest point, along the `rank` directions that the planes tell most of and
-  /// in no direction that they tell less than 1/1000 of the first about.
+  /// The step from the sum's start to the nearest point, along the `rank` best-determined directions, but not along
+  /// directions with less than 1/1000 of the first one's eigenvalue.
   Vector3 step(size_t rank) const {
     constexpr double kTold = 1e-3;
     Vector3 step{};
@@ -86,8 +86,8 @@ class PlaneAxes {
   std::array<size_t, 3> order_{0, 1, 2};
 };
 
-/// The shortest step that meets two planes normal . step = distance, with normals of length one, or 0 of one that is
-/// none. Of planes that nearly face each other the step to their middle.
+/// The shortest step that meets two planes normal . step = distance, with normals of length one, or 0 for a missing
+/// plane. For planes that nearly face each other, the step to the middle between them.
 inline Vector3 stepToBoth(const Vector3& a, double to_a, const Vector3& b, double to_b) {
   constexpr double kFacing = 1e-3;
   const double cosine = dot(a, b), square = 1 - cosine * cosine;

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of one loop of marching cubes, as exact tests take them.
+// The triangles of one marching cubes loop, for exact tests.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace sgm {
 inline constexpr uint32_t kFaceVertices = 1u << 30,
                           kCellVertices = 1u << 31;  ///< names of feature vertices start there
 
-/// A box of places in 1/256 of a cell.
+/// A box of positions in 1/256 of a cell.
 struct PlaceBox {
   Int3 lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
 
@@ -31,7 +31,7 @@ struct PlaceBox {
 
 struct NamedTriangle {
   std::array<Int3, 3> at;
-  std::array<uint32_t, 3> name{};  ///< of vertices: equal for those that are one
+  std::array<uint32_t, 3> name{};  ///< of vertices: equal if the vertices are the same
 
   bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
   bool meets(const NamedTriangle& other) const {
@@ -55,7 +55,7 @@ struct NamedTriangle {
 /// The triangles of one loop.
 class LoopTriangles {
  public:
-  /// A vertex and two face vertices a side.
+  /// Per side, a vertex and two face vertices.
   static constexpr size_t kMost = 3 * kLongestBodyLoop;
 
   LoopTriangles() = default;
@@ -74,7 +74,7 @@ class LoopTriangles {
   std::span<NamedTriangle> all() { return {store_.triangles.data(), count_}; }
 
  private:
-  /// Without a value at first: most loops have few triangles.
+  /// Uninitialised at first: most loops have few triangles.
   union Store {
     std::array<NamedTriangle, kMost> triangles;
     Store() {}  // NOLINT(modernize-use-equals-default): that would be deleted
@@ -88,7 +88,7 @@ inline Int3 placeOf(const MeshPart& part, uint32_t v) {
   return {part.vertices[v].x, part.vertices[v].y, part.vertices[v].z};
 }
 
-/// As meshed.
+/// The triangles as meshed.
 inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loop) {
   LoopTriangles triangles;
   for (uint32_t i = loop.first_index; i < loop.end_index; i += 3) {
@@ -98,7 +98,7 @@ inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loo
   return triangles;
 }
 
-/// Triangles with their boxes: those of the triangles, and one about all.
+/// Triangles with a box for each and one around all.
 struct BoxedTriangles {
   std::span<const NamedTriangle> triangles;
   std::span<const PlaceBox> boxes;

@@ -11,7 +11,7 @@ namespace sgm {
 
 namespace {
 
-/// A range's content, wherever it lies: its indices count from `first`.
+/// The content of a range; its indices start at `first`.
 struct RangeSource {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;
@@ -57,7 +57,7 @@ PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory) {
   PackedMesh mesh(memory);
   mesh.vertices = std::move(body.vertices);
   mesh.indices = std::move(body.indices);
-  // Sharpening has let them grow; a mesh is kept long.
+  // Sharpening has let the arrays grow, and a mesh is kept long.
   mesh.vertices.shrink_to_fit();
   mesh.indices.shrink_to_fit();
   mesh.ranges[0] = {0, static_cast<uint32_t>(mesh.vertices.size()), 0, static_cast<uint32_t>(mesh.indices.size()),
@@ -67,7 +67,8 @@ PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory) {
 
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices) {
   if (vertices.empty()) return {{0, 0, 0}, {0, 0, 0}};
-  // All eight words of a vertex at a time, of which the first three are wanted: the compiler makes a vector of them.
+  // Reads all eight words of a vertex, although only the first three are needed, so that the compiler vectorises the
+  // loop.
   std::array<int16_t, 8> lo, hi, words;
   lo.fill(std::numeric_limits<int16_t>::max());
   hi.fill(std::numeric_limits<int16_t>::min());

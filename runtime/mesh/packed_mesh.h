@@ -1,5 +1,5 @@
 #pragma once
-// One chunk's mesh as it is handed out: body and seams behind each other in one vertex array and one index array.
+// The mesh of one chunk as delivered: body and seams concatenated in one vertex array and one index array.
 
 #include <array>
 #include <span>
@@ -17,8 +17,8 @@ struct PackedRange {
 
 struct PackedMesh {
   RawVector<Vertex> vertices;           ///< body first, then the seams by face
-  RawVector<uint32_t> indices;          ///< into vertices, from the array's beginning; three a triangle
-  std::array<PackedRange, 7> ranges{};  ///< body, then seams by Face; empty where there is none
+  RawVector<uint32_t> indices;          ///< into vertices, from the array's beginning; three per triangle
+  std::array<PackedRange, 7> ranges{};  ///< body, then seams by Face; empty if absent
 
   explicit PackedMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : vertices(memory), indices(memory) {}
@@ -26,23 +26,23 @@ struct PackedMesh {
   size_t bytes() const { return vertices.capacity() * sizeof(Vertex) + indices.capacity() * sizeof(uint32_t); }
 };
 
-/// parts[0] is the body, parts[1 + Face] a seam; null or empty where there is none.
+/// parts[0] is the body, parts[1 + Face] a seam; null or empty if absent.
 using MeshParts = std::array<const MeshPart*, 7>;
 
-/// Parts behind each other. Ranges that `before` has and `parts` lacks are taken from it, so that seams can be added to
-/// a mesh: its body then comes out with the same bytes at the same place. Throws std::bad_alloc.
+/// Concatenates parts. Ranges of `before` that `parts` lacks are copied, so that seams can be added to a mesh: its body
+/// then keeps the same bytes at the same place. Throws std::bad_alloc.
 PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory);
 
-/// A body alone, whose arrays are taken over where their memory is `memory`. Throws std::bad_alloc.
+/// Packs a body alone; its arrays are moved if they were allocated from `memory`. Throws std::bad_alloc.
 PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory);
 
-/// Bounds in units that hold every vertex, seams included; all 0 where there is none.
+/// Bounds in units that contain every vertex, including seams; all 0 if there is none.
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices);
 
-/// The tags that vertices carry, rising, 0 left out.
+/// The tags of the vertices, ascending, without 0.
 std::pmr::vector<uint16_t> tagsOf(std::span<const Vertex> vertices, std::pmr::memory_resource* memory);
 
-/// As hashParts of body and seams.
+/// Same as hashParts of body and seams.
 ContentHash hashOf(const PackedMesh& mesh, const ChunkGrid& grid);
 
 }  // namespace sgm

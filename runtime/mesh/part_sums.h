@@ -1,5 +1,5 @@
 #pragma once
-// The sums over one part's triangles that area and volume are made of, in integers: equal on every backend.
+// The integer sums over one part's triangles from which area and volume are computed: equal on every backend.
 
 #include <array>
 #include <cstdint>
@@ -19,14 +19,14 @@ struct PartSums {
   friend bool operator==(const PartSums&, const PartSums&) = default;
 };
 
-/// Precondition: indices are below vertices.size(), and positions where triangle_terms.h wants them.
+/// Precondition: indices are below vertices.size(), and positions in the range of triangle_terms.h.
 PartSums sumsOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices);
 
-/// Square metres. cell: the chunk's, units.
+/// Square metres. cell: of the chunk, units.
 double areaOf(const PartSums& sums, int32_t cell);
 
-/// Cubic metres: a third of the flux of x about a place that the chunk's origin lies `origin` metres from. Over a
-/// closed surface these add up to the volume inside.
+/// Cubic metres: a third of the flux of x about a point; the chunk's origin is `origin` metres from it. Over a closed
+/// surface these add up to the enclosed volume.
 double fluxOf(const PartSums& sums, int32_t cell, const std::array<double, 3>& origin);
 
 }  // namespace sgm

@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-/// Other sides of a claim. Each may have its face vertices or lose them, so that every side doubles the cases.
+/// The maximum number of other sides of a claim. Each may have its face vertices or lose them, so it doubles the cases.
 constexpr size_t kMostOthers = 4;
 
 }  // namespace
@@ -57,7 +57,7 @@ bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
          (part_.keys[a] == claim.to && part_.keys[b] == claim.from);
 }
 
-/// The sides but the claims' own that may have face vertices in a face of the chunk, and their places.
+/// Finds the sides, other than the claims' own, that may have face vertices in a face of the chunk, and their places.
 void RoundedCells::findOthers() {
   std::pmr::vector<SharpSide> sides(memory_);
   std::pmr::vector<Border> all(memory_);
@@ -112,8 +112,8 @@ bool RoundedCells::keepsClear(const Claim& claim) const {
   return true;
 }
 
-/// The triangles of a loop where its own side and those of the others that are present have their face vertices. Its
-/// vertices have the names that they have in the own side's loop, if they are of both.
+/// The triangles of a loop if its own side and the other sides in `present` have their face vertices. Vertices that are
+/// also in the own side's loop have the names that they have there.
 LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::span<const Border> others,
                                         uint32_t present) const {
   const SurfaceLoop &loop = loops_[number], &own_loop = loops_[own.loop];

@@ -1,6 +1,6 @@
 #pragma once
-// Whether rounded loops with a face vertex in a face of the chunk keep clear of other loops: of their own cell, and of
-// cells beside it if the face vertex lies there.
+// Tests whether rounded loops with a face vertex in a face of the chunk keep clear of other loops: of their own cell,
+// and of adjacent cells if the face vertex lies there.
 
 #include <array>
 #include <functional>
@@ -16,26 +16,26 @@
 
 namespace sgm {
 
-/// Judges sides at the border by the cells beside them, one claim a side and cell. Loops there that have other sharp
-/// sides in faces of the chunk may keep the face vertices of these or lose them: a side must keep clear of them either
-/// way.
+/// Tests sides at the border against the cells beside them, one claim per side and cell. Loops there that have other
+/// sharp sides in faces of the chunk may keep or lose their face vertices: a side must keep clear of them in both
+/// cases.
 class RoundedCells {
  public:
-  /// Gives sides at the border, between vertices with these creases, the places that they have if no rounded loop is
-  /// in their way.
+  /// Gives sides at the border, between vertices with these creases, the places that they have if no rounded loop
+  /// interferes.
   using PlaceAlone = std::function<void(const Creases& creases, std::span<SharpSide>)>;
 
-  /// Borrows all.
+  /// Borrows all arguments.
   RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
                std::pmr::memory_resource* memory);
 
-  /// Claims that the rounded loop of a side keeps clear in the cell above the side's face, or below it. Borrows the
-  /// side. from, to: the keys of its ends. q: the field at the cell's corners.
+  /// Claims that the rounded loop of a side keeps clear in the cell above or below the side's face. Borrows the side.
+  /// from, to: the keys of its ends. q: the field at the cell's corners.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
-  /// Adds a cell beside that of the last claim to it, so many cells away on each axis.
+  /// Adds an adjacent cell to the last claim, at an offset of `steps` cells.
   void addBeside(const Int3& steps, const std::array<int32_t, 8>& q);
 
-  /// Takes the places of those sides whose claims fail. Once.
+  /// Removes the places of the sides whose claims fail. Call once.
   void judge();
 
  private:
@@ -43,10 +43,10 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    size_t first, end, end_beside;  ///< of the loops of the cell, and behind them of those beside
+    size_t first, end, end_beside;  ///< the loops of the cell, followed by those of adjacent cells
     size_t first_other = 0, end_other = 0;
   };
-  /// A sharp side in a face of the chunk: behind a vertex of a loop of a claim, or the claim's own.
+  /// A sharp side in a face of the chunk: after a vertex of a claim's loop, or the claim's own.
   struct Border {
     size_t loop = 0;
     uint32_t behind = 0;

@@ -139,7 +139,7 @@ class SeamBuilder {
   int axis_, u_, v_;
   const ChunkGrid& grid_;
   MeshPart& part_;
-  // Read only where an edge is crossed, and so written before.
+  // Read only if an edge is crossed, and therefore written before.
   std::array<std::array<std::array<uint32_t, 2>, kFineSide>, kFineSide> fine_;
   std::array<std::array<std::array<uint32_t, 2>, kCoarseSide>, kCoarseSide> coarse_;
   std::array<std::array<uint32_t, kCoarseSide>, kCoarseSide> lateral_;

@@ -1,5 +1,5 @@
 #pragma once
-// The seam between a chunk and a neighbour one level coarser: a sheet of seam cells without thickness in their common
+// The seam between a chunk and a neighbour one level coarser: a sheet of seam cells of zero thickness in their common
 // face. The finer chunk owns it.
 
 #include "mesh/chunk.h"
@@ -17,7 +17,7 @@ struct CoarseFace {
   std::array<uint32_t, kCoarseSamples> signs{};
 };
 
-/// Where coarse sample (a, b) of a face lies, in units: a along axis u = (axis + 1) % 3, b along v = (axis + 2) % 3.
+/// The position of coarse sample (a, b) of a face, in units: a along u = (axis + 1) % 3, b along v = (axis + 2) % 3.
 inline Int3 coarseFacePoint(const ChunkGrid& grid, Face face, int a, int b) {
   const int axis = faceAxis(face);
   Int3 p = grid.origin;
@@ -28,13 +28,13 @@ inline Int3 coarseFacePoint(const ChunkGrid& grid, Face face, int a, int b) {
 }
 
 /// Replaces part by the seam over one face. Positions are in 1/256 of the fine cell from the fine chunk's origin, as in
-/// a body; vertices on fine edges equal those of the fine chunk's body, vertices on coarse edges those of the coarse
-/// chunk's, in key and in world position, to the bit. Lateral vertices sit on their corner. `coarser` decides nothing
-/// but the fans in the keys of lateral vertices at the face's border: vertices, indices and hash are a pure function of
-/// chunk and face. Canonical order: vertices on fine edges by owning sample (b, then a), u-edge before v-edge; then
-/// those on coarse edges likewise by coarse sample; then lateral ones by coarse sample. Triangles by seam cell (b, a),
-/// loop (tables.h), then the order of triangulateFlatLoop. Fills x, y, z, kind and keys only, as polygonizeBody does.
-/// Where the attributes of a vertex come from: the field of the level in its key.
+/// a body; vertices on fine edges equal those of the fine chunk's body, and vertices on coarse edges those of the
+/// coarse chunk's, bit-identical in key and world position. Lateral vertices lie on their corner. `coarser` affects
+/// only the fans in the keys of lateral vertices at the face's border: vertices, indices and hash are a pure function
+/// of chunk and face. Canonical order: vertices on fine edges by owning sample (b, then a), u-edge before v-edge; then
+/// those on coarse edges in the same way by coarse sample; then lateral ones by coarse sample. Triangles by seam cell
+/// (b, a), loop (tables.h), then the order of triangulateFlatLoop. Fills x, y, z, kind and keys only, as polygonizeBody
+/// does. The attributes of a vertex come from the field of the level in its key.
 void polygonizeSeam(Face face, const ChunkSamples& fine, const CoarseFace& coarse, const ChunkGrid& grid,
                     Neighbourhood coarser, MeshPart& part);
 

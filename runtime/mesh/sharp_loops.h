@@ -1,32 +1,32 @@
 #pragma once
 // Loops of marching cubes with sharp features (after Kobbelt et al. 2001, "Feature Sensitive Surface Extraction from
-// Volume Data"), and what becomes of them.
+// Volume Data").
 //
 // A SIDE of a loop lies in a face of its cell and joins two vertices on edges of that face. If the normals at its ends
 // differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX on the crease. A
-// loop with sharp sides becomes a fan about a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
-// The creases from there to the face vertices divide the fan into PATCHES, each about in one plane. A patch of which
-// the cell vertex does not see all gets other diagonals (mesh/fan_triangles.h). Where two creases pass through a cell
-// and do not meet, the loop has no cell vertex: it is a STRIP. Where a crease passes through a loop's vertices its
+// loop with sharp sides becomes a fan around a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
+// The creases from there to the face vertices divide the fan into PATCHES, each approximately planar. A patch that is
+// not entirely visible from the cell vertex gets other diagonals (mesh/fan_triangles.h). If two creases pass through a
+// cell and do not meet, the loop has no cell vertex: it is a STRIP. If a crease passes through a loop's vertices, its
 // sides are not sharp, but it becomes a fan, too.
 //
-// Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is ROUNDED:
-// it keeps its own triangles, as without features, and its sides lose their face vertices.
+// Validity takes precedence over sharpness. A loop whose fan intersects another triangle (mesh/triangle_faults.h) is
+// ROUNDED: it keeps its own triangles, as without features, and its sides lose their face vertices.
 //
-// The sides in a face of the CHUNK are another matter. Their face vertices, two where a third plane cuts off the crease
-// of the other two, lie in that face and depend on the field beside it alone (mesh/border_vertices.h); all else of a
-// chunk's features lies strictly inside of the chunk. So the bodies on both sides of a face, of one level or two, and
-// the seam between them, which lies in the face, meet only where they should, whatever becomes of the loops of each:
-// chunks that are meshed apart agree without a look at each other. A rounded loop keeps these face vertices, and is a
-// fan about a point strictly within its own cell (roundedCentre).
+// The sides in a face of the CHUNK are an exception. Their face vertices, two if a third plane cuts off the crease of
+// the other two, lie in that face and depend only on the field near it (mesh/border_vertices.h); all other features of
+// a chunk lie strictly inside it. So the bodies on both sides of a face, of one level or two, and the seam between
+// them, which lies in the face, meet only where they should, whatever happens to the loops of each: chunks that are
+// meshed separately agree without communication. A rounded loop keeps these face vertices, and is a fan around a point
+// strictly within its own cell (roundedCentre).
 //
-// Rounded loops never meet each other wrongly, so that rounding ends. Such a fan is a cone over a simple polygon on the
-// boundary of its cell, which is convex: it stays in the cell, and has no other point in common with the boundary.
-// Where the cell has another loop the cone is tested against it (mesh/rounded_cells.h). Where a face vertex lies
-// outside of the side's square the centre is 1/256 of a cell away from the chunk's face. So is the part of the cone
-// beyond the cell. If no contour crosses the square of the face beneath it, triangles there whose corners are not in
-// the face are 1/256 away or more; otherwise the cone is tested against the loops there. Of several sides with a face
-// vertex in one such square each keeps to its own part of it, or its cone is tested against those of the others
+// Rounded loops never intersect each other, so that rounding terminates. Such a fan is a cone over a simple polygon on
+// the boundary of its cell, which is convex: it stays in the cell, and has no other point in common with the boundary.
+// If the cell has another loop, the cone is tested against it (mesh/rounded_cells.h). If a face vertex lies outside the
+// side's square, the centre is 1/256 of a cell away from the chunk's face, and so is the part of the cone beyond the
+// cell. If no contour crosses the square of the face beneath it, triangles there whose corners are not in the face are
+// at least 1/256 away; otherwise the cone is tested against the loops there. If several sides have a face vertex in one
+// such square, each stays in its own part of it, or its cone is tested against those of the others
 // (mesh/surroundings.h).
 
 #include <array>
@@ -42,8 +42,8 @@
 
 namespace sgm {
 
-/// The places of the face vertices of one side, in their order from its lower end: one, or two where a third plane cuts
-/// off the crease of the ends' planes. In 1/256 of a cell from the side's corner.
+/// The positions of the face vertices of one side, ordered from its lower end: one, or two if a third plane cuts off
+/// the crease of the ends' planes. In 1/256 of a cell from the side's corner.
 class FacePlaces {
  public:
   static constexpr size_t kMost = 2;
@@ -65,74 +65,74 @@ class FacePlaces {
 struct SharpSide {
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  uint32_t from = 0, to = 0;                    ///< vertices; the lower key first, so that both cells see the same side
-  Int3 corner;                                  ///< of its face: the lowest, in units
-  int axis = 0;                                 ///< that the face stands on
+  uint32_t from = 0, to = 0;                    ///< vertices; the lower key first, so both cells have the same side
+  Int3 corner;                                  ///< the lowest of its face, in units
+  int axis = 0;                                 ///< the normal axis of its face
   bool at_border = false;                       ///< its face is part of a face of the chunk
-  std::array<uint32_t, 2> loops{kNone, kNone};  ///< numbers of its sharp loops, the one in the lower cell first
-  std::optional<Tangent> third;                 ///< tangent where the planes of its ends meet, but off the surface
-  FacePlaces places;                            ///< none if it cannot have a face vertex; two at the border alone
+  std::array<uint32_t, 2> loops{kNone, kNone};  ///< indices of its sharp loops, the one in the lower cell first
+  std::optional<Tangent> third;                 ///< tangent at the point where its ends' planes meet, off the surface
+  FacePlaces places;                            ///< empty if it cannot have a face vertex; two only at the border
 
   friend bool operator<(const SharpSide& a, const SharpSide& b) {
     return a.from != b.from ? a.from < b.from : a.to < b.to;
   }
 };
 
-/// The side of a cell between two vertices of the part that has these keys. Its other members have their defaults.
+/// The side of a cell between two vertices of the part with these keys. Its other members have default values.
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
 
-/// Whether a side is in a face of the chunk.
+/// True if a side is in a face of the chunk.
 bool isAtBorder(const ChunkGrid& grid, const SharpSide& side);
 
-/// Where a place of a side is, in 1/256 of a cell from the chunk's origin.
+/// The position of a side's place, in 1/256 of a cell from the chunk's origin.
 Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place);
 
-/// The key of a side's face vertex. from: of the vertex side.from. which: 0, or 1 for a second one.
+/// The key of a side's face vertex. from: the key of side.from. which: 0, or 1 for a second one.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
 
 /// A face vertex in a face of the chunk.
 struct BorderVertex {
   Int3 at;
-  int axis = 0;  ///< that the face stands on
+  int axis = 0;  ///< the normal axis of the face
 };
 
-/// The centre of a rounded loop with such face vertices, strictly within its cell: the mean of all its vertices; but
+/// The centre of a rounded loop with such face vertices, strictly within its cell: the mean of all its vertices, but
 /// close to the face if the face vertex lies beyond the cell, so that nothing else lies between the fan and the face.
-/// All places are in 1/256 of a cell from one origin.
+/// All positions are in 1/256 of a cell from one origin.
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
 
-/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border, which a fan has anyway. Or
-/// the loop is a strip without a centre, which creases pass through that do not meet (stripTriangles).
+/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border. Alternatively the loop is
+/// a strip without a centre, with creases that do not meet (stripTriangles).
 struct FanCentre {
   enum class Kind : uint8_t { cell_vertex, face_vertex, strip, strip_from_second };
 
-  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; of a strip within the cell
+  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; of a strip, within the cell
   Kind kind = Kind::cell_vertex;
-  uint32_t face_vertex = SharpSide::kNone;  ///< its number, of that kind
+  uint32_t face_vertex = SharpSide::kNone;  ///< its index, for the kind face_vertex
 
   bool isStrip() const { return kind == Kind::strip || kind == Kind::strip_from_second; }
   friend bool operator==(const FanCentre&, const FanCentre&) = default;
 };
 
-/// A loop with sharp sides, or through whose vertices a crease passes.
+/// A loop with sharp sides, or with a crease through its vertices.
 struct SharpLoop {
   enum class Shape : uint8_t {
     plain,    ///< its own triangles, or a fan that keeps the face vertices at the chunk's border
-    fan,      ///< about its centre, with all of its face vertices
-    rounded,  ///< as plain, although a centre for a fan lies on the surface: no fan would be valid
+    fan,      ///< around its centre, with all of its face vertices
+    rounded,  ///< as plain, although a fan's centre lies on the surface: no fan would be valid
   };
 
   uint32_t loop = 0;                               ///< of the body
-  std::array<uint32_t, kLongestBodyLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
+  std::array<uint32_t, kLongestBodyLoop> sides{};  ///< indices of the sides after its vertices; kNone if not sharp
   Shape shape = Shape::plain;
   FanCentre centre;         ///< of a fan
-  bool by_patches = false;  ///< whether a fan may have other diagonals than those to its centre
-  uint8_t tried = 0;        ///< how many of its possible centres were tried
+  bool by_patches = false;  ///< true if a fan may have diagonals that do not end at its centre
+  uint8_t tried = 0;        ///< the number of possible centres that were tried
 
   bool isFan() const { return shape == Shape::fan; }
 };
 
-/// All sharp loops of a body, in its order, and their sides, sorted.
+/// All sharp loops of a body, in its order, and their sorted sides.
 struct SharpLoops {
   static constexpr uint32_t kNone = SharpSide::kNone;
 
@@ -144,17 +144,17 @@ struct SharpLoops {
       : body(of_body), sides(memory), loops(memory) {}
 
   const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
-  /// The number of a side's face vertex, and the side of a number.
+  /// The index of a side's face vertex, and the side of an index.
   static uint32_t faceVertexOf(uint32_t side, size_t which) {
     return side * static_cast<uint32_t>(FacePlaces::kMost) + static_cast<uint32_t>(which);
   }
   static uint32_t sideOf(uint32_t face_vertex) { return face_vertex / static_cast<uint32_t>(FacePlaces::kMost); }
-  /// Whether the side has its face vertices, as its loops are now.
+  /// True if the side has its face vertices in the current state of its loops.
   bool hasFaceVertices(const SharpSide& side) const;
   Int3 fromChunk(const SharpSide& side, const Int3& place) const { return sgm::fromChunk(body.grid(), side, place); }
-  /// The centre about which a loop is a fan now; nullopt if it keeps its own triangles.
+  /// The centre of the fan that a loop currently is; nullopt if it keeps its own triangles.
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
-  /// The triangles of a loop as it is now.
+  /// The current triangles of a loop.
   LoopTriangles trianglesOf(const SharpLoop& loop) const;
   /// The triangles of a fan with all face vertices that its sides can have.
   LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre, bool by_patches) const;

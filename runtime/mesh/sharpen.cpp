@@ -29,7 +29,7 @@ uint32_t append(const ChunkGrid& grid, const VertexKey& key, const Int3& place, 
   return static_cast<uint32_t>(part.vertices.size() - 1);
 }
 
-/// The number of a cube's edge by which the loops of a cell are told apart.
+/// The lowest number of a cube edge in a loop, which identifies the loop within its cell.
 uint8_t lowestEdge(const SurfaceLoop& loop, const Int3& corner, const RawVector<VertexKey>& keys) {
   uint8_t lowest = UINT8_MAX;
   for (uint32_t i = 0; i < loop.count; ++i) lowest = std::min(lowest, cubeEdge(keys[loop.vertices[i]], corner));

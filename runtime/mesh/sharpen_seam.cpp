@@ -11,11 +11,11 @@ namespace {
 
 constexpr uint32_t kNoMiddle = SharpSide::kNone;
 
-/// Face vertices on a side, in order; kNoMiddle where there are fewer.
+/// Face vertices on a side, in order; unused entries are kNoMiddle.
 using Middles = std::array<uint32_t, FacePlaces::kMost>;
 constexpr Middles kNoMiddles{kNoMiddle, kNoMiddle};
 
-/// The triangles of a polygon whose corners are a triangle's and, behind each, perhaps the middles of its side.
+/// Triangulates a polygon that consists of a triangle's corners and the middles on its sides.
 void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>& middles,
             RawVector<uint32_t>& indices) {
   std::array<uint32_t, 3 + 3 * FacePlaces::kMost> ring;
@@ -28,7 +28,7 @@ void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>
       ring[count++] = m;
     }
   }
-  // About a middle: it is no corner of another triangle here, so that no edge comes twice.
+  // A fan around a middle: it is not a corner of another triangle here, so that no edge occurs twice.
   for (size_t i = 1; i + 1 < count; ++i) {
     indices.insert(indices.end(), {ring[middle], ring[(middle + i) % count], ring[(middle + i + 1) % count]});
   }
@@ -53,7 +53,7 @@ class LevelOfSeam {
         middles_(memory),
         memory_(memory) {}
 
-  /// Finds the face vertices of the seam's sides of this level, slides its vertices, and appends what there is.
+  /// Finds the face vertices of the seam's sides of this level, slides its vertices, and appends them.
   void addFaceVertices(size_t triangles_end) {
     takeVertices();
     if (of_seam_.empty()) return;
@@ -64,7 +64,8 @@ class LevelOfSeam {
     append();
   }
 
-  /// The face vertices from one of the seam's vertices to another; kNoMiddles if the vertices do not end a side.
+  /// The face vertices from one of the seam's vertices to another; kNoMiddles if the vertices are not the ends of a
+  /// side.
   Middles middlesOf(uint32_t a, uint32_t b) const {
     if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddles;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);
@@ -95,7 +96,7 @@ class LevelOfSeam {
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
       if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
-      // Both levels' squares have sides; diagonals lie in none of them.
+      // The squares of both levels have sides; diagonals are not sides.
       if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
       sides_.push_back(sideBetween(a, b, part_.keys));
       sides_.back().axis = axis_;
@@ -107,7 +108,7 @@ class LevelOfSeam {
                  sides_.end());
   }
 
-  /// Whether these are edges of one square in the seam's face.
+  /// True if these are edges of one square in the seam's face.
   bool shareSquare(const VertexKey& a, const VertexKey& b) const {
     Int3 corner;
     for (int k = 0; k < 3; ++k) corner[k] = std::min(a.corner[k], b.corner[k]);

@@ -17,18 +17,18 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// What a triangle gives its feature vertices: the attributes of a vertex of its side, and the side's normal.
+/// The data that a triangle gives its feature vertices: the attributes of a vertex of its side, and the side's normal.
 struct SideOfCrease {
   uint32_t like = kNoCopy;
   Vector3 normal{};
-  std::optional<std::array<int16_t, 2>> own_normal;  ///< packed, where that vertex has another
+  std::optional<std::array<int16_t, 2>> own_normal;  ///< packed, if that vertex has a different one
 };
 
-/// Mesh: keys, one a vertex, and indices; at(v) and normal(v); give(v, side); copy(v): appended.
+/// Mesh must have keys, one per vertex, and indices; at(v) and normal(v); give(v, side); copy(v), which appends a copy.
 template <class Mesh>
 SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
-  // A triangle has a vertex or two on the side that it belongs to. One that joins features alone is followed by another
-  // one of that side, or is itself all that its cell has of it.
+  // A triangle has one or two vertices on its side. A triangle that joins only features is followed by another one of
+  // that side, or is the only triangle of the side in its cell.
   SideOfCrease side;
   for (size_t i = triangle; side.like == kNoCopy && i < mesh.indices.size(); i += 3) {
     for (size_t k = 0; k < 3; ++k) {
@@ -52,7 +52,7 @@ SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
 
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
-  // The copies of each vertex, in a chain; unset where a feature vertex has no side yet.
+  // The copies of each vertex, in a chain; unset while a feature vertex has no side.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {

@@ -1,15 +1,15 @@
 #pragma once
-// For drawing sharp features: each side of a crease with its own normal.
+// Splits creases for drawing, so that each side has its own normal.
 
 #include "mesh/weld.h"
 
 namespace sgm {
 
-/// Feature vertices (mesh/sharpen.h) once for each side of their crease, with that side's attributes. Positions, keys
-/// and triangles stay: vertices with equal keys are one in the mesh that this comes from. Throws std::bad_alloc.
+/// Duplicates feature vertices (mesh/sharpen.h): one for each side of their crease, with that side's attributes.
+/// Positions, keys and triangles stay: vertices with equal keys are one in the original mesh. Throws std::bad_alloc.
 WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// As above, in place; hashes the part anew.
+/// Same as above, in place; recomputes the part's hash.
 void splitCreases(MeshPart& part, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace sgm

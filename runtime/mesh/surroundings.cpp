@@ -5,9 +5,9 @@
 namespace sgm {
 namespace {
 
-// Corner a + 2b + 4c lies a along u = (axis + 1) % 3, b along v = (axis + 2) % 3, and c - 1 along the axis of the face.
-// The others lie at far edges: of the square beside, kFar + a + 2c, a along the edge; of the squares at its low and
-// high end, a away from the side's own square; and of that opposite, a along the edge.
+// Corner a + 2b + 4c is at a along u = (axis + 1) % 3, b along v = (axis + 2) % 3, and c - 1 along the axis of the
+// face. The others lie at far edges: for the adjacent square, kFar + a + 2c, with a along the edge; for the squares at
+// its low and high end, a away from the side's own square; and for the opposite one, a along the edge.
 constexpr size_t kFar = 12, kLow = 18, kHigh = 24, kOpposite = 30;
 
 }  // namespace
@@ -79,7 +79,7 @@ void Surroundings::take(std::span<const FieldSample> samples) {
     if (corner(i)) q_[i] = samples[next++].q;
 }
 
-/// The number of a corner of a square's cells. bits: as of the side's own, a + 2b; level: c.
+/// The number of a corner of a square's cells. bits: as in the side's own square, a + 2b; level: c.
 size_t Surroundings::numberOf(Place place, size_t bits, size_t level) const {
   if (place == Place::own) return bits + 4 * level;
   const size_t across = bitOf(across_), along_bit = 3 - across;

@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// The parts of a body's surface that are connected through vertices, by one of their vertices.
+/// The parts of a body's surface that are connected through vertices, identified by one of their vertices.
 class Parts {
  public:
   Parts(const BodyLoops& body, std::pmr::memory_resource* memory) : above_(body.part().vertices.size(), memory) {
@@ -29,10 +29,10 @@ class Parts {
     above_[std::max(a, b)] = std::min(a, b);
   }
 
-  std::pmr::vector<uint32_t> above_;  ///< of the same part, or the vertex itself
+  std::pmr::vector<uint32_t> above_;  ///< a vertex of the same part, or the vertex itself
 };
 
-/// How often triangles above a place, along z, face up rather than down.
+/// Of the triangles above a point along z: the number facing up minus the number facing down.
 int turnsAbove(std::span<const NamedTriangle> triangles, const Int3& place) {
   int turns = 0;
   for (const NamedTriangle& triangle : triangles) {
@@ -85,7 +85,7 @@ class Swallowed {
     return closed;
   }
 
-  /// Calls visit for the sharp loops of other parts whose features may reach into these cells.
+  /// Calls visit for the sharp loops of other parts whose features may extend into these cells.
   template <class Visit>
   void visitOthers(uint32_t part, Int3 lo, Int3 hi, const Visit& visit) {
     for (int k = 0; k < 3; ++k) --lo[k], ++hi[k];
@@ -95,8 +95,8 @@ class Swallowed {
     });
   }
 
-  /// How much more often the other parts go round the place with their features than without. These differ by closed
-  /// surfaces, but for what lies in the faces of the chunk.
+  /// The change of the other parts' winding number around the point due to their features. The surfaces with and
+  /// without features differ by closed surfaces, except in the faces of the chunk.
   int turnsOf(uint32_t part, const Int3& at) {
     int turns = 0;
     const Int3 cell{at.x / kSubcell, at.y / kSubcell, at.z / kSubcell};
@@ -109,7 +109,7 @@ class Swallowed {
     return turns;
   }
 
-  /// Between a loop's sides in the upper face of the chunk and the ways round by their face vertices.
+  /// The triangles between a loop's sides in the upper face of the chunk and the detours through their face vertices.
   LoopTriangles inTopFace(const SharpLoop& loop) const {
     LoopTriangles triangles;
     for (uint32_t i = 0; i < sharp_.of(loop).count; ++i) {
@@ -132,7 +132,7 @@ class Swallowed {
   const BodyLoops& body_;
   Parts parts_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<uint32_t> place_{memory_};  ///< in sharp_.loops, by loop of the body
+  std::pmr::vector<uint32_t> place_{memory_};  ///< index in sharp_.loops, by loop of the body
 };
 
 }  // namespace

@@ -1,10 +1,9 @@
 #pragma once
-// The case tables of cubes and seam cells, and the numbering that they and everything around them use. The arrays are
-// made at build time from case_rule.h, where the rule and the canonical order of loops stand; a GPU takes them as they
-// are.
+// The case tables of cubes and seam cells, and their numbering. The arrays are generated at build time from
+// case_rule.h, which states the rule and the canonical order of loops; GPUs use them unchanged.
 //
 // Cube. Corner c lies at (c & 1, c >> 1 & 1, c >> 2). Edge 4 * axis + b0 + 2 * b1 runs along axis; b0 and b1 are its
-// coordinates on the two other axes, the lower axis first. Faces are numbered as Face. Bit c of a case: corner c is
+// coordinates on the two other axes, the lower axis first. Faces are numbered as in Face. Bit c of a case: corner c is
 // solid.
 //
 // Seam cell. It stands on the face of a fine chunk, over one square of the coarse grid. u = (axis + 1) % 3 and
@@ -15,11 +14,11 @@
 //            16 + a + 2b       lateral, from the fine to the coarse corner at coarse (a, b)
 //   faces    a + 2b            fine square                  4            coarse square
 //            5..8              lateral pentagons: low b, high a, high b, low a
-// The table is for a high face; over a low face the same loops are walked backwards, from the same first edge.
+// The table is for a high face; over a low face the same loops are traversed backwards, from the same first edge.
 //
-// Loops are counter-clockwise as seen from the void. The bytes of case c lie at LoopStart[c] .. LoopStart[c + 1]: for
-// each loop its length n, then its n edges. A diagonal may join two vertices of a seam cell's loop if kSeamEdgeFaces of
-// their edges share no bit, and those of a cube's loop if chordMask of their edges share none.
+// Loops are counter-clockwise as seen from the void. The bytes of case c are LoopStart[c] .. LoopStart[c + 1]: for each
+// loop its length n, then its n edges. A diagonal may join two vertices of a seam cell's loop if the kSeamEdgeFaces of
+// their edges share no bit, and two of a cube's loop if the chordMask of their edges share none.
 
 #include <array>
 #include <cstddef>
@@ -38,17 +37,18 @@ inline constexpr int kLongestLoop = 12;
 
 extern const uint16_t kCubeLoopStart[256 + 1];
 extern const uint8_t kCubeLoops[kCubeLoopBytes];
-extern const uint8_t kCubeTriangles[256];  ///< triangles that a case makes
-/// What kCubeLoops says of a case's first loop: where its edges begin, its length << 16, and 1 << 24 if others follow.
+extern const uint8_t kCubeTriangles[256];  ///< the number of triangles of a case
+/// The first loop of a case in kCubeLoops: the offset of its edges, its length << 16, and 1 << 24 if others follow.
 extern const uint32_t kCubeFirstLoop[256];
 extern const uint16_t kCubeEdgeFaces[kCubeEdges];
 
-/// The diagonals that a cube's loop of n points must not have join two edges whose masks share a bit: edges of one
-/// face, and in a loop of seven also two parallel edges that lie opposite each other. faces: kCubeEdgeFaces[edge].
+/// The mask for diagonals of a cube's loop of n points: a diagonal must not join edges whose masks share a bit. These
+/// are edges of one face, and in a loop of seven also opposite parallel edges. faces: kCubeEdgeFaces[edge].
 ///
-/// A loop of seven has two pairs of such edges. Each of the four triangulations that can cut themselves, of the sixteen
-/// without a diagonal in a face, joins one of the pairs; no triangulation of a shorter loop can cut itself or another
-/// loop of its cell, wherever the vertices lie on their edges (tests/unit/mesh/self_cut_test.cpp proves both).
+/// A loop of seven has two pairs of such edges. Of its sixteen triangulations without a diagonal in a face, four can
+/// intersect themselves, and each of these joins one of the pairs. No triangulation of a shorter loop can intersect
+/// itself or another loop of its cell, wherever the vertices lie on their edges (tests/unit/mesh/self_cut_test.cpp
+/// proves both).
 SGM_KERNEL uint32_t chordMask(uint32_t faces, uint32_t edge, int n) {
   const uint32_t pair = edge / 4 * 2 + ((edge ^ edge >> 1) & 1);
   return n == kLongestCubeLoop ? faces | 64u << pair : faces;

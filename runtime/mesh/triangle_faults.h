@@ -1,21 +1,21 @@
 #pragma once
-// What is wrong with a triangle, and with two of them: the one definition for all that judges meshes, of chunks as they
-// are streamed, of frames as they are drawn, of regions and files as they are measured.
+// Defects of a triangle and of a pair of triangles: the common definition for all checks of meshes, of streamed chunks,
+// drawn frames, and measured regions and files.
 //
 // A triangle is
-//   DEGENERATE  where two of its corners are one, by number or by place;
-//   FLAT        where its corners are three places on a line.
+//   DEGENERATE  if two of its corners are one, by index or by position;
+//   FLAT        if its corners are three distinct points on a line.
 // Two triangles that have an area
-//   FOLD        where they share two corners and lie upon each other: the angle between them is exactly 0;
-//   CUT         where they have any other point in common beside the corners and the edge that they share. To touch is
-//               to cut.
-// Two that share all three corners are duplicates, of which check.h tells. Every answer is exact.
+//   FOLD        if they share two corners and overlap: the angle between them is exactly 0;
+//   CUT         if they have any common point other than their common corners and edge. Touching counts as
+//               cutting.
+// Two that share all three corners are duplicates, which check.h reports. Every answer is exact.
 //
-// A file, a region of one level and the body of a chunk have none of these. A SEAM is a sheet without thickness in the
-// face between two levels: where both have the same surface its triangles are flat, fold, and lie upon others, and a
-// corner of each level may lie in one place, since keys tell them apart. So there these alone are wrong: two corners of
-// one triangle in one place that are not one of each level (maySharePlace), and what PIERCES another triangle, of any
-// part: an edge with its ends on both sides of it that goes through its inside.
+// A file, a region of one level and the body of a chunk have none of these. A SEAM is a sheet of zero thickness in the
+// face between two levels: if both have the same surface, its triangles are flat, fold, and overlap others, and a
+// corner of each level may have the same position, since keys distinguish them. So in seams only these are wrong: two
+// corners of one triangle at one position that are not one of each level (maySharePlace), and a triangle that PIERCES
+// another one of any part: an edge with its ends on both sides of it passes through its interior.
 
 #include <algorithm>
 #include <array>
@@ -29,32 +29,32 @@ namespace sgm {
 
 enum class PairFault : uint8_t { none, folded, cut };
 
-/// Whether corners of these kinds (Vertex::kind) may lie in one place in a triangle of a seam: one on its fine side,
-/// one on its coarse side. A lateral vertex is on both.
+/// True if corners of these kinds (Vertex::kind) may have the same position in a triangle of a seam: one on its fine
+/// side, one on its coarse side. A lateral vertex is on both.
 constexpr bool maySharePlace(uint16_t a, uint16_t b) {
   const auto sides = [](uint16_t kind) { return kind == kLateralEdge ? 3 : isOfCoarserLevel(kind) ? 2 : 1; };
   return (sides(a) ^ sides(b)) == 3;
 }
 
-/// On which side, for places whose coordinates differ by less than 2^19.
+/// Exact side tests for positions whose coordinates differ by less than 2^19.
 struct IntegerSigns {
   using Place = Int3;
 
   static constexpr int signOf(int64_t v) { return (v > 0) - (v < 0); }
-  /// 1, 0 or -1: d lies behind, in or in front of the plane in which a, b, c go round counter-clockwise seen from in
-  /// front.
+  /// Returns 1, 0 or -1 if d lies behind, in or in front of the plane of a, b, c, which are counter-clockwise seen from
+  /// the front.
   static int orientation(const Place& a, const Place& b, const Place& c, const Place& d) {
     const int64_t ux = a.x - d.x, uy = a.y - d.y, uz = a.z - d.z, vx = b.x - d.x, vy = b.y - d.y, vz = b.z - d.z,
                   wx = c.x - d.x, wy = c.y - d.y, wz = c.z - d.z;
     return signOf(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
   }
-  /// 1, 0 or -1: a, b, c go round counter-clockwise, lie on a line, or go round clockwise, seen from the end of the
+  /// Returns 1, 0 or -1 if a, b, c are counter-clockwise, collinear or clockwise, seen from the positive end of the
   /// axis `drop` (0..2).
   static int orientationAlong(int drop, const Place& a, const Place& b, const Place& c) {
     const int x = (drop + 1) % 3, y = (drop + 2) % 3;
     return signOf(int64_t{a[x] - c[x]} * (b[y] - c[y]) - int64_t{a[y] - c[y]} * (b[x] - c[x]));
   }
-  /// An axis along which a triangle does not look flat; -1 where it is flat.
+  /// An axis along which a triangle does not look flat; -1 if it is flat.
   static int seenAlong(const std::array<Place, 3>& t) {
     for (int axis = 0; axis < 3; ++axis)
       if (orientationAlong(axis, t[0], t[1], t[2]) != 0) return axis;
@@ -62,14 +62,14 @@ struct IntegerSigns {
   }
 };
 
-/// Two triangles, by the signs of some arithmetic (as IntegerSigns).
+/// Tests on two triangles, by the signs of some arithmetic (as IntegerSigns).
 template <class Signs>
 class TrianglePair {
  public:
   using Place = typename Signs::Place;
   using Corners = std::array<Place, 3>;
 
-  /// The corners that both share come first, in the same order in both; `shared` says how many they are.
+  /// The common corners come first, in the same order in both; `shared` is their number.
   static PairFault faultOf(const Corners& a, const Corners& b, int shared) {
     switch (shared) {
       case 0:
@@ -86,7 +86,7 @@ class TrianglePair {
   static bool pierce(const Corners& a, const Corners& b) { return passesThrough(a, b) || passesThrough(b, a); }
 
  private:
-  /// In the plane of the triangle, seen along `drop`.
+  /// For a point in the plane of the triangle, seen along `drop`.
   static bool inTriangle(int drop, const Corners& t, const Place& p) {
     const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k)
@@ -94,7 +94,7 @@ class TrianglePair {
     return true;
   }
 
-  /// Of points on one line.
+  /// For points on one line.
   static bool between(const Place& a, const Place& b, const Place& p) {
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] < std::min(a[axis], b[axis]) || p[axis] > std::max(a[axis], b[axis])) return false;
@@ -109,7 +109,7 @@ class TrianglePair {
            (a_side == 0 && between(c, d, a)) || (b_side == 0 && between(c, d, b));
   }
 
-  /// from_side, to_side: of the triangle's plane, by orientation().
+  /// from_side, to_side: relative to the triangle's plane, by orientation().
   static bool segmentMeets(const Place& from, const Place& to, int from_side, int to_side, const Corners& t, int drop) {
     if (from_side * to_side > 0) return false;
     if (from_side == 0 && to_side == 0) {
@@ -145,12 +145,12 @@ class TrianglePair {
     return false;
   }
 
-  /// Of triangles in one plane: whether the line through an edge of `t` has all of `other` strictly beyond it, but for
-  /// the first corner where both share that. Most neighbours on flat ground are told so.
+  /// For coplanar triangles: true if the line through an edge of `t` has all of `other` strictly beyond it, except for
+  /// a common first corner. This settles most neighbours on flat ground.
   static bool liesBeyond(int drop, const Corners& t, const Corners& other, size_t shared) {
     const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k) {
-      // Of two that share their first corner, a line through it.
+      // If they share their first corner, only lines through it can separate them.
       if (shared == 1 && k == 1) continue;
       bool beyond = true;
       for (size_t i = shared; i < 3 && beyond; ++i)
@@ -160,17 +160,17 @@ class TrianglePair {
     return false;
   }
 
-  /// The corner that lies on the other side than the other two; nullopt if one lies in the plane.
+  /// The corner that lies on the other side than the other two; nullopt if a corner lies in the plane.
   static std::optional<size_t> loneCorner(const std::array<int, 3>& sides) {
     if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) return std::nullopt;
     return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;
   }
 
-  /// Both triangles cross the other's plane, in no corner. On the line of both planes each covers what lies between the
-  /// two edges from its lone corner; which of two edges comes first there is one orientation (Guigue and Devillers,
-  /// Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
+  /// Requires that both triangles cross the other's plane, at no corner. On the common line of both planes each covers
+  /// the interval between the two edges from its lone corner; one orientation decides which of two edges comes first
+  /// (Guigue and Devillers, Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
   static bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
-    // As many turns as make both lone corners lie in front of the other plane.
+    // Rotate the corners so that both lone corners lie in front of the other plane.
     const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
     const Corners q = {b[b_lone], b[(b_lone + (a_side > 0 ? 2 : 1)) % 3], b[(b_lone + (a_side > 0 ? 1 : 2)) % 3]};
     return Signs::orientation(p[0], p[1], q[0], q[1]) >= 0 && Signs::orientation(p[0], p[2], q[0], q[2]) <= 0;
@@ -189,8 +189,8 @@ class TrianglePair {
     return anyEdgeMeets(a, a_sides, b, b_drop) || anyEdgeMeets(b, b_sides, a, a_drop);
   }
 
-  /// The first corner of both is the common one. Where they meet elsewhere, the edge of one that lies opposite it meets
-  /// the other: a line in both triangles from the common corner on ends at such an edge.
+  /// The first corner of both is the common one. If they meet elsewhere, the opposite edge of one meets the other: a
+  /// segment in both triangles that starts at the common corner ends at such an edge.
   static bool meetBesideCorner(const Corners& a, const Corners& b) {
     const int b1 = Signs::orientation(a[0], a[1], a[2], b[1]), b2 = Signs::orientation(a[0], a[1], a[2], b[2]);
     if (b1 * b2 > 0) return false;
@@ -224,7 +224,7 @@ class TrianglePair {
   }
 };
 
-/// Brings the corners that are one in both triangles to the front of both, in the same order; returns how many.
+/// Moves the common corners to the front of both triangles, in the same order; returns their number.
 template <class Corner>
 int sharedFirst(std::array<Corner, 3>& a, std::array<Corner, 3>& b) {
   size_t shared = 0;

@@ -1,7 +1,7 @@
 #pragma once
-// What one packed triangle adds to the sums over a mesh, in integers alone: equal for every backend, order of addition
-// and machine. CUDA's kernels run this source, those of Vulkan say the same (shaders/mesher/sums.comp). Lengths are in
-// 1/256 of the chunk's cell.
+// The contribution of one packed triangle to the sums over a mesh, in integers alone: equal for every backend, order of
+// addition and machine. CUDA's kernels compile this source, and those of Vulkan repeat it (shaders/mesher/sums.comp).
+// Lengths are in 1/256 of the chunk's cell.
 
 #include <cmath>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace sgm {
 
-/// Vertices that are measured lie within these on each axis: feature vertices may be a cell and a bit beyond the chunk.
+/// The range of measured vertices on each axis: feature vertices may lie slightly more than a cell beyond the chunk.
 inline constexpr int kLeastPosition = -2 * kSubcell, kMostPosition = kChunkCells * kSubcell + 2 * kSubcell;
 
-/// A direction in integers: components below 2^15, their absolute values add up to 32767.
+/// A direction in integers: components below 2^15, whose absolute values sum to 32767.
 struct PackedDirection {
   int16_t x, y, z;
 };
 
-/// The packed octahedral normal, unfolded as unpackNormal (mesh/vertex.h) does, but not brought to length one.
+/// The packed octahedral normal, unfolded as in unpackNormal (mesh/vertex.h), but not normalised.
 SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
   const int32_t ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, z = 32767 - ax - ay;
   const int32_t folded_x = x < 0 ? ay - 32767 : 32767 - ay, folded_y = y < 0 ? ax - 32767 : 32767 - ax;
@@ -29,7 +29,7 @@ SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
 
 /// The square root, rounded to the nearest integer. 0 <= x < 2^62.
 SGM_KERNEL int64_t roundedRoot(int64_t x) {
-  // The double is at most one off, in either direction.
+  // The double is off by at most one, in either direction.
   const auto root = static_cast<int64_t>(std::sqrt(static_cast<double>(x)) + 0.5);
   const int64_t square = root * root;
   return root + (x > square + root ? 1 : 0) - (x <= square - root && root != 0 ? 1 : 0);
@@ -37,7 +37,8 @@ SGM_KERNEL int64_t roundedRoot(int64_t x) {
 
 inline constexpr int kLengthBits = 12;
 
-/// sqrt(square) in 1/4096, each step rounded to nearest: to 1/8192 below 2^38, where all triangles of a few cells are.
+/// sqrt(square) in 1/4096, each step rounded to nearest. The error is at most 1/8192 below 2^38, which includes all
+/// triangles of a few cells.
 SGM_KERNEL int64_t fixedRoot(int64_t square) {
   const int bits = square < int64_t{1} << 38 ? kLengthBits : square < int64_t{1} << 50 ? kLengthBits / 2 : 0;
   return roundedRoot(square << 2 * bits) << (kLengthBits - bits);
@@ -50,7 +51,7 @@ struct TriangleTerms {
   int64_t six_volumes;  ///< of the tetrahedron with the chunk's origin
 };
 
-/// Precondition: all within kLeastPosition..kMostPosition.
+/// Precondition: all coordinates are in kLeastPosition..kMostPosition.
 SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex& c) {
   const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -66,13 +67,13 @@ SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex&
   return t;
 }
 
-/// Whether its quality, 4 sqrt(3) area / sides, is below 0.05 (kSliver in mesh_measures.h): 4800 square < sides^2.
+/// True if its quality, 4 sqrt(3) area / sides, is below 0.05 (kSliver in mesh_measures.h): 4800 square < sides^2.
 SGM_KERNEL bool isSliver(const TriangleTerms& t) {
-  // Both by 64, so that the products fit.
+  // Both sides are divided by 64, so that the products fit.
   return 75 * t.square < (int64_t{t.sides} * t.sides + 63) >> 6;
 }
 
-/// What triangles add up to.
+/// The sums over triangles.
 struct TermSums {
   int64_t area = 0;  ///< twice, in 1/4096 (fixedRoot)
   int64_t x = 0, y = 0, z = 0, six_volumes = 0;
@@ -88,7 +89,7 @@ SGM_KERNEL void addTerms(const TriangleTerms& t, TermSums& sums) {
   sums.slivers += isSliver(t) ? 1u : 0u;
 }
 
-/// Whether it faces where its corners' normals point, all together.
+/// True if it faces in the direction of the sum of its corners' normals.
 SGM_KERNEL bool facesAlong(const TriangleTerms& t, const PackedDirection& a, const PackedDirection& b,
                            const PackedDirection& c) {
   return int64_t{t.x} * (a.x + b.x + c.x) + int64_t{t.y} * (a.y + b.y + c.y) + int64_t{t.z} * (a.z + b.z + c.z) > 0;

@@ -1,12 +1,12 @@
 #pragma once
-// One loop of cut edges becomes triangles, in 32-bit integers alone, so that every backend chooses the same diagonals.
+// Triangulates one loop of cut edges, in 32-bit integers alone, so that every backend chooses the same diagonals.
 //
-// Among all triangulations whose diagonals are allowed (LoopPoint::faces), the one whose smallest triangle is largest,
-// by dynamic programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece i..j,
-// and for each chord the first apex k in ascending order that reaches it is taken. The measure of a triangle is the L1
-// norm of the cross product of two of its sides. Triangles come out in pre-order: (i, k, j), then those of (i, k), then
-// those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot happen. A seam's loops are
-// flat, and least overlap comes before the largest smallest triangle (triangulateFlatLoop).
+// Chooses, among all triangulations with allowed diagonals (LoopPoint::faces), the one whose smallest triangle is
+// largest, by dynamic programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece
+// i..j, and each chord takes the first apex k in ascending order that reaches it. The measure of a triangle is the L1
+// norm of the cross product of two of its sides. Triangles are output in pre-order: (i, k, j), then those of (i, k),
+// then those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot occur. A seam's loops are
+// flat, and least overlap takes precedence over the largest smallest triangle (triangulateFlatLoop).
 
 #include <algorithm>
 #include <array>
@@ -19,25 +19,25 @@
 #include "mesh/tables.h"
 #include "mesh/triangulate_any.h"
 
-// Left to its own judgement g++ keeps the unrolled pieces below as calls, at half the speed.
+// Without this attribute, g++ keeps the unrolled pieces below as calls, at half the speed.
 #define SGM_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace sgm {
 
 namespace triangulation {
 
-/// In how many ways a piece of n points can be cut into triangles: the Catalan numbers.
+/// The number of triangulations of a piece of n points: the Catalan numbers.
 inline constexpr std::array<int, 8> kWays{0, 0, 1, 1, 2, 5, 14, 42};
 
-/// The number of the first triangulation of a piece of n points whose apex is its k-th point, where triangulations are
-/// counted by apex, then by that of the left piece, then by that of the right one.
+/// The index of the first triangulation of a piece of n points whose apex is its k-th point. Triangulations are ordered
+/// by apex, then by that of the left piece, then by that of the right one.
 constexpr int firstWay(size_t n, size_t k) {
   int way = 0;
   for (size_t earlier = 1; earlier < k; ++earlier) way += kWays[earlier + 1] * kWays[n - earlier];
   return way;
 }
 
-/// Triangulation `way` of the points from..from + n - 1, in pre-order.
+/// Writes triangulation `way` of the points from..from + n - 1, in pre-order.
 constexpr uint8_t* writeWay(size_t from, size_t n, int way, uint8_t* out) {
   if (n < 3) return out;
   size_t k = 1;
@@ -59,7 +59,7 @@ constexpr auto makeWays() {
 template <size_t N>
 inline constexpr auto kTriangles = makeWays<N>();
 
-/// Calls f(std::integral_constant<size_t, i>) for Begin <= i < End: a loop that is unrolled for certain.
+/// Calls f(std::integral_constant<size_t, i>) for Begin <= i < End: a loop that is always unrolled.
 template <size_t Begin, size_t End, class F>
 SGM_ALWAYS_INLINE inline void unrolled(F&& f) {
   if constexpr (Begin < End) {
@@ -70,8 +70,8 @@ SGM_ALWAYS_INLINE inline void unrolled(F&& f) {
 
 }  // namespace triangulation
 
-/// triangulateAnyLoop for a length known to the compiler: without branches, and with cross products shared by
-/// triangles. point(i) gives the i-th LoopPoint and is called once for each.
+/// triangulateAnyLoop for a compile-time length: without branches, and with cross products shared by triangles.
+/// point(i) returns the i-th LoopPoint and is called once for each.
 template <size_t N, class Load>
 inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   using namespace triangulation;
@@ -126,7 +126,8 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   return out + 3 * (N - 2);
 }
 
-/// triangulateAnyLoop by length. point(i, n) gives the i-th LoopPoint of n, a constant. 3 <= n <= kLongestCubeLoop.
+/// Selects triangulateAnyLoop by length. point(i, n) returns the i-th of n LoopPoints; n is constant. 3 <= n <=
+/// kLongestCubeLoop.
 template <class Load>
 inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   switch (n) {

@@ -1,5 +1,5 @@
 #pragma once
-// The definition of how a loop of cut edges becomes triangles (triangulate.h), for any length, on the CPU and on a GPU.
+// Defines the triangulation of a loop of cut edges (triangulate.h) for any length, on the CPU and on a GPU.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace sgm {
 
-/// A vertex of a loop. Positions may be relative to anything; two points of a loop are at most 512 apart on each axis.
+/// A vertex of a loop. Positions may have any origin; two points of a loop are at most 512 apart on each axis.
 struct LoopPoint {
   int32_t x, y, z;
-  uint32_t faces;   ///< a diagonal joins no two points that share a bit: chordMask, or kSeamEdgeFaces (tables.h)
-  uint32_t vertex;  ///< what is written into the index list
+  uint32_t faces;   ///< a diagonal must not join points that share a bit: chordMask, or kSeamEdgeFaces (tables.h)
+  uint32_t vertex;  ///< the value written into the index list
 };
 
 /// The L1 norm of twice the triangle's area vector.
@@ -26,7 +26,7 @@ SGM_KERNEL int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const
   return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
 }
 
-/// Writes the triangles of a loop of n points in pre-order. apex[i * kSide + j]: the apex of the chord from i to j.
+/// Writes the triangles of a loop of n points in pre-order. apex[i * kSide + j] is the apex of the chord from i to j.
 /// Returns the end of the 3 * (n - 2) indices.
 template <int kSide>
 SGM_KERNEL uint32_t* writeTriangles(const LoopPoint* loop, int n, const uint8_t* apex, uint32_t* out) {
@@ -50,7 +50,7 @@ SGM_KERNEL uint32_t* writeTriangles(const LoopPoint* loop, int n, const uint8_t*
   return out;
 }
 
-/// A cube's loop, for any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns the end of them.
+/// Triangulates a cube's loop of any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns their end.
 template <int kLongest = kLongestLoop>
 SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongest;
@@ -78,9 +78,10 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
   return writeTriangles<kSide>(loop, n, apex, out);
 }
 
-/// A seam's loop, whose points lie in one plane: of the triangulations with the least total area the one whose smallest
-/// triangle is largest. The total is least where no two triangles overlap, if the loop allows that; a loop that crosses
-/// itself, since the two levels' contours do, gets the triangles that overlap least. Otherwise as triangulateAnyLoop.
+/// Triangulates a seam's loop, whose points lie in one plane: chooses, among the triangulations with the least total
+/// area, the one whose smallest triangle is largest. The total is least if no two triangles overlap; a loop that
+/// crosses itself, because the two levels' contours do, gets the triangles that overlap least. Otherwise the same as
+/// triangulateAnyLoop.
 SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongestLoop;
   constexpr int32_t kForbidden = 1 << 24;  // more than the area of any loop: 10 triangles of at most 2^19

@@ -1,5 +1,5 @@
 #pragma once
-// Where a packed vertex lies, and what its packed normal means.
+// The position and the normal of a packed vertex.
 
 #include <array>
 #include <cmath>
@@ -11,29 +11,30 @@
 
 namespace sgm {
 
-/// How far along its edge, in 1/256, the surface crosses between q0 (the lower end on the edge's axis) and q1: 1..255.
-/// round(256 |q0| / (|q0| + |q1|)), halves up, in 32-bit integers. The signs differ, so that the sum is not 0.
+/// The position along an edge, in 1/256, at which the surface crosses between q0 (the lower end on the edge's axis) and
+/// q1: 1..255. round(256 |q0| / (|q0| + |q1|)), halves up, in 32-bit integers. The signs differ, so that the sum is not
+/// 0.
 SGM_KERNEL uint32_t crossing(int32_t q0, int32_t q1) {
   const uint32_t a = static_cast<uint32_t>(std::abs(q0)), sum = a + static_cast<uint32_t>(std::abs(q1));
   const uint32_t t = (512 * a + sum) / (2 * sum);
   return t < 1 ? 1 : t > 255 ? 255 : t;
 }
 
-/// A local position in 1/256 of a cell, in whole units: round(position * cell / 256), halves up. In 32 bits for a cell
-/// of at most 2^22 units. Equal for all chunks that meet in a vertex, of whatever level, since the exact position is
-/// equal.
+/// Converts a local position in 1/256 of a cell to whole units: round(position * cell / 256), halves up. 32 bits
+/// suffice for a cell of at most 2^22 units. Equal for all chunks that share a vertex, of any level, since the exact
+/// position is equal.
 SGM_KERNEL int32_t localUnits(int32_t position, int32_t cell) {
   return (position >> 8) * cell + (((position & 255) * cell + 128) >> 8);
 }
 
-/// The vertex of a body or of a seam in world units, by the rounding of localUnits: where its attributes are evaluated.
+/// The vertex of a body or seam in world units, rounded as in localUnits; its attributes are evaluated there.
 SGM_KERNEL Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
   return {grid.origin.x + localUnits(v.x, grid.cell), grid.origin.y + localUnits(v.y, grid.cell),
           grid.origin.z + localUnits(v.z, grid.cell)};
 }
 
-/// The crossed edge of a body's vertex: its lower end as a sample's coordinates, and its axis. A vertex never sits on a
-/// sample, so that exactly one coordinate has a fraction. Not for seams, whose edges the keys tell.
+/// The crossed edge of a body's vertex: the sample at its lower end, and its axis. A vertex never lies on a sample, so
+/// that exactly one coordinate has a fraction. Not for seams, whose edges are given by the keys.
 struct SampleEdge {
   int x, y, z, axis;
   size_t sample() const { return static_cast<size_t>(x + kChunkSamples * (y + kChunkSamples * z)); }
@@ -42,7 +43,7 @@ inline SampleEdge edgeOfBodyVertex(const Vertex& v) {
   return {v.x >> 8, v.y >> 8, v.z >> 8, (v.x & 255) != 0 ? 0 : (v.y & 255) != 0 ? 1 : 2};
 }
 
-/// The packed octahedral normal as a direction of length one.
+/// Unpacks the octahedral normal to a direction of length one.
 inline std::array<double, 3> unpackNormal(int16_t packed_x, int16_t packed_y) {
   double x = packed_x / 32767.0, y = packed_y / 32767.0;
   const double z = 1 - std::fabs(x) - std::fabs(y);
@@ -55,7 +56,7 @@ inline std::array<double, 3> unpackNormal(int16_t packed_x, int16_t packed_y) {
   return {x / length, y / length, z / length};
 }
 
-/// A direction that is not 0, of any length, as a packed normal.
+/// Packs a non-zero direction of any length as an octahedral normal.
 inline std::array<int16_t, 2> packNormal(const std::array<double, 3>& n) {
   const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
   double x = n[0] / sum, y = n[1] / sum;

@@ -10,11 +10,11 @@ namespace {
 
 constexpr size_t kLast = kChunkCells;
 
-/// The blocks that samples lie in, by sample.
+/// The blocks that contain a sample, by sample.
 struct BlockTables {
   std::array<uint8_t, kChunkSamples> low{}, high{};
   std::array<uint64_t, kChunkSamples> bits{};  ///< bit i: block i
-  std::array<uint64_t, kChunkSamples> rows{};  ///< bit 8 i: times the bits of another axis these are a square's blocks
+  std::array<uint64_t, kChunkSamples> rows{};  ///< bit 8 i: times the bits of another axis, the blocks of a square
 
   constexpr BlockTables() {
     for (size_t sample = 0; sample < kChunkSamples; ++sample) {

@@ -1,7 +1,7 @@
 #pragma once
-// The voids of a block of a chunk's samples, labelled run by run: what voidComponents() and exact searches share.
+// Labels the voids of a block of a chunk's samples run by run, for voidComponents() and exact searches.
 //
-// Void samples join along the axes and across the diagonal of a face: mesh/void_components.h says why.
+// Void samples are connected along the axes and across the diagonal of a face: see mesh/void_components.h.
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +14,10 @@
 
 namespace sgm {
 
-inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< of a chunk, number y + 33 z
+inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< of a chunk, row y + 33 z
 
-/// The runs of void samples of each row, labelled by what they touch among the rows before; labels that meet later are
-/// united. A run at a time instead of a sample: a cave has one or two a row, and few labels.
+/// The runs of void samples of each row, labelled by the runs that they touch in previous rows; labels that meet later
+/// are united. Runs are faster than samples: a cave has one or two per row, and few labels.
 class VoidRuns {
  public:
   VoidRuns(std::span<const uint64_t> signs, std::pmr::memory_resource* memory)
@@ -47,10 +47,10 @@ class VoidRuns {
     return label;
   }
 
-  /// Whether a run of that very label touches a face.
+  /// True if a run with exactly that label touches a face.
   uint8_t touchesFace(size_t label) const { return touches_[label]; }
 
-  /// visit(label, first sample, last sample, y, z), in order.
+  /// Calls visit(label, first sample, last sample, y, z) for each run, in order.
   template <class Visit>
   void forEach(const Visit& visit) const {
     size_t run = 0;
@@ -73,7 +73,7 @@ class VoidRuns {
 
   uint16_t labelAt(size_t row, int x) const {
     const uint64_t before = starts_[row] & ((uint64_t{2} << x) - 1);
-    // Counting bits costs where the processor has no instruction for it, and most rows have one run.
+    // Counting bits is slow on processors without an instruction for it, and most rows have one run.
     const size_t at = (before & (before - 1)) == 0 ? 0 : static_cast<size_t>(std::popcount(before)) - 1;
     return labels_[first_[row] + at];
   }
@@ -88,7 +88,7 @@ class VoidRuns {
       if (z > 0) {
         const size_t below = row - kChunkSamples;
         join(label, below, around);
-        // Where one of the other two corners is void the axes have joined, or will.
+        // If one of the other two corners is void, the axes have connected them, or will.
         if (y > 0) join(label, below - 1, run & ~open_[row - 1] & ~open_[below]);
         if (y < kLast) join(label, below + 1, run & ~open_[row + 1] & ~open_[below]);
       }
@@ -103,7 +103,7 @@ class VoidRuns {
     }
   }
 
-  /// Joins with the runs of a row that have one of the samples.
+  /// Joins the label with the runs of a row that contain one of the samples.
   void join(uint16_t& label, size_t row, uint64_t samples) {
     for (uint64_t touched = samples & open_[row]; touched != 0; touched &= touched + (touched & -touched)) {
       const uint16_t other = labelAt(row, std::countr_zero(touched));
@@ -115,7 +115,7 @@ class VoidRuns {
   }
 
   std::pmr::vector<uint64_t> open_, starts_;
-  std::pmr::vector<uint16_t> first_, labels_;  ///< of each row its first run; of each run its label
+  std::pmr::vector<uint16_t> first_, labels_;  ///< the first run of each row; the label of each run
   std::pmr::vector<uint16_t> parents_;         ///< union-find over labels; a set's root is its lowest
   std::pmr::vector<uint8_t> touches_;
 };

@@ -11,15 +11,15 @@
 namespace sgm {
 namespace {
 
-/// Parts meet only in the faces of their chunks: a vertex on an edge inside its chunk is in no other part. Feature
-/// vertices may lie off their faces, and a part may have one several times.
+/// True if a vertex may occur several times. Parts meet only in the faces of their chunks: a vertex on an edge inside
+/// its chunk is in no other part. Feature vertices may lie off their faces, and a part may contain one several times.
 bool mayBeOneOfMany(const Vertex& v) {
   if (isFeature(v.kind)) return true;
   constexpr int kEnd = kChunkCells * kSubcell;
   return v.x == 0 || v.x == kEnd || v.y == 0 || v.y == kEnd || v.z == 0 || v.z == kEnd;
 }
 
-/// For each border vertex, by its place among all vertices, the place of the first vertex with its key.
+/// The keys of border vertices with their indices among all vertices, sorted by key, then by index.
 std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std::pmr::memory_resource* memory) {
   std::pmr::vector<OrderedKey> border(memory);
   uint32_t place = 0;
@@ -59,7 +59,7 @@ Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin, std::pmr:
                                   " vertices, more than 32-bit indices can number; mesh a smaller one"};
   }
 
-  // number[place]: first the place of an earlier vertex with the same key, or kNone; in the end the welded number.
+  // number[index]: first the index of an earlier vertex with the same key, or kNone; finally the welded number.
   std::pmr::vector<uint32_t> number(vertex_count, kNone, memory);
   size_t welded_count = vertex_count;
   {

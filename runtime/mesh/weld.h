@@ -1,5 +1,5 @@
 #pragma once
-// Many parts become one indexed mesh. Vertices are one where their keys are equal, without any tolerance.
+// Welds many parts into one indexed mesh. Vertices with equal keys are merged, without any tolerance.
 
 #include <array>
 #include <memory_resource>
@@ -12,30 +12,30 @@
 
 namespace sgm {
 
-/// What a welded vertex keeps of its packed vertex.
+/// The attributes that a welded vertex keeps of its packed vertex.
 struct VertexAttributes {
   int16_t normal_x = 0, normal_y = 0;
   uint16_t material = 0, tag = 0;
   friend bool operator==(const VertexAttributes&, const VertexAttributes&) = default;
 };
 
-/// An indexed triangle mesh of a region. All arrays but indices have one entry a vertex.
+/// An indexed triangle mesh of a region. All arrays except indices have one entry per vertex.
 struct WorldMesh {
-  Int3 origin;  ///< where positions count from, in units
+  Int3 origin;  ///< of the positions, in units
   /// In metres from origin. Exact: positions are multiples of 1/2^18 m.
   std::pmr::vector<std::array<double, 3>> positions;
   std::pmr::vector<VertexAttributes> attributes;
   std::pmr::vector<VertexKey> keys;
-  std::pmr::vector<uint32_t> indices;  ///< three a triangle, counter-clockwise seen from the void
+  std::pmr::vector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the void
 
   explicit WorldMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : positions(memory), attributes(memory), keys(memory), indices(memory) {}
 };
 
-/// Welds bodies and seams of any number of chunks. The result does not depend on the order of parts: they are taken by
-/// level, then origin (z, y, x), then number; vertices come first seen first in that order, with the attributes of that
-/// first copy, triangles follow their parts. Border vertices come once; open edges remain only where no part adjoins.
-/// Error: Code::limit where the region has 2^32 vertices or more before welding.
+/// Welds bodies and seams of any number of chunks. The result does not depend on the order of parts: they are sorted by
+/// level, then origin (z, y, x), then number. Vertices are in order of first occurrence, with the attributes of the
+/// first copy; triangles follow their parts. Border vertices appear once; open edges remain only where no part adjoins.
+/// Error: Code::limit if the region has 2^32 vertices or more before welding.
 Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin,
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

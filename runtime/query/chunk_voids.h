@@ -1,6 +1,6 @@
 #pragma once
-// The voids of one chunk for agents of one size, sample by sample in its faces: what voids of chunks side by side have
-// in common is then exact, unlike the masks of mesh/void_components.h, which streaming can afford to have too coarse.
+// The voids of one chunk for agents of one size, with their samples in its faces. So the contacts of voids of adjacent
+// chunks are exact, unlike with the masks of mesh/void_components.h, which are coarse but good enough for streaming.
 
 #include <array>
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace sgm {
 
 struct ChunkVoids {
   struct Void {
-    uint32_t samples = 0;  ///< of those that the chunk owns
-    uint8_t faces = 0;     ///< that it touches, bit (1 << Face)
+    uint32_t samples = 0;  ///< that the chunk owns
+    uint8_t faces = 0;     ///< that the void touches, bit (1 << Face)
   };
   std::pmr::vector<Void> voids;  ///< in the order of their first samples
-  /// By Face: one more than the number of the void that has sample a + 33 b of the face, 0 where none has; a and b
-  /// count along the two other axes, the lower axis first. Empty where no void touches the face.
+  /// By Face: the number of the void with sample a + 33 b of the face, plus one; 0 if there is none. a and b count
+  /// along the other two axes, the lower axis first. Empty if no void touches the face.
   std::array<std::pmr::vector<uint16_t>, 6> faces;
-  std::vector<std::optional<uint32_t>> marked;  ///< of each mark the void that it lies in
+  std::vector<std::optional<uint32_t>> marked;  ///< for each mark, the void that contains it
 };
 
-/// rows: as ChunkSamples::signs, set where a sample is not free. owned: samples on each axis that count for this chunk,
-/// from 0 on: 32, or 33 where no chunk comes after it. marks: samples, each 0 to 32 on each axis. Pure.
+/// rows: as ChunkSamples::signs, set if a sample is not free. owned: the number of samples on each axis that belong to
+/// this chunk: 32, or 33 if no chunk follows. marks: samples, each 0 to 32 on each axis. Pure.
 ChunkVoids chunkVoids(std::span<const uint64_t> rows, Int3 owned, std::span<const Int3> marks,
                       std::pmr::memory_resource* memory);
 

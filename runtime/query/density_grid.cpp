@@ -13,9 +13,9 @@ namespace sgm {
 
 namespace {
 
-constexpr uint32_t kBrick = 8;  // points on an edge of what is evaluated together
+constexpr uint32_t kBrick = 8;  // on each edge of a group that is evaluated together
 constexpr uint32_t kBlock = 4 * kBrick;
-constexpr size_t kDepths = 3;  // from a block to a brick by halves, both included
+constexpr size_t kDepths = 3;  // levels of halving from a block to a brick, both included
 
 /// A box of the grid's points.
 struct Part {
@@ -42,7 +42,7 @@ IntBox boxOf(const DensityGrid& grid, const Part& part) {
   return box;
 }
 
-/// The parts of an edge length that a part is cut into, in order.
+/// Visits the parts of an edge length that make up a part, in order.
 template <class Visit>
 void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   std::array<uint32_t, 3> at{};
@@ -60,7 +60,7 @@ void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   }
 }
 
-/// Fills one block. One thread's.
+/// Fills one block. For one thread.
 class BlockFill {
  public:
   BlockFill(const DensityGrid& grid, const DensityEdge& edge, const DensityRows& rows,
@@ -74,11 +74,11 @@ class BlockFill {
 
   DensityFigures figures;
 
-  /// edge: of what the part is at this depth; kBrick at the last one.
+  /// edge: the edge of parts at this depth; kBrick at the last depth.
   void fill(const ProgramView& view, const Part& part, uint32_t edge, size_t depth = 0) {
     PrunedProgram& pruned = pruned_[depth];
     prune(view, boxOf(grid_, part), pruning_, pruned, Uniform::keep);
-    // Two steps more than the edge: samples are rounded, and so are the bounds' products.
+    // Two steps more than the edge, since samples and the products of bounds are rounded.
     const bool full = pruned.field.hi * static_cast<double>(pruned.q_scale) < -(edge_.steps + 2);
     if (pruned.empty() || full) {
       figures.bricks += bricksOf(part);
@@ -147,7 +147,7 @@ class BlockFill {
 Result<void> check(const QueryField& field, const DensityGrid& grid) {
   if (!(grid.edge >= 1 && grid.edge <= double{kMostEdgeCells} * field.finest_cell)) {
     return Error{Code::invalid_argument, "an edge of the density of " + numberText(grid.edge / kUnitsPerMetre) +
-                                             " m cannot be had here: it is " + "at least one unit wide, and at most " +
+                                             " m is out of range: it must be at least one unit wide, and at most " +
                                              std::to_string(kMostEdgeCells) + " cells of level 0, " +
                                              numberText(double{kMostEdgeCells} * field.finest_cell / kUnitsPerMetre) +
                                              " m: make the edge narrower, or the cells larger"};
@@ -177,7 +177,7 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
   size_t error_at = 0;
   uint64_t done = 0;
   bool stopped = false;
-  // A block before one that has failed goes on: it may fail too, and the first one's error is told.
+  // Blocks before a failed one continue: they may fail too, and the first block's error is reported.
   const auto ended = [&](size_t i) {
     const std::lock_guard lock(mutex);
     return stopped || (error && i > error_at);
@@ -195,7 +195,7 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
     figures.bricks += block.figures.bricks;
     figures.uniform += block.figures.uniform;
     if (stopped || error || !progress) return;
-    // After the last one there is nothing left to stop.
+    // After the last block there is nothing left to cancel.
     ++done;
     if (!progress(done, blocks.size()) && done < blocks.size()) stopped = true;
   });

@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// Above what any shape that shows has as its value.
+/// Larger than the value of any visible shape.
 constexpr double kNothing = 1e20;
 
 struct Sample {
@@ -30,15 +30,15 @@ Sample sampleAt(const FieldProgram& program, Int3 p) {
   return sample;
 }
 
-/// Evaluates single nodes of a cell, and goes down to those that decide.
+/// Evaluates single nodes of a cell, and descends to the deciding ones.
 class NodeReader {
  public:
   NodeReader(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), copier_(chunk), cell_edge_(cell_edge) {}
 
-  /// Its field there, units; above kNothing where no such level shows it.
+  /// The node's field at the place, units; kNothing or more if this level does not show it.
   double value(uint32_t shape, Int3 p) { return valueBy(copier_, shape, p); }
 
-  /// traced: the same chunk. leaf: among the nodes, the shape that decides.
+  /// traced: the same chunk. leaf: set to the index of the deciding shape in the nodes.
   Result<std::vector<ExplainedNode>> read(const TracedCell& traced, const Group& group, Int3 p, size_t& leaf) {
     traced_ = &traced;
     descend(group.root, p, 0, group.cut);
@@ -64,7 +64,7 @@ class NodeReader {
     return sampleAt(*program, p).value;
   }
 
-  /// Of an expression: by how much it displaces a ball.
+  /// The value of an expression: the displacement of a ball by it.
   double number(uint32_t expr, Int3 p) {
     if (!ball_) ball_.emplace(chunk_);
     std::pmr::vector<Shape>& shapes = ball_->chunk.shapes;
@@ -73,7 +73,7 @@ class NodeReader {
     return (valueBy(ball_->copier, static_cast<uint32_t>(shapes.size()) - 1, p) + 1) / kUnitsPerMetre;
   }
 
-  /// The cell and, behind its shapes, a ball and what displaces it: made once, for all expressions.
+  /// A copy of the cell with two more shapes, a ball and its displacement: made once, for all expressions.
   struct DisplacedBall {
     GrammarChunk chunk;
     DraftCopier copier;
@@ -110,7 +110,7 @@ class NodeReader {
     nodes_.push_back(node);
     leaf_ = at;
     if (s.child_count == 0 || error_) return;
-    // A tube or a beam is one shape, whatever pieces it has.
+    // A tube or a beam is one shape, whatever its pieces.
     if (s.kind == ShapeKind::unite && s.point_count > 0) return;
     switch (s.kind) {
       case ShapeKind::unite:
@@ -164,7 +164,7 @@ class NodeReader {
     }
   }
 
-  /// Into the child with the least value, or with the largest.
+  /// Descends into the child with the least or the largest value.
   void nearest(const Shape& s, bool largest, Int3 p, size_t at) {
     uint32_t found = 0;
     double best = largest ? -kNothing : kNothing;
@@ -188,7 +188,7 @@ class NodeReader {
   std::optional<Error> error_;
 };
 
-/// The group that decides so far.
+/// The deciding group so far.
 struct Decision {
   bool any = false;
   uint32_t layer = 0;

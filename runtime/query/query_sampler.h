@@ -1,5 +1,6 @@
 #pragma once
-// What the queries share: checks, positions that do not lose steps far from the origin, and points evaluated together.
+// Shared by the queries: checks, positions without loss of precision far from the origin, and evaluation of points in
+// groups.
 
 #include <cmath>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace sgm {
 
-/// A position split into whole units and what is left, 0 to 1: sums with offsets round the same wherever it is.
+/// A position as whole units and a rest of 0 to 1: sums with offsets round the same everywhere in the world.
 struct SplitPosition {
   Int3 base;
   Vector3 rest{};
@@ -30,7 +31,7 @@ struct SplitPosition {
   Vector3 position(const Vector3& offset) const {
     return {base.x + (rest[0] + offset[0]), base.y + (rest[1] + offset[1]), base.z + (rest[2] + offset[2])};
   }
-  /// From here to a whole place.
+  /// The vector from here to a whole place.
   Vector3 to(const Int3& p) const {
     return {static_cast<double>(int64_t{p.x} - base.x) - rest[0], static_cast<double>(int64_t{p.y} - base.y) - rest[1],
             static_cast<double>(int64_t{p.z} - base.z) - rest[2]};
@@ -52,17 +53,17 @@ inline Result<SplitPosition> splitPosition(const Vector3& position) {
   return split;
 }
 
-/// invalid_argument: no number from 0; limit: more than `most`.
+/// invalid_argument: negative or not a number; limit: more than `most`.
 inline Result<void> checkLength(double length, int64_t most, const char* name) {
-  if (!(length >= 0)) return Error{Code::invalid_argument, std::string(name) + " is not a number from 0"};
+  if (!(length >= 0)) return Error{Code::invalid_argument, std::string(name) + " is not a number of at least 0"};
   if (length > static_cast<double>(most)) {
     return Error{Code::limit, std::string(name) + " is more than " + std::to_string(most) +
-                                  " units, the most at this cell size; ask in parts"};
+                                  " units, the maximum at this cell size; split the query"};
   }
   return {};
 }
 
-/// Points that are evaluated together. One thread's.
+/// Points that are evaluated together. For one thread.
 class QuerySampler {
  public:
   explicit QuerySampler(std::pmr::memory_resource* memory)

@@ -7,11 +7,11 @@ namespace sgm {
 
 namespace {
 
-constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;  // whichever is more shares a program
+constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;  // the larger length shares a program
 constexpr int64_t kMostPieces = 64;
-constexpr int64_t kSampledPieceCells = 32;  // of a field that is sampled for each program
-constexpr int64_t kLeafSteps = 48;          // as many samples cost as much as proving once more that none are needed
-constexpr double kInWorld = 1.0;            // from the world's end, so that rounding stays inside
+constexpr int64_t kSampledPieceCells = 32;  // for a field that is sampled for each program
+constexpr int64_t kLeafSteps = 48;          // this many samples cost as much as one more proof that none are needed
+constexpr double kInWorld = 1.0;            // distance from the world's end, so that rounding stays inside
 
 /// One ray, in steps of `step`; the last one ends at the ray's length.
 class RayWalk {
@@ -41,7 +41,7 @@ class RayWalk {
  private:
   double along(int64_t i) const { return std::min(static_cast<double>(i) * step_, length_); }
   Int3 pointAt(double t) const { return from_.at(times(direction_, t)); }
-  /// Rounding keeps the order on each axis, so that the ends hold what lies between.
+  /// Rounding is monotonic on each axis, so the box of the ends contains everything between.
   IntBox stretch(int64_t first, int64_t last) const { return boxAround(pointAt(along(first)), pointAt(along(last))); }
 
   /// The first of these steps whose place is solid.
@@ -64,8 +64,8 @@ class RayWalk {
     return first + (hit - q.begin());
   }
 
-  /// Between the solid step and the one before it the first change is cut down to half a unit: on quantised samples
-  /// alone, so that every machine cuts alike.
+  /// Bisects between the solid step and the previous one, down to half a unit, using only quantised samples: so every
+  /// machine gets the same result.
   Result<std::optional<SurfacePoint>> surfaceAt(int64_t step) {
     double open = step == 0 ? 0 : along(step - 1), closed = along(step);
     Result<std::shared_ptr<const FieldProgram>> program = field_.at(boxAround(pointAt(open), pointAt(closed)));
@@ -118,7 +118,7 @@ Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const Vecto
   if (largest == 0) return Error{Code::invalid_argument, "the direction has no length"};
   if (const Result<void> ok = checkLength(length, longestRay(field.finest_cell), "the ray's length"); !ok)
     return ok.error();
-  // Scaled first, since squares of very large and very small numbers leave the range of a double.
+  // Scale first, since squares of very large and very small numbers leave the range of a double.
   Vector3 unit{direction[0] / largest, direction[1] / largest, direction[2] / largest};
   const double size = std::sqrt(dot(unit, unit));
   unit = {unit[0] / size, unit[1] / size, unit[2] / size};

@@ -1,5 +1,5 @@
 #pragma once
-// The signs of those chunks that are being looked at, and where they come from.
+// A window of chunks whose signs are held in memory, and the source of these signs.
 
 #include <functional>
 #include <map>
@@ -12,35 +12,34 @@
 
 namespace sgm {
 
-/// A lattice of samples, a cell apart: sample (x, y, z) lies at that times the cell, and chunk (x, y, z) has the
-/// samples from 32 times that on.
+/// A lattice of samples one cell apart: sample (x, y, z) lies at (x, y, z) * cell, and chunk (x, y, z) begins with
+/// sample 32 * (x, y, z).
 struct SignField {
-  /// The signs of a chunk, which lies wholly inside the world. From any thread.
+  /// Returns the signs of a chunk wholly inside the world. Called from any thread.
   std::function<Result<ChunkSigns>(Int3 chunk)> signs;
   int32_t cell = kUnitsPerMetre / 2;  ///< units
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// Level 0 of a field.
+/// The samples of level 0 of a field.
 SignField signField(QueryField field);
 
-/// Signs of chunks, kept until they are dropped. One thread's, but for at() and clearance().
+/// Holds the signs of chunks until they are dropped. For one thread, except at() and clearance().
 class SignWindow {
  public:
   explicit SignWindow(const SignField& field) : field_(field) {}
 
-  /// Asks for those of the chunks that are not here, on the job system. Errors: the field's; of several the first
-  /// one's.
+  /// Loads the missing chunks on the job system. Errors: the field's; of several errors the first chunk's.
   Result<void> add(std::span<const Int3> chunks, JobSystem& jobs);
-  /// Drops what keep(chunk) does not hold of.
+  /// Drops the chunks for which keep(chunk) is false.
   template <class Keep>
   void dropUnless(const Keep& keep) {
     std::erase_if(chunks_, [&](const auto& entry) { return !keep(entry.first); });
   }
 
-  /// Precondition: it is here.
+  /// Precondition: the chunk is loaded.
   const ChunkSigns& at(Int3 chunk) const { return chunks_.at(chunk); }
-  /// mesh/clearance.h. Precondition: the chunk is here; where most > 1, the 26 around it are too.
+  /// See mesh/clearance.h. Precondition: the chunk is loaded; if most > 1, the 26 around it are, too.
   std::pmr::vector<uint16_t> clearance(Int3 chunk, int most) const;
 
  private:
@@ -48,7 +47,7 @@ class SignWindow {
   std::map<Int3, ChunkSigns> chunks_;
 };
 
-/// The chunks that differ from this one by at most `rings` on each axis.
+/// The chunks whose coordinates differ from this one's by at most `rings` on each axis.
 std::vector<Int3> chunksAround(Int3 chunk, int rings);
 
 }  // namespace sgm

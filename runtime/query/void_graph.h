@@ -1,5 +1,5 @@
 #pragma once
-// The voids of a region for agents of one size, as a graph: the voids of its chunks, and what joins them.
+// The voids of a region for agents of one size, as a graph: the voids of its chunks and their connections.
 
 #include <array>
 #include <cstdint>
@@ -19,31 +19,31 @@ struct RegionVoid {
   friend auto operator<=>(const RegionVoid&, const RegionVoid&) = default;
 };
 
-/// Takes in chunks one by one, and keeps of each its voids and how they touch those of its neighbours; of samples no
-/// more than the faces of the last layer: two bytes for each of the 1,089 of a face.
+/// Takes chunks one by one, and keeps their voids and the contacts between voids of adjacent chunks. Of the samples it
+/// keeps only the faces of the last layer: two bytes for each of a face's 1,089 samples.
 class VoidGraph {
  public:
-  /// order: of the region's chunks. ways: keep what chunksOfWay() needs.
+  /// order: of the region's chunks. ways: keep the data for chunksOfWay().
   VoidGraph(const ChunkOrder& order, bool ways, std::pmr::memory_resource* memory);
 
-  /// The next chunk of the order. False where the region has more voids than 32 bits can number.
+  /// Adds the next chunk of the order. Returns false if the region has more voids than 32 bits can number.
   bool add(ChunkVoids chunk);
 
-  /// The number of a void of the chunk that was added last.
+  /// The graph's number for a void of the last added chunk.
   uint32_t numberOf(uint32_t void_in_chunk) const { return first_.back() + void_in_chunk; }
 
-  // Once all chunks are there:
+  // For use after the last chunk was added:
 
   bool joined(uint32_t a, uint32_t b) { return rootOf(a) == rootOf(b); }
-  /// The samples of all the void that this one belongs to.
+  /// The number of samples in the whole void that this one belongs to.
   uint64_t samplesOf(uint32_t number);
-  /// Of the region, the largest ones first.
+  /// The voids of the region, largest first.
   std::vector<RegionVoid> voids();
 
-  /// Chunks that a way from a to b leads through, by their numbers in the order: those at the shortest sum of
-  /// straight lines through the middles of the faces' parts that the voids share. A chunk comes once each time that the
-  /// way enters it; each shares a face with the one before. from, to: samples of the two, counted from the region's
-  /// lowest. Preconditions: joined(a, b), and ways were asked for.
+  /// The chunks of a path from a to b, by their numbers in the order: those with the shortest sum of straight lines
+  /// through the middles of the face parts that the voids share. A chunk appears each time that the path enters it;
+  /// each chunk shares a face with the previous one. from, to: samples of a and b, counted from the region's lowest.
+  /// Preconditions: joined(a, b), and `ways` was set.
   std::vector<uint32_t> chunksOfWay(uint32_t a, Int3 from, uint32_t b, Int3 to) const;
 
  private:
@@ -54,10 +54,10 @@ class VoidGraph {
     uint32_t samples = 0;
   };
   using FaceVoids = std::pmr::vector<uint16_t>;
-  /// What a chunk's neighbour will ask: one of its high faces.
+  /// A high face of a chunk, for the chunk's next neighbour.
   struct OpenFace {
     FaceVoids voids;
-    uint32_t first = 0;  ///< of the chunk's voids
+    uint32_t first = 0;  ///< number of the chunk's first void
   };
 
   uint32_t chunkOf(uint32_t number) const;
@@ -68,12 +68,12 @@ class VoidGraph {
   ChunkOrder order_;
   bool ways_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<uint32_t> first_;    ///< of each chunk's voids
+  std::pmr::vector<uint32_t> first_;    ///< number of each chunk's first void
   std::pmr::vector<uint32_t> parent_;   ///< union-find over voids; roots are the lowest
-  std::pmr::vector<uint32_t> samples_;  ///< of each void in its chunk
+  std::pmr::vector<uint32_t> samples_;  ///< samples of each void in its chunk
   std::pmr::vector<uint8_t> open_;      ///< 1: touches the region's border
-  std::pmr::vector<Portal> portals_;    ///< where ways are asked for
-  /// By axis: high faces of the last chunks, as many as come before the neighbour along it.
+  std::pmr::vector<Portal> portals_;    ///< only if `ways` is set
+  /// By axis: the high faces of the last chunks, up to the neighbour along the axis.
   std::array<std::pmr::vector<OpenFace>, 3> awaiting_;
 };
 

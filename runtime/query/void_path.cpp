@@ -14,20 +14,20 @@ namespace sgm {
 namespace {
 
 constexpr int kMostNeed = kMostClearance * kMostClearance;
-constexpr int kRadiiTogether = 16;      // sizes of agents that one look at the region tells apart
-constexpr size_t kChunksTogether = 64;  // chunks whose voids are there before they are joined
+constexpr int kRadiiTogether = 16;      // agent sizes that one pass over the region distinguishes
+constexpr size_t kChunksTogether = 64;  // chunks whose voids are computed before they are joined
 
-/// An end of a way: its sample, if it has one, and how far that is from what is solid.
+/// An end of a path: its sample, if it has one, and the distance from there to the nearest solid sample.
 struct End {
   std::optional<Int3> sample;
   int clearance = 0;  ///< squared, in cells
 };
 
-/// What one look finds for agents of one size.
+/// The results of one pass for agents of one size.
 struct Survey {
-  int need = 1;  ///< square of the clearance, in cells, that makes a sample free
+  int need = 1;  ///< the squared clearance, in cells, from which a sample is free
   VoidGraph graph;
-  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that the ends lie in
+  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the ends
 
   bool joined() { return ends[0] && ends[1] && graph.joined(*ends[0], *ends[1]); }
 };
@@ -117,7 +117,7 @@ class VoidSearch {
     return {sample.x - first.x, sample.y - first.y, sample.z - first.z};
   }
 
-  /// x, y, z as the caller counts.
+  /// Ordered x, y, z, as the caller counts.
   std::string told(const std::array<double, 3>& place) const {
     const double unit = question_.ends->tell_metres ? kUnitsPerMetre : 1;
     return numberText(place[0] / unit) + ", " + numberText(place[1] / unit) + ", " + numberText(place[2] / unit);
@@ -132,11 +132,11 @@ class VoidSearch {
       finite = finite && std::isfinite(place[axis]);
       inside = inside && place[axis] >= first[axis] && place[axis] <= last[axis];
     }
-    const std::string end_of = std::string("the end `") + name + "` of the way ";
+    const std::string end_of = std::string("the end `") + name + "` of the path ";
     if (!finite) return Error{Code::invalid_argument, end_of + "is not finite"};
     if (!inside) {
       return Error{Code::invalid_argument, end_of + "lies outside of the region: it is at (" + told(place) +
-                                               "), and the region goes from (" + told(first) + ") to (" + told(last) +
+                                               "), but the region goes from (" + told(first) + ") to (" + told(last) +
                                                "), in " +
                                                (question_.ends->tell_metres ? "metres" : "units of 1/1024 m")};
     }
@@ -145,7 +145,7 @@ class VoidSearch {
       const double sample = std::floor(place[static_cast<size_t>(axis)] / field_.cell);
       low[axis] = std::min(static_cast<int32_t>(sample), high_[axis] * kChunkCells - 1);
     }
-    // All eight lie in one chunk.
+    // All eight samples lie in one chunk.
     const Int3 chunk = chunkOf(low);
     if (const Result<void> added = window_.add(chunksAround(chunk, 1), jobs_); !added) return added.error();
     const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMostNeed);
@@ -167,19 +167,19 @@ class VoidSearch {
     return end;
   }
 
-  /// Whether something this far away, squared and in cells, is as near as the length or nearer. One comparison for all
-  /// that asks, so that a length that was told is understood again.
+  /// Whether a squared distance in cells is within the length. All code uses this one comparison, so that a reported
+  /// length gives the same result when it is used as a query.
   bool isAsNear(int square, double length) const { return length * length >= squaredOf(square); }
   double squaredOf(int square) const { return static_cast<double>(field_.cell) * field_.cell * square; }
 
-  /// The least square that is more than the radius's: what is as near as that is in the way.
+  /// The least square greater than the radius's: a solid sample at a smaller distance blocks the agent.
   int needed() const {
     int need = 1;
     while (need < kMostNeed && isAsNear(need, question_.radius)) ++need;
     return need;
   }
 
-  /// The least length that what is this far away, squared and in cells, is as near as: the root, or the number beside.
+  /// The least length for which isAsNear() holds at this squared distance in cells: the root, or a number next to it.
   double leastAsFar(int square) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double least = std::sqrt(squaredOf(square));
@@ -189,7 +189,7 @@ class VoidSearch {
     return least;
   }
 
-  /// Needs between the last that is known to have a way and the first that is known to have none, evenly, ascending.
+  /// Needs between the last one known to have a path and the first one known to have none, evenly spaced, ascending.
   std::vector<int> between() const {
     const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
@@ -197,7 +197,7 @@ class VoidSearch {
     return needs;
   }
 
-  /// What one look for all these needs finds, in ascending order; ways are kept for one of them.
+  /// One pass for all these needs, results in ascending order; keeps path data for one of them.
   Result<std::vector<Survey>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
@@ -213,7 +213,7 @@ class VoidSearch {
         seen.insert(seen.end(), around.begin(), around.end());
       }
       window_.dropUnless([&](Int3 chunk) {
-        Int3 last;  // of those that see it
+        Int3 last;  // the last chunk that needs this one
         for (int axis = 0; axis < 3; ++axis)
           last[axis] = std::clamp(chunk[axis] + rings - low_[axis], 0, count_[axis] - 1);
         return order.numberOf(last) >= first;
@@ -236,7 +236,7 @@ class VoidSearch {
       for (size_t l = 0; l < looks.size(); ++l) {
         const std::vector<std::optional<uint32_t>> marked = voids[i][l].marked;
         if (!looks[l].graph.add(std::move(voids[i][l])))
-          return Error{Code::limit, "the region has more than 2^32 voids; ask in parts"};
+          return Error{Code::limit, "the region has more than 2^32 voids; split it"};
         size_t mark = 0;
         for (size_t end = 0; end < 2; ++end) {
           if (!owns(some[i], end)) continue;
@@ -266,7 +266,7 @@ class VoidSearch {
     return voids;
   }
 
-  /// Looks until the largest need that has a way is known.
+  /// Makes passes until the largest need with a path is known.
   Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
@@ -320,9 +320,9 @@ class VoidSearch {
   const VoidQuestion& question_;
   const Progress& progress_;
   SignWindow window_;
-  Int3 low_, high_, count_;  ///< chunks; high_ does not belong to the region
+  Int3 low_, high_, count_;  ///< chunks; high_ is outside of the region
   std::array<End, 2> ends_;
-  int last_holding_ = 0;   ///< needs up to this have a way
+  int last_holding_ = 0;   ///< needs up to this have a path
   int first_failing_ = 1;  ///< needs from this on have none
 };
 

@@ -14,8 +14,8 @@ namespace {
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
-constexpr uint8_t kStart = 27;                         // no step leads here: it is where a walk enters the chunk
-constexpr size_t kChunksAtOnce = 64;                   // chunks that are looked at together
+constexpr uint8_t kStart = 27;                         // not a step: marks where a walk enters the chunk
+constexpr size_t kChunksAtOnce = 64;                   // chunks that are processed together
 constexpr uint64_t kAlongAxis = 70, kAcrossFace = 99;  // their ratio is the root of 2, to 5 in 100,000
 
 Int3 stepOf(int number) { return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1}; }
@@ -30,7 +30,7 @@ Int3 minus(Int3 a, Int3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Int3 plus(Int3 a, Int3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Int3 firstSampleOf(Int3 chunk) { return {chunk.x * kChunkCells, chunk.y * kChunkCells, chunk.z * kChunkCells}; }
 
-/// Where a walk enters a chunk, and how long it has been until there.
+/// A sample where a walk enters a chunk, and the walk's cost up to there.
 struct Entry {
   uint64_t cost = 0;
   uint32_t at = 0;  ///< number of the sample in the chunk
@@ -39,9 +39,10 @@ struct Entry {
 };
 
 using Entries = std::pmr::vector<Entry>;
-using Steps = std::pmr::vector<uint8_t>;  ///< of each sample of a chunk the last step to it; kStart where a walk enters
+using Steps = std::pmr::vector<uint8_t>;  ///< for each sample of a chunk the last step to it; kStart where a walk
+                                          ///< enters
 
-/// The shortest walks in one chunk, from where it is entered (Dijkstra).
+/// The shortest walks in one chunk from its entries (Dijkstra).
 class ChunkWalks {
  public:
   ChunkWalks(std::span<const uint64_t> closed, std::span<const Entry> entries, std::pmr::memory_resource* memory)
@@ -73,7 +74,7 @@ class ChunkWalks {
     }
   }
 
-  /// What was reached of the face that the chunk shares with the one on this side, by that one's samples.
+  /// The reached samples of the face towards the chunk on this side, numbered as that chunk's samples.
   Entries entriesTo(Int3 side) const {
     Entries found(cost_.get_allocator());
     for (size_t i = 0; i < kSamples; ++i) {
@@ -93,7 +94,7 @@ class ChunkWalks {
   std::pmr::vector<uint64_t> cost_;
 };
 
-/// The chunks of a walk, looked at some at a time: in order to find how it enters each, and then backwards.
+/// Processes the chunks of a walk in groups: forwards, to find the entries into each group, and then backwards.
 class Walk {
  public:
   Walk(SignWindow& window, JobSystem& jobs, std::span<const Int3> chunks, int need, std::pmr::memory_resource* memory,
@@ -102,7 +103,7 @@ class Walk {
 
   Result<std::vector<Int3>> between(Int3 from, Int3 to) {
     const size_t last = (chunks_.size() - 1) / kChunksAtOnce;
-    // The last ones are there when the others are walked backwards.
+    // The last group is still loaded when the walk is traced backwards.
     total_ = chunks_.size() + last * kChunksAtOnce;
     std::vector<Entries> entries;
     entries.emplace_back(memory_).push_back({0, static_cast<uint32_t>(indexIn(0, from))});
@@ -132,7 +133,7 @@ class Walk {
  private:
   size_t indexIn(size_t chunk, Int3 sample) const { return indexOf(minus(sample, firstSampleOf(chunks_[chunk]))); }
 
-  /// The steps in the chunks of a group. entries: of its first chunk, and then of the first one after it.
+  /// Computes the steps in the chunks of a group. entries: of its first chunk; on return, of the chunk after the group.
   Result<void> look(size_t group, Entries& entries, std::vector<Steps>& steps) {
     const size_t first = group * kChunksAtOnce;
     const std::span<const Int3> some = chunks_.subspan(first, std::min(kChunksAtOnce, chunks_.size() - first));
@@ -152,7 +153,7 @@ class Walk {
       if (first + i + 1 < chunks_.size()) entries = walks.entriesTo(minus(chunks_[first + i + 1], some[i]));
       steps.push_back(std::move(walks.steps));
       if (progress_ && !progress_(++done_, total_) && done_ < total_)
-        return Error{Code::cancelled, "the search for a way was cancelled"};
+        return Error{Code::cancelled, "the search for a path was cancelled"};
     }
     return {};
   }

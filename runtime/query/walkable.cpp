@@ -20,7 +20,7 @@ class WalkGrid {
         walker_(walker),
         solid_(field.memory),
         floors_(field.memory) {
-    // How much higher a floor may be a unit away without being too steep.
+    // The largest rise of a floor over a unit that is not too steep.
     const double flat = walker.slope * walker.slope;
     rise_ = flat > 0 ? std::sqrt((1 - flat) / flat) : 1e9;
     const auto margin = static_cast<int64_t>(std::ceil(walker.radius)) + cell_;
@@ -47,7 +47,7 @@ class WalkGrid {
     }
     if (chunks > kMostWalkChunks) {
       return Error{Code::limit, "the box, with the walker's room around it, has more than " +
-                                    std::to_string(kMostWalkChunks) + " chunks of 32 cells; ask in parts"};
+                                    std::to_string(kMostWalkChunks) + " chunks of 32 cells; split the box"};
     }
     solid_.resize(static_cast<size_t>(count_[0] * count_[1] * count_[2]));
     ChunkScratch scratch(field_.memory);
@@ -64,10 +64,10 @@ class WalkGrid {
   }
 
  private:
-  /// The solid's upper side in a column.
+  /// The upper side of solid in a column.
   struct Floor {
     int32_t x = 0, z = 0;  ///< the column, counted from first_
-    int32_t y = 0;         ///< the solid sample under it, counted so too
+    int32_t y = 0;         ///< the solid sample under it, counted from first_
     double height = 0;     ///< units above that sample
   };
 
@@ -122,7 +122,7 @@ class WalkGrid {
     return {};
   }
 
-  /// Whether a column has no solid at these heights above the floor, ends left out.
+  /// Whether a column has no solid between these heights above the floor, ends excluded.
   bool clear(int64_t x, int64_t z, const Floor& floor, double low, double high) const {
     const auto first = static_cast<int64_t>(std::floor((floor.height + low) / cell_)) + floor.y + 1;
     const auto last = static_cast<int64_t>(std::ceil((floor.height + high) / cell_)) + floor.y - 1;
@@ -184,7 +184,7 @@ class WalkGrid {
     return area;
   }
 
-  /// The side faces of the box that the column stands nearest to, among the columns in the box.
+  /// The side faces of the box to which the column, among the columns in the box, is nearest.
   uint8_t sidesOf(const Floor& floor) const {
     const auto onAxis = [&](int axis, int64_t at) {
       const int64_t place = (first_[static_cast<size_t>(axis)] + at) * cell_;
@@ -211,12 +211,12 @@ Result<WalkableArea> isWalkable(const QueryField& field, const IntBox& box, cons
   if (!(walker.radius >= 0 && walker.radius <= 64 * cell))
     return Error{Code::invalid_argument, "the walker's radius is not a number from 0 to 64 cells"};
   if (!(walker.height > 0 && walker.height <= 256 * cell))
-    return Error{Code::invalid_argument, "the walker's height is not a number above 0, to 256 cells"};
+    return Error{Code::invalid_argument, "the walker's height is not a number above 0 and up to 256 cells"};
   if (!(walker.step >= 0 && walker.step < walker.height))
-    return Error{Code::invalid_argument, "the walker's step is not a number from 0 to below its height"};
+    return Error{Code::invalid_argument, "the walker's step is not a number from 0 to less than its height"};
   if (!(walker.slope >= 0 && walker.slope <= 1))
     return Error{Code::invalid_argument, "the walker's slope is not a cosine from 0 to 1"};
-  if (!(walker.area >= 0)) return Error{Code::invalid_argument, "the walker's area is not a number from 0"};
+  if (!(walker.area >= 0)) return Error{Code::invalid_argument, "the walker's area is not a number of at least 0"};
   return WalkGrid(field, box, walker).run();
 }
 

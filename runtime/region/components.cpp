@@ -106,7 +106,7 @@ void ComponentCounter::retire() {
     }
   }
   for (uint32_t i = 0; i < open_; ++i) {
-    // Only runs of the new plane join pieces: what it has no part of is whole, and alone.
+    // Only runs of the new plane join pieces: a piece without a run in it is complete.
     const uint32_t number = number_[rootOf(i)];
     if (number != kUnseen) {
       add(pieces[number].piece, pieces_[i].piece);

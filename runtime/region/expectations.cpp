@@ -46,7 +46,7 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   return wanted;
 }
 
-/// Around the cubes of its samples.
+/// The piece in units and m3, with a box around the cubes of its samples.
 MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   MeasuredPiece out;
   out.volume = static_cast<double>(piece.samples) * region.sample;
@@ -58,7 +58,7 @@ MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   return out;
 }
 
-/// Everything but the anchors.
+/// Reads all measures except anchors.
 Measured read(const Program& program, const Expectation& e, const RegionMeasures& region) {
   Measured result;
   switch (e.measure) {
@@ -69,8 +69,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
     case Measure::components: {
       if (e.above != kNoId && e.above_number < region.sample) {
         result.why = "one sample stands for " + numberText(region.sample) +
-                     " m3, which is more than what is asked about: "
-                     "measure with smaller cells";
+                     " m3, more than the volume in question: measure with smaller cells";
         break;
       }
       const std::span<const Piece> found = largerThan(
@@ -100,7 +99,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
   return result;
 }
 
-/// What stops everything, instead of being the outcome of one statement.
+/// Whether an error ends the whole evaluation, instead of being the outcome of one statement.
 bool isFatal(const Error& error) { return error.code == Code::out_of_memory || error.code == Code::cancelled; }
 
 class Evaluator {
@@ -128,7 +127,7 @@ class Evaluator {
   }
 
  private:
-  /// Statements of one rule (or of none) and one region, in order of the first; fills the outcomes' regions.
+  /// Groups statements of one rule (or of none) and one region, in order of their first; sets the outcomes' regions.
   std::vector<std::vector<uint32_t>> together() {
     std::vector<std::vector<uint32_t>> sets;
     for (uint32_t s = 0; s < program_.expectations.size(); ++s) {
@@ -202,7 +201,7 @@ class Evaluator {
       }
       keep(s, std::move(measured));
     }
-    // A region of very many cells was meshed without looking at all of them at once: then there are no notes of it.
+    // A region of very many cells was meshed without visiting all of them at once: then it has no notes.
     const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent, *cell);
     if (!notes && notes.error().code != Code::limit) return notes.error();
     if (notes) result_.notes.insert(result_.notes.end(), notes->begin(), notes->end());
@@ -236,7 +235,7 @@ class Evaluator {
       }
       for (uint32_t s : statements) {
         Measured measured = read(program_, program_.expectations[s], measures);
-        if (!instance.bounded) measured = {std::nullopt, "a shape of it has no bound", {}, {}, true, {}, {}};
+        if (!instance.bounded) measured = {std::nullopt, "one of its shapes is unbounded", {}, {}, true, {}, {}};
         if (program_.expectations[s].measure == Measure::anchors) measured.value = static_cast<double>(anchors);
         measured.path = instance.path;
         measured.origin = instance.origin;
@@ -247,7 +246,7 @@ class Evaluator {
     return {};
   }
 
-  /// Around all shapes, with air on every side; empty where there is no shape.
+  /// A box around all shapes, with air on every side; empty if there is no shape.
   static IntBox boxOf(const RuleInstance& instance) {
     IntBox box;
     for (const Group& group : instance.chunk.groups) {
@@ -259,7 +258,7 @@ class Evaluator {
     return box;
   }
 
-  /// What is measured where there is no shape.
+  /// The measures of a use without shapes.
   static RegionMeasures nothing() {
     RegionMeasures measures;
     measures.topology.watertight = true;

@@ -1,27 +1,26 @@
 #pragma once
-// What a grammar's `report` and `expect` say of a world.
+// Evaluates a grammar's `report` and `expect` statements for a world.
 //
-// What is measured
-//   watertight  yes where the surface is a manifold and every open edge lies in the region's outer border
-//   components  connected pieces of the solid (solid, or nothing written) or of the void (air) inside the region,
-//   joined
-//               as the mesh joins them (components.h); `above V`: of those whose samples stand for more than V, not
-//               measured where one sample does
+// Measures
+//   watertight  yes if the surface is a manifold and every open edge lies in the region's outer border
+//   components  connected pieces of the solid (solid, the default) or of the void (air) inside the region, joined as
+//               the mesh joins them (components.h); `above V`: only pieces whose samples stand for more than V; not
+//               measured if one sample stands for more
 //   volume      m3 of the solid inside the region, whatever the domain is made of, by the divergence theorem
 //               (solid_volume.h)
 //   area        m2 of the surface inside the region, without the faces where the border cuts the solid
 //   triangles   of that surface
-//   genus       handles of the surface, summed over its shells; not measured where the border cuts the surface
+//   genus       handles of the surface, summed over its shells; not measured if the border cuts the surface
 //   anchors     inside the region
-// What cannot be measured does not hold, and says why.
+// A measure that cannot be computed does not hold, and gives the reason.
 //
-// Where
+// Regions
 //   in block(n)  see blockRegion(); otherwise the region that the caller names, else the box of a finite world, else
 //                block(1). A region is grown to whole chunks of 32 cells.
-//   per Rule     each use of the rule whose frame stands in the region (before it is grown) is measured by itself, the
-//                shapes derived below the call as solid in an empty world (RuleInstance in derive/interpret/derive.h
-//                says what is left out); the statement must hold for each, and holds where there is none.
-// How finely: the caller's cell; otherwise cellFor() the region, or all uses of the rule together.
+//   per Rule     each use of the rule whose frame stands in the region (before it is grown) is measured separately: the
+//                shapes derived below the call, as solid in an empty world (RuleInstance in derive/interpret/derive.h
+//                says what is omitted). The statement must hold for each use, and holds if there is none.
+// The cell is the caller's; otherwise cellFor() of the region, or of all uses of the rule together.
 
 #include <memory>
 #include <optional>
@@ -45,40 +44,40 @@ struct ExpectationSettings {
 };
 
 struct MeasuredPiece {
-  double volume = 0;  ///< m3 that its samples stand for
-  IntBox box;         ///< around them, units
+  double volume = 0;  ///< m3, by its samples
+  IntBox box;         ///< around its samples, units
 };
 
-/// Pieces that are listed of those that are counted: the smallest.
+/// The most pieces listed of those counted: the smallest ones.
 inline constexpr size_t kMostPieces = 16;
 
-/// One thing measured: the region as a whole, or one use of a rule.
+/// One measurement: of the region as a whole, or of one use of a rule.
 struct Measured {
-  std::optional<double> value;          ///< SI; a count; watertight: 1 or 0. Nothing where it cannot be measured
-  std::string why;                      ///< it cannot be measured, or is not watertight; else empty
+  std::optional<double> value;          ///< SI; a count; watertight: 1 or 0. nullopt if it cannot be measured
+  std::string why;                      ///< why it cannot be measured, or is not watertight; else empty
   std::string path;                     ///< of a use of a rule: its derivation path
   Int3 origin;                          ///< of a use of a rule: its frame, in units
-  bool holds = true;                    ///< of a report always
-  std::vector<MeasuredPiece> pieces{};  ///< components: the smallest of those counted, rising; at most kMostPieces
+  bool holds = true;                    ///< true for a report
+  std::vector<MeasuredPiece> pieces{};  ///< components: the smallest of those counted, ascending; at most kMostPieces
   std::optional<double> cubes{};        ///< volume: m3 by equation 8 of the paper (cubeVolume() in measure.h)
 };
 
 struct Outcome {
-  IntBox region;                   ///< grown to whole chunks where it is measured as a whole; hi does not belong to it
+  IntBox region;                   ///< grown to whole chunks if it is measured as a whole; hi is outside
   int32_t cell = 0;                ///< units
   uint64_t chunks = 0;             ///< meshed for this statement, alone or together with others
-  std::vector<Measured> measured;  ///< one; with `per`, one for each use
-  std::optional<Error> error;      ///< the statement could not be evaluated at all
-  bool holds() const;              ///< all of `measured`, and no error; of a report: no error
+  std::vector<Measured> measured;  ///< one element; with `per`, one for each use
+  std::optional<Error> error;      ///< set if the statement could not be evaluated at all
+  bool holds() const;              ///< all of `measured` hold, and no error; for a report: no error
 };
 
 struct Evaluation {
   std::vector<Outcome> outcomes;  ///< one for each of Program::expectations, in their order
-  std::vector<DeriveNote> notes;  ///< what derivation left out in the regions measured as a whole
+  std::vector<DeriveNote> notes;  ///< omissions of derivation in the regions measured as a whole
 };
 
-/// Pure. Statements that look at the same region are answered from the same meshes.
-/// Errors: out_of_memory and cancelled. All others are the outcome of the statement that met them.
+/// Pure. Statements about the same region share its meshes. Errors: out_of_memory and cancelled. Any other error is the
+/// outcome of the statement where it occurred.
 Result<Evaluation> evaluateExpectations(const ExpectationSettings& settings, Backend& backend, JobSystem& jobs,
                                         std::pmr::memory_resource* memory, const Progress& progress = {});
 

@@ -19,16 +19,16 @@ namespace {
 
 using measure::Point;
 
-/// Programs of a few cells have few groups, and few of these boxes share a vertex.
+/// Boxes this small have programs with few groups, and few of them share a vertex.
 constexpr int32_t kBoxCells = 16;
 constexpr double kBend = 0.25;
-/// Of a field that a distance could be read from.
+/// The least gradient of a field from which a distance could be read.
 constexpr double kLeastGradient = 1e-6;
 
-/// An eighth of a cell; not so little that the whole units in which warped places are counted would show in it.
+/// An eighth of a cell, but not so small that the rounding of warped places to whole units would matter.
 int32_t stepFor(int32_t cell) { return std::max(cell / 8, std::min(16, std::max(cell / 2, 1))); }
 
-/// A vertex in units, and the whole place beside it.
+/// A vertex in units, and the nearest whole place.
 struct Place {
   Point exact;
   Int3 whole;
@@ -65,7 +65,7 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
     const double bend = (behind - 2 * middle + before) / step;
     bends += bend * bend;
   }
-  // From the whole place to the vertex it is less than a unit: the field's own bend over that does not show.
+  // The vertex is less than a unit from the whole place: the curvature of the field over that is negligible.
   sample.value = middle + dot(sample.gradient,
                               place.exact - Point{double(place.whole.x), double(place.whole.y), double(place.whole.z)});
   const double size = length(sample.gradient);
@@ -108,7 +108,7 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
     }
     const Result<std::shared_ptr<const FieldProgram>> field = world.compile(box.grown(step), level);
     if (!field) {
-      // Of several the first box's error, whichever thread was faster.
+      // Of several errors report the first box's, whichever thread was faster.
       const std::lock_guard lock(mutex);
       if (!failed || b < failed->first) failed.emplace(b, field.error());
       return;
@@ -121,7 +121,7 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
   return samples;
 }
 
-/// The value that a share of all does not exceed.
+/// The value that this share of all values does not exceed.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -134,7 +134,7 @@ double meanOf(const std::vector<double>& values) {
 
 class AngleCounter {
  public:
-  /// Neither has the length 0.
+  /// Precondition: neither has length 0.
   void add(Point normal, Point gradient) {
     const double along = dot(normal, gradient);
     inward_ += !(along > 0);

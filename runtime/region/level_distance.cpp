@@ -29,7 +29,7 @@ Point placeFrom(Int3 units, Int3 origin) {
   return place;
 }
 
-/// The extent, smaller by the border on the sides where the surface reaches it.
+/// The extent, reduced by the border on the sides that the surface reaches.
 Range innerOf(const std::vector<Point>& points, Range range, double border) {
   Range inner = range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent,
   result.coarse_left_out = second.triangles.size() - back.size();
 
   if ((!there.empty() && second.triangles.empty()) || (!back.empty() && first.triangles.empty())) return result;
-  // What is near may lie in the border: all of the other mesh is looked at.
+  // The nearest surface may lie in the border: search all of the other mesh.
   Result<measure::OneSided> one =
       measure::distanceFrom({first.points, there}, {second.points, second.triangles}, settings, jobs);
   if (!one) return one.error();

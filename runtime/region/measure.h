@@ -10,15 +10,14 @@ namespace sgm {
 struct Measures {
   double area = 0;       ///< m2, equation 7: half the length of each triangle's cross product, summed in triangle order
   uint64_t objects = 0;  ///< section 7.3: groups of triangles that share vertices, directly or through others
-  double flux = 0;       ///< m3: a third of the flux of x about `about`; of a closed mesh the volume inside
+  double flux = 0;       ///< m3: a third of the flux of x relative to `about`; of a closed mesh the volume inside
 };
 
-/// Vertices are one where they are one by key, without any tolerance.
-/// about: units.
+/// Vertices are equal if their keys are equal, without any tolerance. about: units.
 Measures measuresOf(const WorldMesh& mesh, Int3 about = {});
 
-/// m3, equation 8: N_C * C_E^3. A cube of edge C_E (the cell's) is centred on each sample and is inside where its
-/// sample is inside; a region's samples are those on its low faces and between, so that regions side by side add up.
+/// m3, equation 8: N_C * C_E^3. A cube of edge C_E (the cell's) is centred on each sample, and counts if its sample is
+/// inside. A region has the samples on its low faces and between, so that adjacent regions add up.
 double cubeVolume(uint64_t samples_inside, int32_t cell_units);
 
 }  // namespace sgm

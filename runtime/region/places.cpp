@@ -11,7 +11,7 @@ namespace {
 
 constexpr int32_t kCoarsestCell = 1024 * kUnitsPerMetre;
 
-/// Null where no layer is cut into cells.
+/// Null if no layer is cut into cells.
 const Layer* coarsestLayer(const Program& program) {
   const Layer* coarsest = nullptr;
   double most = 0;
@@ -29,7 +29,7 @@ const Layer* coarsestLayer(const Program& program) {
   return coarsest;
 }
 
-/// Widens lo..hi by what the layers reach along an axis.
+/// Widens lo..hi by the reach of the layers along an axis.
 Result<void> addBounds(const Program& program, int axis, IntBox& box) {
   IntBox all;
   for (const Layer& layer : program.layers) all = all.joined(layer.bound);
@@ -37,8 +37,8 @@ Result<void> addBounds(const Program& program, int axis, IntBox& box) {
   const bool bounded =
       all.lo[axis] > std::numeric_limits<int32_t>::min() && all.hi[axis] < std::numeric_limits<int32_t>::max();
   if (!bounded) {
-    return Error{Code::limit, std::string("a block has no end along ") + "xyz"[axis] +
-                                  ": no bound of the shapes is proven; name a region instead"};
+    return Error{Code::limit, std::string("a block is unbounded along ") + "xyz"[axis] +
+                                  ": the shapes have no proven bound; pass a region instead"};
   }
   box.lo[axis] = all.lo[axis];
   box.hi[axis] = std::max(all.hi[axis], all.lo[axis]) + 1;

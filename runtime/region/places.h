@@ -1,5 +1,5 @@
 #pragma once
-// Which part of a world a statement is about, and how finely it is sampled.
+// Finds the part of a world that a statement is about, and the cell to sample it with.
 
 #include <optional>
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace sgm {
 
-inline constexpr int32_t kMeasuredCell = kUnitsPerMetre / 2;  ///< units; the finest cell that is chosen unasked
-inline constexpr uint64_t kMeasuredChunks = 65536;            ///< the most chunks that are meshed unasked
+inline constexpr int32_t kMeasuredCell = kUnitsPerMetre / 2;  ///< units; the finest cell chosen by default
+inline constexpr uint64_t kMeasuredChunks = 65536;            ///< the most chunks meshed by default
 
-/// `in block(n)`, as lo <= p < hi: n cells along each axis that is cut into cells, from cell 0 on, of the layer whose
-/// cells are the largest by volume (of equal ones the first); along other axes what the layers are proven to reach.
-/// Errors: limit where the block leaves the world, or where no bound is proven.
+/// `in block(n)`, as lo <= p < hi. On each axis that is cut into cells: n cells, from cell 0 on, of the layer with the
+/// largest cells by volume (of equal ones the first); on other axes the proven reach of the layers. Errors: limit if
+/// the block leaves the world, or if no bound is proven.
 Result<IntBox> blockRegion(const Program& program, int32_t cells);
 
-/// Where a statement looks: `in block(n)`; without it `given`; without that all of a finite world, or block(1).
+/// The region of a statement: `in block(n)`, else `given`, else all of a finite world, else block(1).
 Result<IntBox> regionOf(const Program& program, const Expectation& expectation, const std::optional<IntBox>& given);
 
 /// kMeasuredCell, doubled until all boxes (lo <= p < hi, not empty) together have at most max_chunks chunks.
-/// Error: limit where that takes cells of more than 1,024 m.
+/// Error: limit if that needs cells of more than 1,024 m.
 Result<int32_t> cellFor(std::span<const IntBox> boxes, uint64_t max_chunks);
 
 }  // namespace sgm

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kCells = kChunkCells;
 constexpr uint64_t kCellBits = (uint64_t{1} << kCells) - 1;
 
-/// How many chunks there are along each axis, of chunks in order z, y, x.
+/// The number of chunks along each axis; keys are in order z, y, x.
 std::array<size_t, 3> countsOf(std::span<const ChunkKey> keys) {
   std::array<size_t, 3> counts{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ uint64_t signsOfRow(const ChunkMesh& mesh, size_t y, size_t z) {
   return mesh.solid_samples > 0 ? ~uint64_t{0} : 0;
 }
 
-/// Gives the planes of samples that a layer of chunks owns to the counter; of the last layer, its highest one too.
+/// Passes the sample planes of a layer of chunks to the counter; of the last layer also its highest plane.
 class PlaneReader {
  public:
   PlaneReader(size_t nx, size_t ny, std::pmr::memory_resource* memory)
@@ -89,7 +89,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     };
     Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, layer_progress);
     if (!chunks) return chunks.error();
-    // A layer that was stopped at its last chunk is whole, the region is not.
+    // If the last chunk of a layer cancelled, the layer is complete, but the region is not.
     if (stopped && z + 1 < counts[2]) return Error{Code::cancelled, "meshing was cancelled"};
     if (planes) planes->add(*chunks, z + 1 == counts[2]);
     if (z == 0) result.extent.lo = chunks->front().grid.origin;

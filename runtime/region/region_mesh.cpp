@@ -18,7 +18,7 @@ Int3 originFor(const IntBox& extent) {
   return {};
 }
 
-/// Meshes the requests of a region whose coarsest chunks are the keys, in order z, y, x.
+/// Meshes the requests of a region; keys are its coarsest chunks, in order z, y, x.
 Result<RegionMesh> meshRequests(const WorldField& world, Backend& backend, JobSystem& jobs,
                                 std::span<const ChunkKey> keys, std::span<const ChunkRequest> requests,
                                 const Progress& progress) {
@@ -70,14 +70,14 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
     ChunkKey root = request.key;
     while (root.level < tree.top()) root = parentOf(root);
     if (!coarsest.contains(root)) continue;
-    // The region's border cuts the surface: nothing closes it towards what is not drawn.
+    // The region's border cuts the surface: no seam closes it towards undrawn space.
     if (request.outermost) request = {request.key, 0, Neighbourhood{}};
     request.sharp = sharp;
     requests.push_back(request);
   }
   if (requests.size() > max_chunks) {
     return Error{Code::limit, std::to_string(requests.size()) + " chunks of all levels are more than " +
-                                  std::to_string(max_chunks) + ": take larger cells or a smaller region"};
+                                  std::to_string(max_chunks) + ": use larger cells or a smaller region"};
   }
   return meshRequests(world, backend, jobs, *keys, requests, progress);
 }

@@ -13,14 +13,14 @@
 namespace sgm {
 namespace {
 
-/// A vertex and the chunk that it lies in: what one program holds.
+/// A vertex and its chunk: the vertices of a chunk share one program.
 struct Placed {
   ChunkKey block;
   Int3 point;  ///< units
   uint32_t vertex = 0;
 };
 
-/// A mesh's vertices by the chunks that they lie in.
+/// A mesh's vertices, sorted by chunk.
 class PlacedMesh {
  public:
   PlacedMesh(const WorldMesh& mesh, const ChunkAt& chunk_at, std::pmr::memory_resource* memory)
@@ -40,7 +40,7 @@ class PlacedMesh {
   std::span<const TexturePoint> positions() const { return positions_; }  ///< world, units
   std::span<const TexturePoint> normals() const { return normals_; }
 
-  /// One a vertex.
+  /// One for each vertex.
   Result<std::pmr::vector<MaterialMix>> materials(const WorldField& world, JobSystem& jobs) const {
     std::pmr::vector<MaterialMix> materials(positions_.size(), memory_);
     std::pmr::vector<std::optional<Error>> errors(blocks(), memory_);
@@ -63,7 +63,7 @@ class PlacedMesh {
     return materials;
   }
 
-  /// One a vertex. One block after the other: shapes are numbered as they are met.
+  /// One for each vertex. Processes blocks in order, since shapes are numbered as they are found.
   Result<std::pmr::vector<uint32_t>> labels(SurfaceShapes& shapes) const {
     std::pmr::vector<uint32_t> labels(positions_.size(), memory_), of_block(memory_);
     std::pmr::vector<Int3> points(memory_);
@@ -107,7 +107,7 @@ class PlacedMesh {
   std::pmr::memory_resource* memory_;
   std::pmr::vector<TexturePoint> positions_, normals_;
   std::pmr::vector<Placed> placed_;   ///< by blocks
-  std::pmr::vector<size_t> borders_;  ///< where each block's vertices begin, and where the last one's end
+  std::pmr::vector<size_t> borders_;  ///< index of each block's first vertex, and the end of the last block
 };
 
 }  // namespace

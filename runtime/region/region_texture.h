@@ -1,5 +1,5 @@
 #pragma once
-// Texture coordinates of a region's mesh: what the C interface's surfaces and the command's files and pictures have.
+// Texture coordinates of a region's mesh, for the C interface's surfaces and the command's files and pictures.
 
 #include <functional>
 
@@ -12,24 +12,25 @@
 
 namespace sgm {
 
-/// A region's mesh as its charts and its pairs of materials see it.
+/// A region's mesh divided into charts and pairs of materials.
 struct TexturedRegion {
   Unwrapped unwrapped;
   TexelDensity density;
 };
 
-/// The chunk whose level decides about a place, units. Called from one thread.
+/// Returns the chunk whose level applies at a place, units. Called from one thread.
 using ChunkAt = std::function<ChunkKey(Int3 place)>;
 
-/// The chunk of that level of the world that the place is in.
+/// For a level of the world: the chunk that contains the place.
 ChunkAt chunksOfLevel(const WorldField& world, int level);
 
-/// One coordinate system for the whole region, so that a vertex between two chunks has one place in a chart. tile: the
-/// edge that coordinates count, units. Errors: those of WorldField::compileShapes and compile. Throws std::bad_alloc.
+/// Unwraps the whole region in one coordinate system, so that a vertex between two chunks has one place in a chart.
+/// tile: the edge that coordinates count in, units. Errors: those of WorldField::compileShapes and compile. Throws
+/// std::bad_alloc.
 Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
                                     const ChunkAt& chunk_at, int32_t tile);
 
-/// The same without coordinates, as pairMaterials makes it: a texture's space is not looked for.
+/// The same without coordinates, as pairMaterials makes it: does not search for texture spaces.
 Result<Unwrapped> blendRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, const ChunkAt& chunk_at);
 
 }  // namespace sgm

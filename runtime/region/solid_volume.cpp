@@ -10,10 +10,10 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kChunksTogether = 4096;  ///< whose meshes are there at one time
+constexpr size_t kChunksTogether = 4096;  ///< chunks whose meshes are in memory together
 
-/// The faces of a chunk in the region's upper border. The flux of x about the region's lowest corner through the lower
-/// border is 0.
+/// The faces of a chunk in the region's upper border. Through the lower border the flux of x, relative to the region's
+/// lowest corner, is 0.
 uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -21,7 +21,7 @@ uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   return faces;
 }
 
-/// Whether a sample is solid, as meshing has it.
+/// Whether a sample is solid, by the rule of meshing.
 Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   const auto program = world.compile(IntBox{at, at}, level);
   if (!program) return program.error();
@@ -33,7 +33,7 @@ Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   return std::floor(value * (*program)->q_scale + 0.5f) < 0;
 }
 
-/// The solid in the upper faces of a region, by the boundary of the surface that is open there (Green's theorem).
+/// The solid in the upper faces of a region, computed from the surface's open boundary there (Green's theorem).
 class UpperFaces {
  public:
   UpperFaces(const IntBox& region, const WorldMesh& mesh) : mesh_(mesh) {
@@ -43,7 +43,7 @@ class UpperFaces {
     }
   }
 
-  /// Of the face across an axis, in square metres. corner_is_solid: whether the region's highest corner is.
+  /// The solid area of the face across an axis, m2. corner_is_solid: whether the region's highest corner is solid.
   double solidArea(int axis, bool corner_is_solid) const {
     const size_t k = index(axis), u = index((axis + 1) % 3), v = index((axis + 2) % 3);
     double area = 0;
@@ -51,7 +51,7 @@ class UpperFaces {
       const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
       const std::array<double, 3> a = place(from), b = place(to);
       if (a[k] != size_[k] || b[k] != size_[k]) continue;
-      // The face goes along the surface's edges the other way.
+      // The face runs along the surface's edges in the opposite direction.
       area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
     }
     return area + size_[u] * solidLength(k, u, v, corner_is_solid);
@@ -62,13 +62,13 @@ class UpperFaces {
  private:
   static size_t index(int axis) { return static_cast<size_t>(axis); }
 
-  /// From the region's lowest corner, in metres: exact, as positions and cells are multiples of 1/2^18 m.
+  /// Relative to the region's lowest corner, in metres: exact, since positions and cells are multiples of 1/2^18 m.
   std::array<double, 3> place(uint32_t vertex) const {
     const std::array<double, 3>& p = mesh_.positions[vertex];
     return {p[0] - low_[0], p[1] - low_[1], p[2] - low_[2]};
   }
 
-  /// On the edge along v of the upper faces across k and u, in metres.
+  /// The solid length of the edge along v of the upper faces across k and u, in metres.
   double solidLength(size_t k, size_t u, size_t v, bool is_solid) const {
     std::vector<double> crossings;
     for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
@@ -88,7 +88,7 @@ class UpperFaces {
 
   const WorldMesh& mesh_;
   std::array<double, 3> size_{};  ///< of the region, metres
-  std::array<double, 3> low_{};   ///< its lowest corner from where positions count from
+  std::array<double, 3> low_{};   ///< its lowest corner relative to the origin of positions
 };
 
 }  // namespace
@@ -108,7 +108,7 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
   for (const ChunkKey& key : keys) {
     const uint8_t faces = upperFaces(key, keys.back());
     if (faces == 0) continue;
-    // The seams to the domain's own state, as a world has them at its end, fill what the border cuts.
+    // Seams to the domain's own state, as at the end of a world, fill the cut faces.
     ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
     request.outermost = true;
     request.sharp = sharp;
@@ -140,7 +140,7 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
   double flux = 0;
   for (int axis = 0; axis < 3; ++axis) {
     double area = faces.solidArea(axis, *corner_is_solid);
-    // Of a solid domain the surface is that of the void.
+    // In a solid domain the surface is that of the void.
     if (world.isSolidDomain()) area -= faces.size((axis + 1) % 3) * faces.size((axis + 2) % 3);
     flux += faces.size(axis) * area / 3;
   }
@@ -149,7 +149,7 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
 
 double solidVolume(const WorldField& world, const IntBox& region, double flux) {
   if (!world.isSolidDomain()) return flux;
-  // The surface bounds what is not solid.
+  // The surface bounds the part that is not solid.
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis)
     volume *= static_cast<double>(int64_t{region.hi[axis]} - region.lo[axis]) / kUnitsPerMetre;

@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// Bit 2 * axis + side for each outer plane that the vertex lies in.
+/// Bit 2 * axis + side is set for each outer plane that contains the vertex.
 uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   uint32_t planes = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -23,7 +23,7 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   return planes;
 }
 
-/// Edges within one outer plane that belong to one triangle.
+/// The number of edges within one outer plane that belong to only one triangle.
 size_t openBorderEdges(const WorldMesh& mesh, const IntBox& extent) {
   std::vector<uint8_t> planes(mesh.keys.size());
   for (size_t v = 0; v < planes.size(); ++v) planes[v] = static_cast<uint8_t>(bordersOf(mesh.keys[v], extent));
@@ -49,7 +49,7 @@ Topology topologyOf(const WorldMesh& mesh, const IntBox& extent) {
   const MeshReport report = checkTriangles(mesh.indices, mesh.positions.size());
   Topology result;
   if (!report.manifold()) {
-    result.leak = "the surface is no manifold: " + describe(report);
+    result.leak = "the surface is not manifold: " + describe(report);
   } else if (const size_t inside = report.open_edges - openBorderEdges(mesh, extent); inside > 0) {
     result.leak = std::to_string(inside) + " open edges away from the region's border";
   }

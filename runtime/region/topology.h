@@ -1,5 +1,5 @@
 #pragma once
-// Is the surface of a meshed region watertight, and how many handles has it?
+// Checks whether the surface of a meshed region is watertight, and counts its handles.
 
 #include <cstdint>
 #include <optional>
@@ -10,12 +10,12 @@
 namespace sgm {
 
 struct Topology {
-  /// A manifold, each of whose open edges lies in the outer border of the region, where the solid is cut: so the
-  /// surface and the cut faces together close. True of a region without surface.
+  /// The surface is a manifold, and each open edge lies in the outer border of the region, where the solid is cut: so
+  /// surface and cut faces together are closed. True for a region without surface.
   bool watertight = false;
-  std::string leak;  ///< what is wrong where it is not watertight
-  /// Handles of a closed surface, summed over its shells: 0 for a ball, 1 for a torus, 2 for two of them. Nothing where
-  /// the surface is not closed, since what lies beyond the border decides; `why` says so.
+  std::string leak;  ///< the problem if it is not watertight
+  /// Handles of a closed surface, summed over its shells: 0 for a ball, 1 for a torus, 2 for two of them. nullopt if
+  /// the surface is not closed, since the part beyond the border decides; `why` says so.
   std::optional<uint64_t> genus;
   std::string why;
 };

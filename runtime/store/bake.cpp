@@ -13,11 +13,11 @@ constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
 constexpr uint32_t kTileVersion = 3;
 
-/// A part on its way into a file.
+/// A part that is about to be written.
 struct Made {
   ContentId id;
   std::pmr::vector<std::byte> content;
-  std::optional<std::pmr::vector<std::byte>> frame;  ///< none where the content is to be inlined
+  std::optional<std::pmr::vector<std::byte>> frame;  ///< nullopt if the content is to be inlined
 };
 
 struct MadeChunk {

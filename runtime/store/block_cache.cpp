@@ -24,7 +24,7 @@ std::pair<std::shared_ptr<BlockCache::Block>, bool> BlockCache::find(const Key& 
     throw;
   }
   if (blocks_.size() > kMostBlocks) {
-    // Whoever waits for it has it all the same.
+    // Threads that wait for an evicted block still get it.
     blocks_.erase(used_.back());
     used_.pop_back();
   }
@@ -78,7 +78,7 @@ void BlockCache::fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fet
     const uint64_t begin = (wanted.first + from) * kBlock;
     const uint64_t end = std::min<uint64_t>((wanted.first + to) * kBlock, file_bytes);
     Result<std::pmr::vector<std::byte>> got = fetch(begin, static_cast<size_t>(end - begin));
-    if (got && got->size() != end - begin) got = Error{Code::io, "a file ends before its end"};
+    if (got && got->size() != end - begin) got = Error{Code::io, "a file is shorter than expected"};
     for (size_t i = from; i < to; ++i) {
       if (!got) {
         fail(wanted, i, got.error());
@@ -96,7 +96,7 @@ Result<std::pmr::vector<std::byte>> BlockCache::read(uint64_t file, uint64_t fil
   if (bytes == 0) return content;
   Wanted wanted{file, offset / kBlock, {}, {}};
   const auto giveUp = [&] {
-    // Nobody may wait for what nobody fetches.
+    // No thread may wait for a block that is not being fetched.
     for (size_t i = 0; i < wanted.is_mine.size(); ++i) {
       if (wanted.is_mine[i]) fail(wanted, i, outOfMemory());
     }
@@ -116,7 +116,8 @@ Result<std::pmr::vector<std::byte>> BlockCache::read(uint64_t file, uint64_t fil
     if (block.error) return *block.error;
     const uint64_t begin = (wanted.first + i) * kBlock;
     const uint64_t from = std::max(begin, offset), to = std::min<uint64_t>(begin + block.bytes.size(), offset + bytes);
-    if (to < std::min<uint64_t>(begin + kBlock, offset + bytes)) return Error{Code::io, "a file ends before its end"};
+    if (to < std::min<uint64_t>(begin + kBlock, offset + bytes))
+      return Error{Code::io, "a file is shorter than expected"};
     std::copy_n(block.bytes.begin() + static_cast<ptrdiff_t>(from - begin), to - from,
                 content.begin() + static_cast<ptrdiff_t>(from - offset));
   }

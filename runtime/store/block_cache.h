@@ -1,5 +1,5 @@
 #pragma once
-// Files that are far away, in blocks that are near.
+// Caches blocks of files that are far away.
 
 #include <condition_variable>
 #include <cstddef>
@@ -17,21 +17,23 @@
 
 namespace sgm::store {
 
-/// Keeps the blocks that were read last. Who needs one that another is fetching waits for it. Any thread.
+/// Keeps the most recently read blocks. A thread that needs a block waits if another thread is fetching it.
+/// Thread-safe.
 class BlockCache {
  public:
-  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; a file's last is shorter
+  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; the last block of a file is shorter
   static constexpr size_t kMostBlocks = 256;
-  static constexpr size_t kMostAtOnce = 4;  ///< blocks of one fetch: what came of a file over a slow line stays
+  static constexpr size_t kMostAtOnce = 4;  ///< blocks of one fetch: few, so that much of a slow download stays if it
+                                            ///< is cut off
 
-  /// Bytes of a file, from the start of a block to the end of one.
+  /// Fetches bytes of a file, from the start of a block to the end of one.
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;
 
   /// memory: thread-safe; must outlive the cache.
   explicit BlockCache(std::pmr::memory_resource* memory) : memory_(memory), blocks_(memory), used_(memory) {}
 
-  /// From a file, by a number of its own, of so many bytes; offset and bytes lie in it. Blocks that lie side by side
-  /// are fetched at once. Errors: fetch's, which are forgotten. Throws std::bad_alloc.
+  /// Reads from a file of this size that the caller has numbered; offset and bytes lie in it. Adjacent blocks are
+  /// fetched together. Errors: those of fetch; they are not cached. Throws std::bad_alloc.
   Result<std::pmr::vector<std::byte>> read(uint64_t file, uint64_t file_bytes, uint64_t offset, size_t bytes,
                                            const Fetch& fetch, std::pmr::memory_resource* memory);
 
@@ -46,14 +48,14 @@ class BlockCache {
     std::shared_ptr<Block> block;
     std::pmr::list<Key>::iterator used;
   };
-  /// Of what one reader wants: blocks side by side.
+  /// The adjacent blocks of one read.
   struct Wanted {
     uint64_t file, first;
     std::vector<std::shared_ptr<Block>> blocks;
-    std::vector<bool> is_mine;  ///< to fetch, and not done yet
+    std::vector<bool> is_mine;  ///< this thread must still fetch the block
   };
 
-  /// The block, and whether the caller is to fetch it. Under the lock.
+  /// Returns the block, and whether the caller must fetch it. The caller holds the lock.
   std::pair<std::shared_ptr<Block>, bool> find(const Key& key);
   void claim(Wanted& wanted, size_t count);
   void fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fetch);
@@ -64,7 +66,7 @@ class BlockCache {
   std::mutex mutex_;
   std::condition_variable finished_;
   std::pmr::map<Key, Entry> blocks_;
-  std::pmr::list<Key> used_;  ///< the latest first
+  std::pmr::list<Key> used_;  ///< most recently used first
 };
 
 }  // namespace sgm::store

@@ -1,5 +1,5 @@
 #pragma once
-// libcurl, looked for when a server is first to be read from: a program that reads from none does without it.
+// Loads libcurl when a server is first read from: other programs do not need it.
 
 #include <curl/curl.h>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::store {
 
-/// Its functions. What they allocate comes from its own heap.
+/// libcurl's functions. They allocate from libcurl's own heap.
 struct CurlTable {
   decltype(&::curl_global_init) global_init = nullptr;
   decltype(&::curl_easy_init) easy_init = nullptr;
@@ -18,7 +18,7 @@ struct CurlTable {
   decltype(&::curl_easy_strerror) easy_strerror = nullptr;
 };
 
-/// unsupported: it is not there, or is damaged. It stays loaded for as long as the process runs.
+/// unsupported: libcurl is missing or damaged. It stays loaded until the process ends.
 Result<CurlTable> loadCurl();
 
 }  // namespace sgm::store

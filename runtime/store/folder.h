@@ -1,13 +1,13 @@
 #pragma once
-// Where the files of a store lie.
+// The layout of a store's files.
 //
 //   STORE/format              "sgm store 1"
-//   STORE/worlds/KEY.sgmi     the index of a world (index.h), KEY.json: the same for people
-//   STORE/packs/3f/NAME.sgmp  contents (tile_record.h); named as its bytes are, and never changed
-//   STORE/baking/JOB/         what workers have made of a region so far: tiles L_X_Y_Z.tile with .pack, and the plan
+//   STORE/worlds/KEY.sgmi     the index of a world (index.h); KEY.json: the same for people
+//   STORE/packs/3f/NAME.sgmp  contents (tile_record.h); named by a hash of its bytes, and never changed
+//   STORE/baking/JOB/         unfinished results of workers for a region: tiles L_X_Y_Z.tile with .pack, and the plan
 //
-// Everything appears whole or not at all (base/file_writer.h), and equal names mean equal bytes: any number of
-// processes may work in one store, readers included.
+// Each file appears whole or not at all (base/file_writer.h), and equal names mean equal bytes: any number of processes
+// may work in one store, including readers.
 
 #include <chrono>
 #include <filesystem>
@@ -25,12 +25,12 @@ inline constexpr int kStoreVersion = 1;
 inline constexpr const char* kFormatFile = "format";
 std::string worldFileName(const ContentId& key);
 std::string packFileName(const ContentId& name);
-/// Of the folder at this path, which is not looked at.
+/// The files of the folder at this path; does not access it.
 std::unique_ptr<StoreFiles> folderFiles(const std::filesystem::path& root);
-/// io; bad_input: there is no store of this version. As StoreFiles::open.
+/// io; bad_input: not a store of this version. Other errors as StoreFiles::open.
 Result<void> checkFormat(StoreFiles& files);
 
-/// Of the name of a job's folder that has become a world, and is about to be removed.
+/// The suffix of a job's folder that was merged into a world and is about to be removed.
 inline constexpr const char* kMergedEnding = ".merged";
 
 class Folder {
@@ -43,23 +43,22 @@ class Folder {
   std::filesystem::path pack(const ContentId& name) const { return root_ / packFileName(name); }
   std::filesystem::path baking(const ContentId& job) const { return root_ / "baking" / nameOf(job); }
 
-  /// Makes the store where there is none. io; bad_input: the folder holds something else, or a store of another
-  /// version.
+  /// Creates the store if it is missing. io; bad_input: the folder holds something else, or a store of another version.
   Result<void> make() const;
-  /// io; bad_input: there is no store of this version.
+  /// io; bad_input: not a store of this version.
   Result<void> check() const;
 
  private:
   std::filesystem::path root_;
 };
 
-/// Who changes what a store has, one at a time; readers and workers need none.
+/// A lock for processes that change the content of a store; readers and workers need none.
 class StoreLock {
  public:
   static constexpr std::chrono::minutes kPatience{10};
 
-  /// Waits for who has it, at most so long. busy: another process still has it then. io; unsupported: the file system
-  /// has no locks.
+  /// Waits for the lock, at most this long. busy: another process still holds it. io; unsupported: the file system has
+  /// no locks.
   static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = kPatience);
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
@@ -73,7 +72,7 @@ class StoreLock {
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
-/// A regular file that is open for reading, as it was then: whoever replaces it changes nothing here. Any thread.
+/// A regular file opened for reading. Replacing the file does not change what it reads. Thread-safe.
 class OpenFile final : public StoredFile {
  public:
   /// io.
@@ -96,16 +95,16 @@ class OpenFile final : public StoredFile {
 
 /// idOf the whole file, read in pieces. io.
 Result<ContentId> idOfFile(const StoredFile& file);
-/// Whether the file is just this pack: its size, and the id of its bytes. False also where it cannot be read.
+/// Whether the file has the pack's size and id. Returns false also if it cannot be read.
 bool isPack(const std::filesystem::path& path, const PackFile& pack);
 
-/// What files have been named in a folder is on the disk. io.
+/// Blocks until the names of files in a folder are on disk. io.
 Result<void> syncFolder(const std::filesystem::path& folder);
 /// io.
 Result<void> makeFolder(const std::filesystem::path& folder);
-/// The whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
+/// Reads the whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
 Result<std::pmr::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
-/// Whole or not at all. unfinished: as FileWriter::create takes it. io.
+/// Writes the file whole or not at all. unfinished: as in FileWriter::create(). io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);
 

@@ -9,7 +9,7 @@
 namespace sgm::store {
 namespace {
 
-// tests/bench/README.md has what other levels would take and save.
+// For other levels' cost and benefit see tests/bench/README.md.
 constexpr int kZstdLevel = 9;
 
 }  // namespace
@@ -55,7 +55,7 @@ Unpacker::~Unpacker() {
 
 std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                             std::pmr::memory_resource* memory) {
-  // Nobody gets memory for what is not there.
+  // Check the size before allocating.
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != content_bytes) return std::nullopt;
   std::pmr::vector<std::byte> content(content_bytes, memory);
   ZSTD_DCtx* context = nullptr;

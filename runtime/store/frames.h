@@ -1,5 +1,5 @@
 #pragma once
-// Contents as the bytes of files, and what they are known by: all that needs zstd and xxHash.
+// Compression, ids and checksums of contents: all code that needs zstd and xxHash.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,26 +16,27 @@
 
 namespace sgm::store {
 
-/// 128 bits that stand for bytes.
+/// A 128-bit hash that identifies bytes.
 using ContentId = DiskKey;
 
-/// unsupported: this build has neither (SGM_DISK_CACHE=OFF); then nothing below may be called.
+/// unsupported: this build has neither (SGM_DISK_CACHE=OFF); then no function below may be called.
 Result<void> available();
 
 /// xxHash128.
 ContentId idOf(std::span<const std::byte> bytes);
-/// 64 bits that tell damage.
+/// A 64-bit checksum that detects damage.
 uint64_t checksumOf(std::span<const std::byte> bytes);
 
-/// One zstd frame, for any number of readers to come: made once, it may take its time. The same bytes on every machine
-/// that has the same zstd. out_of_memory. Throws std::bad_alloc.
+/// Compresses to one zstd frame. It is made once for many readers, so it may take long. The same zstd gives the same
+/// bytes on every machine. out_of_memory. Throws std::bad_alloc.
 Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std::pmr::memory_resource* memory);
-/// The content; none unless the frame is whole and holds just so many bytes. For any bytes. Throws std::bad_alloc.
+/// Decompresses a frame; nullopt unless it is whole and holds exactly this many bytes. Accepts any bytes. Throws
+/// std::bad_alloc.
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                   std::pmr::memory_resource* memory);
 
-/// unpack, again and again: keeps what zstd works with, whose making takes as long as most frames do. It comes from the
-/// C heap, some 100 KB for each thread that has been here at one time. Any thread.
+/// Decompresses repeatedly: reuses zstd's context, whose creation takes as long as most frames do. Contexts come from
+/// the C heap, about 100 KB for each concurrent thread. Thread-safe.
 class Unpacker {
  public:
   Unpacker() = default;
@@ -51,7 +52,7 @@ class Unpacker {
   size_t made_ = 0;
 };
 
-/// idOf bytes that come one part after the other.
+/// Computes idOf of bytes that arrive in pieces.
 class IdStream {
  public:
   /// Throws std::bad_alloc.

@@ -13,12 +13,12 @@
 namespace sgm::store {
 namespace {
 
-// Chunks that are derived take some milliseconds each: a server that takes seconds is of no use to a stream.
+// Deriving a chunk takes some milliseconds: a server that takes seconds is useless for streaming.
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
-/// A connection that its server has closed raises SIGPIPE in whoever writes to it, which by default ends the program;
-/// and libcurl itself must set no handlers in a process of many threads. So here it is held back, and dropped.
+/// Writing to a connection that the server has closed raises SIGPIPE, which by default ends the program, and libcurl
+/// must not set handlers in a process with several threads. So the signal is blocked and discarded here.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -45,7 +45,7 @@ class NoPipeSignal {
   bool was_pending_;
 };
 
-/// One answer, as it comes in.
+/// One response, as it arrives.
 struct Transfer {
   const CurlTable& curl;
   CURL* handle;
@@ -83,7 +83,7 @@ bool beginsAs(std::string_view line, std::string_view lower_case) {
 size_t takeHeader(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   std::string_view line(data, size * count);
-  if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;  // a redirection's are void
+  if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;  // redirections reset it
   constexpr std::string_view kName = "content-range:";
   if (!beginsAs(line, kName)) return size * count;
   line.remove_prefix(kName.size());
@@ -103,7 +103,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   const size_t bytes = size * count;
   const long status = transfer.status();
-  constexpr size_t kMostOfPage = size_t{1} << 20;  // of what a server says of its errors
+  constexpr size_t kMostOfPage = size_t{1} << 20;  // of a server's error page
   const bool wanted = status == 200 || status == 206;
   if (bytes > (wanted ? transfer.count : kMostOfPage) - transfer.bytes.size()) {
     transfer.too_long = true;
@@ -119,7 +119,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   return bytes;
 }
 
-/// Whatever the server said, in its file's terms.
+/// Converts the server's response to a part or an error.
 Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   const auto answers = [](const std::string& what) { return Error{Code::io, "the server " + what}; };
   const long status = transfer.status();
@@ -127,19 +127,19 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   const bool from_start = status == 200 && transfer.first == 0 && !transfer.too_long;
   if (from_start) return std::optional(HttpPart{transfer.bytes.size(), std::move(transfer.bytes)});
   if (status == 200)
-    return answers("answers no range requests, but sends the whole file: use another, such as nginx or Apache");
-  // Others from 500 on are the file's own.
+    return answers("ignores range requests and sends the whole file: use another server, such as nginx or Apache");
+  // Other statuses from 500 on concern only this file.
   if (status == 408 || status == 429 || status == 502 || status == 503 || status == 504)
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
   if (status == 401)
     return answers(
-        "answers with status 401: the address has to have a name and the right password, as in "
+        "answers with status 401: the address needs a user name and the right password, as in "
         "http://name:password@...");
   if (status != 206) return answers("answers with status " + std::to_string(status));
   if (transfer.range_first != transfer.first || transfer.file_bytes.value_or(0) <= transfer.first ||
       transfer.too_long ||
       transfer.bytes.size() != std::min<uint64_t>(transfer.count, *transfer.file_bytes - transfer.first))
-    return answers("answers with another part of the file than was asked for");
+    return answers("answers with another part of the file than the requested one");
   return std::optional(HttpPart{*transfer.file_bytes, std::move(transfer.bytes)});
 }
 
@@ -148,7 +148,7 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
 Result<std::unique_ptr<HttpClient>> HttpClient::create() {
   const Result<CurlTable> curl = loadCurl();
   if (!curl) return curl.error();
-  // Once in a process and for good: before 7.84 neither this nor its opposite may be done beside another thread's.
+  // Once in a process, and never undone: before 7.84 neither this nor its counterpart is thread-safe.
   static const CURLcode started = curl->global_init(CURL_GLOBAL_DEFAULT);
   CURL* const handle = started == CURLE_OK ? curl->easy_init() : nullptr;
   if (handle == nullptr) return Error{Code::out_of_memory, "libcurl cannot be started: there is too little memory"};
@@ -171,7 +171,7 @@ int HttpClient::progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_
 
 HttpClient::Connection::~Connection() {
   const std::lock_guard lock(client.mutex_);
-  // There is room: it was reserved when the handle was made.
+  // Has capacity: it was reserved when the handle was made.
   client.idle_.push_back(handle);
 }
 
@@ -188,7 +188,7 @@ CURL* HttpClient::take() {
   ++handles_;
   const auto set = [&](CURLoption option, auto value) { curl_.easy_setopt(handle, option, value); };
   set(CURLOPT_NOSIGNAL, 1L);
-  // Or nothing ends before the system's resolver does, which knows neither of our times nor of stop.
+  // Otherwise a request waits for the system's resolver, which ignores both the timeouts and stop().
   set(CURLOPT_QUICK_EXIT, 1L);
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
@@ -228,7 +228,7 @@ Result<std::optional<HttpPart>> HttpClient::get(const std::string& address, uint
   if (transfer.out_of_memory || code == CURLE_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == CURLE_OK || (code == CURLE_WRITE_ERROR && transfer.too_long)) return partOf(transfer);
   std::string why = words[0] != 0 ? words.data() : curl_.easy_strerror(code);
-  // OpenSSL's way to say that the server does not speak TLS.
+  // OpenSSL's message if the server does not speak TLS.
   if (why.find("wrong version number") != std::string::npos) why += "; is it http:// instead of https://?";
   return Error{Code::busy, std::move(why)};
 }

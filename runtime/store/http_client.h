@@ -1,5 +1,5 @@
 #pragma once
-// Parts of files from a server of plain files, through libcurl.
+// Downloads parts of files from a static file server, through libcurl.
 
 #include <atomic>
 #include <cstddef>
@@ -15,10 +15,10 @@ namespace sgm::store {
 
 struct HttpPart {
   uint64_t file_bytes = 0;            ///< of the whole file
-  std::pmr::vector<std::byte> bytes;  ///< shorter than asked for where the file ends before
+  std::pmr::vector<std::byte> bytes;  ///< shorter than requested if the file ends before
 };
 
-/// Keeps connections for the next request. Any thread; who asks waits.
+/// Keeps connections for the next request. Thread-safe; the calling thread waits.
 class HttpClient {
  public:
   /// unsupported, out_of_memory.
@@ -28,21 +28,22 @@ class HttpClient {
   HttpClient(const HttpClient&) = delete;
   HttpClient& operator=(const HttpClient&) = delete;
 
-  /// The file's bytes from `first` on; none where the server has no such file. count: 1 or more. Errors, with words
-  /// that follow on the server's or the file's name: busy: the server does not answer, not in time, or has failed, or
-  /// stop was called; io: it answers otherwise, and will. Throws std::bad_alloc.
+  /// Downloads the file's bytes from `first` on; nullopt if the server has no such file. count: 1 or more. Error
+  /// messages continue a sentence that begins with the server's or the file's name. busy: the server does not answer,
+  /// is too slow, or has failed, or stop() was called; io: any other answer; it would be the same again. Throws
+  /// std::bad_alloc.
   Result<std::optional<HttpPart>> get(const std::string& address, uint64_t first, size_t count,
                                       std::pmr::memory_resource* memory);
-  /// Ends requests within a second or so, at once those that would follow.
+  /// Ends running requests within about a second, and later ones at once.
   void stop() noexcept { stopped_ = true; }
   bool isStopped() const { return stopped_; }
 
  private:
   explicit HttpClient(const CurlTable& curl) : curl_(curl) {}
   static int progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_off_t);
-  /// One that is idle, or a new one. Throws std::bad_alloc.
+  /// Returns an idle handle or a new one. Throws std::bad_alloc.
   CURL* take();
-  /// Gives it back.
+  /// Returns the handle to the pool.
   struct Connection {
     HttpClient& client;
     CURL* handle;

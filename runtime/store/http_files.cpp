@@ -16,13 +16,13 @@ namespace {
 
 using Clock = Outage::Clock;
 
-/// A server is asked for so many things at one time, and nobody waits for longer until it may be.
+/// The most concurrent requests to a server, and the longest wait for a free slot.
 constexpr int kMostRequests = 4;
 constexpr std::chrono::seconds kLongestWait{2};
-/// For how long a file that could not be had is not asked for again.
+/// How long a file that could not be read is not requested again.
 constexpr std::chrono::seconds kFailedFor{60};
 
-/// What files of one server share; they may outlive who opened them.
+/// Shared by the files of one server, which may outlive their StoreFiles.
 class Server {
  public:
   Server(std::unique_ptr<HttpClient> client, std::string address, std::string shown, Log log,
@@ -44,16 +44,16 @@ class Server {
   Result<std::pmr::vector<std::byte>> read(const std::string& file, uint64_t file_bytes, uint64_t offset, size_t bytes,
                                            std::pmr::memory_resource* memory) {
     const std::optional<uint64_t> number = numberOf(file, file_bytes);
-    if (!number) return Error{Code::io, "'" + nameOf(file) + "' could not be had a while ago"};
+    if (!number) return Error{Code::io, "'" + nameOf(file) + "' could not be read recently"};
     const auto fetch = [&](uint64_t first, size_t count) -> Result<std::pmr::vector<std::byte>> {
       Result<std::optional<HttpPart>> part = ask(file, first, count);
       if (!part) return part.error();
-      if (!*part) return Error{Code::io, "'" + nameOf(file) + "' is not there"};
+      if (!*part) return Error{Code::io, "'" + nameOf(file) + "' does not exist"};
       if ((*part)->file_bytes == file_bytes) return std::move((*part)->bytes);
       return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
                                  " bytes instead of " + std::to_string(file_bytes)};
     };
-    // Before others wait for what is fetched here: while the server is away they are not to.
+    // Check before other threads wait for these blocks: they must not wait while the server is away.
     if (!isThere()) return away();
     auto read = blocks_.read(*number, file_bytes, offset, bytes, fetch, memory);
     if (!read && read.error().code == Code::io) {
@@ -67,14 +67,13 @@ class Server {
 
  private:
   struct FileState {
-    uint64_t number =
-        0;  ///< among those that were opened: it is the same when that happens again, and so are the blocks
+    uint64_t number = 0;  ///< stays the same when the file is opened again, and so the cached blocks stay valid
     Clock::time_point failed_until{};
   };
 
   Error away() const { return {Code::busy, "'" + shown_ + "' does not answer"}; }
 
-  /// Nothing where the file could not be had, not long ago.
+  /// nullopt if reading the file failed recently.
   std::optional<uint64_t> numberOf(const std::string& file, uint64_t file_bytes) {
     const std::lock_guard lock(mutex_);
     const auto [at, is_new] = files_.try_emplace({file, file_bytes});
@@ -83,7 +82,7 @@ class Server {
     return at->second.number;
   }
 
-  /// Whether it may be asked. While it is away one caller finds out, now and then, whether it is still.
+  /// Whether the server may be asked. While it is away, one caller tests it from time to time.
   bool isThere() {
     const Outage::Look look = outage_.look(Clock::now());
     if (look != Outage::Look::find_out) return look == Outage::Look::there;
@@ -103,8 +102,8 @@ class Server {
     if (!answers && client_->isStopped()) {
       outage_.gaveUp();
     } else if (!answers && outage_.failed(begun, Clock::now())) {
-      tell("'" + shown_ + "' cannot be read from (" + part.error().message +
-           "): chunks are derived until it can; it is asked again from time to time");
+      tell("'" + shown_ + "' cannot be read (" + part.error().message +
+           "): chunks are derived instead; the server is asked again from time to time");
     } else if (answers && outage_.answered(begun, Clock::now())) {
       tell("'" + shown_ + "' answers again");
     }
@@ -119,7 +118,7 @@ class Server {
     throw;
   }
 
-  /// The right to ask, where it comes soon enough.
+  /// The right to send a request; is_free is false if none became available in time.
   struct Slot {
     Server& server;
     bool is_free;
@@ -150,7 +149,7 @@ class Server {
   std::pmr::memory_resource* const memory_;
   Outage outage_;
   BlockCache blocks_;
-  std::mutex mutex_;  ///< of all below
+  std::mutex mutex_;  ///< guards the following
   std::condition_variable ended_;
   int running_ = 0;
   std::map<std::pair<std::string, uint64_t>, FileState> files_;
@@ -214,8 +213,8 @@ Result<std::unique_ptr<StoreFiles>> httpFiles(const std::string& address, const 
   if (!has_host || !is_plain)
     return Error{Code::bad_input,
                  "'" + shown +
-                     "' is no address of a store: http:// or https://, a host and a path, with neither "
-                     "'?' nor '#', and other letters as %20"};
+                     "' is not an address of a store: use http:// or https://, a host and a path, without "
+                     "'?' and '#', and escape special characters as in %20"};
   Result<std::unique_ptr<HttpClient>> client = HttpClient::create();
   if (!client) return client.error();
   return std::unique_ptr<StoreFiles>(

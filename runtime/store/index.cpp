@@ -76,14 +76,14 @@ Result<void> IndexWriter::commit(const ContentId& world, const BakedRegion& regi
 Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* memory) {
   const uint64_t file_bytes = file.size();
   const auto read = [&](uint64_t offset, size_t bytes) { return file.read(offset, bytes, memory); };
-  if (file_bytes < kIndexHead + kIndexEnd) return damaged("it is cut off");
+  if (file_bytes < kIndexHead + kIndexEnd) return damaged("it is truncated");
   const auto head = read(0, kIndexHead);
   if (!head) return head.error();
   ByteReader first(*head);
-  if (first.get<uint32_t>() != kIndexMagic) return damaged("it is none");
+  if (first.get<uint32_t>() != kIndexMagic) return damaged("it is not an index");
   if (const auto version = first.get<uint32_t>(); version != kIndexVersion)
     return Error{Code::bad_input, "the world's index has version " + std::to_string(version) +
-                                      ", and this library reads version " + std::to_string(kIndexVersion)};
+                                      ", but this library reads version " + std::to_string(kIndexVersion)};
   const auto end = read(file_bytes - kIndexEnd, kIndexEnd);
   if (!end) return end.error();
   ByteReader in(*end);
@@ -92,14 +92,13 @@ Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* 
   index.region = getRegion(in);
   in.get<uint32_t>();
   const auto offset = in.get<uint64_t>(), count = in.get<uint64_t>(), checksum = in.get<uint64_t>();
-  if (in.get<uint64_t>() != checksumOf(std::span(*end).first(kIndexEnd - 8))) return damaged("its end is not whole");
-  if (!check(index.region) || count != countTiles(index.region))
-    return damaged("its tiles are not those of its region");
+  if (in.get<uint64_t>() != checksumOf(std::span(*end).first(kIndexEnd - 8))) return damaged("its footer is damaged");
+  if (!check(index.region) || count != countTiles(index.region)) return damaged("its tiles do not match its region");
   if (count > file_bytes / kEntryBytes || offset != file_bytes - kIndexEnd - count * kEntryBytes)
     return damaged("its size is wrong");
   const auto directory = read(offset, static_cast<size_t>(count * kEntryBytes));
   if (!directory) return directory.error();
-  if (checksumOf(*directory) != checksum) return damaged("its directory is not whole");
+  if (checksumOf(*directory) != checksum) return damaged("its directory is damaged");
   ByteReader entries(*directory);
   index.tiles.reserve(static_cast<size_t>(count));
   for (const TileKey& key : tilesOf(index.region)) {
@@ -112,7 +111,7 @@ Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* 
     tile.checksum = entries.get<uint64_t>();
     if (tile.key != key || tile.offset < kIndexHead || tile.offset > offset || tile.stored > offset - tile.offset ||
         tile.bytes > kMostRecord || tile.stored > kMostFrame)
-      return damaged("its directory leads nowhere");
+      return damaged("its directory has an invalid entry");
     index.tiles.push_back(tile);
   }
   return index;
@@ -121,11 +120,11 @@ Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* 
 Result<TileRecord> readRecord(const StoredFile& file, const TileEntry& entry, std::pmr::memory_resource* memory) {
   const auto frame = file.read(entry.offset, entry.stored, memory);
   if (!frame) return frame.error();
-  if (checksumOf(*frame) != entry.checksum) return damaged("a tile's record is not whole");
+  if (checksumOf(*frame) != entry.checksum) return damaged("a tile's record is damaged");
   const std::optional<std::pmr::vector<std::byte>> bytes = unpack(*frame, entry.bytes, memory);
   if (!bytes) return damaged("a tile's record cannot be unpacked");
   std::optional<TileRecord> record = decodeTile(*bytes, memory);
-  if (!record || record->key != entry.key) return damaged("a tile's record is none");
+  if (!record || record->key != entry.key) return damaged("a tile's record is invalid");
   return std::move(*record);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-// The index of a world: which tiles of it were baked, and their records.
+// The index of a world: its baked tiles, and their records.
 //
-// "SGMW" and the version, 4 bytes each; records, packed; the directory; and 88 bytes that say where it is. So it is
-// written from front to back, and read from its end: the end, the directory, and of the records those that are asked
-// for, which a server of plain files can give.
+// "SGMW" and the version, 4 bytes each; records, compressed; the directory; and 88 bytes that locate it. So an index is
+// written from front to back, and read from its end: the last bytes, the directory, and only the needed records. This
+// works with a static file server.
 
 #include "base/file_writer.h"
 #include "store/store_files.h"
@@ -14,11 +14,11 @@ namespace sgm::store {
 inline constexpr uint32_t kIndexVersion = 2;
 inline constexpr size_t kIndexEnd = 88;
 
-/// Where a tile's record lies.
+/// The location of a tile's record.
 struct TileEntry {
   TileKey key;
   uint64_t offset = 0;
-  uint32_t stored = 0, bytes = 0;  ///< of its frame, and of what is in it
+  uint32_t stored = 0, bytes = 0;  ///< sizes of its frame, and of the decompressed record
   uint64_t checksum = 0;           ///< of the frame
 };
 
@@ -27,12 +27,12 @@ struct WorldIndex {
 
   ContentId world;  ///< worldKey of bake.h
   BakedRegion region;
-  std::pmr::vector<TileEntry> tiles;  ///< tilesOf the region
+  std::pmr::vector<TileEntry> tiles;  ///< in the order of tilesOf(region)
 
   const TileEntry* find(const TileKey& key) const;
 };
 
-/// Writes one, record by record in the order of their keys.
+/// Writes an index, record by record in the order of their keys.
 class IndexWriter {
  public:
   /// io.
@@ -48,7 +48,7 @@ class IndexWriter {
   std::vector<TileEntry> tiles_;
 };
 
-/// For any bytes. bad_input: they are no index, of another version, or damaged; errors of reading. Throws
+/// Accepts any bytes. bad_input: not an index, of another version, or damaged; errors of reading. Throws
 /// std::bad_alloc.
 Result<WorldIndex> readIndex(const StoredFile& file,
                              std::pmr::memory_resource* memory = std::pmr::get_default_resource());

@@ -9,9 +9,9 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where a content lies that the store has already.
+/// The location of a content that the store has already.
 struct Place {
-  uint32_t pack;  ///< number among the packs that were met
+  uint32_t pack;  ///< index of the known packs
   uint32_t stored;
   uint64_t offset;
 };
@@ -24,7 +24,7 @@ class Merger {
  public:
   Merger(const Folder& store, const Bakery& bakery) : store_(store), bakery_(bakery) {}
 
-  /// What the store's other worlds have, in the order of their names.
+  /// Reads the contents of the store's other worlds, in the order of their names.
   Result<void> learn(std::vector<std::string>& warnings) {
     const Result<std::vector<fs::path>> worlds = worldsOf(store_);
     if (!worlds) return worlds.error();
@@ -45,7 +45,7 @@ class Merger {
     return {};
   }
 
-  /// Puts the tile's contents where they belong, and says so in its record.
+  /// Stores the tile's new contents, and sets the locations in its record.
   Result<void> settle(TileRecord& record) {
     std::vector<size_t> fresh;
     size_t own = 0;
@@ -78,7 +78,7 @@ class Merger {
     return {};
   }
 
-  /// That the packs have their names is on the disk.
+  /// Blocks until the names of the packs are on disk.
   Result<void> sync() const {
     for (const fs::path& folder : folders_) {
       if (Result<void> synced = syncFolder(folder); !synced) return synced;
@@ -98,7 +98,7 @@ class Merger {
     return at->second;
   }
 
-  /// Whether the store has it, in a pack whose bytes are what its name says.
+  /// Whether the store has the content, in a pack whose bytes match its name.
   bool isKnown(const ContentId& id) {
     const auto known = known_.find(id);
     if (known == known_.end()) return false;
@@ -108,7 +108,7 @@ class Merger {
     return *trusted;
   }
 
-  /// Where a pack is to stand, and whether it does.
+  /// Creates the folder of a pack. Returns whether the pack exists.
   Result<bool> isThere(const PackFile& pack) {
     const fs::path folder = store_.pack(pack.name).parent_path();
     if (folders_.insert(folder).second) {
@@ -119,7 +119,7 @@ class Merger {
     return false;
   }
 
-  /// The tile's pack becomes the store's as it is.
+  /// Moves the tile's pack into the store unchanged.
   Result<PackFile> adopt(const TileKey& tile, const PackFile& pack) {
     const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
     const Result<bool> there = isThere(pack);
@@ -128,14 +128,14 @@ class Merger {
     std::error_code error;
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
-    // A damaged one stands there, or the file system has no links.
+    // A damaged file has that name, or the file system has no links.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
     if (Result<void> written = writeFile(to, *bytes, bakery_.unfinished); !written) return written.error();
     return pack;
   }
 
-  /// A pack of only these contents, whose places change.
+  /// Makes a pack of only these contents, and updates their locations.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
     const auto bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
     if (!bytes) return bytes.error();
@@ -160,12 +160,12 @@ class Merger {
   std::unordered_map<ContentId, Place, IdHash> known_;
   std::unordered_map<ContentId, uint32_t, IdHash> numbers_;
   std::vector<PackFile> packs_;
-  std::vector<std::optional<bool>> trusted_;  ///< of each pack, where it was looked at
-  std::set<fs::path> folders_;                ///< that packs were put into
+  std::vector<std::optional<bool>> trusted_;  ///< for each pack, if it was checked
+  std::set<fs::path> folders_;                ///< folders with new packs
   uint64_t new_bytes_ = 0;
 };
 
-/// How many tiles have yet to be made. Those whose pack is not what it should be are made again.
+/// The number of tiles still to be made. A tile with a wrong pack must be made again.
 uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   uint64_t missing = 0;
   for (const TileKey& tile : tiles) {
@@ -178,7 +178,7 @@ uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   return missing;
 }
 
-/// First aside, so that a worker that comes too late finds none, instead of a part.
+/// Renames the folder first, so that a late worker finds none rather than a part of it.
 void removeJob(const Bakery& bakery) {
   fs::path aside = bakery.folder;
   aside += kMergedEnding;
@@ -198,7 +198,7 @@ Result<bool> isBaked(const Folder& store, const Bakery& bakery) {
   if (jobKey(world->index.world, world->index.region) != bakery.job)
     return Error{Code::invalid_argument, "'" + store.root().string() +
                                              "' has another region of this world, or other levels: bake into another "
-                                             "store (a world streams from several), or remove '" +
+                                             "store (a world can stream from several), or remove '" +
                                              path.string() + "'"};
   const Result<bool> packs = hasPacks(store, *world, bakery.memory);
   return packs && *packs;
@@ -227,8 +227,8 @@ Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& 
   const std::vector<TileKey> tiles = tilesOf(bakery.region);
   if (const uint64_t missing = missingOf(bakery, tiles); missing != 0)
     return Error{Code::invalid_argument, std::to_string(missing) + " of " + std::to_string(tiles.size()) +
-                                             " tiles are not baked yet: run all shards, with the same options as this, "
-                                             "to the end; those that are done take no time"};
+                                             " tiles are not baked yet: run all shards to the end, with the same "
+                                             "options as this merge; finished shards take no time"};
   Merger merger(store, bakery);
   if (Result<void> learnt = merger.learn(merged.warnings); !learnt) return learnt.error();
   Result<IndexWriter> writer = IndexWriter::create(store.world(bakery.key), bakery.unfinished);
@@ -236,7 +236,7 @@ Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& 
   for (const TileKey& tile : tiles) {
     std::optional<TileRecord> record = madeBefore(bakery, tile);
     if (!record)
-      return Error{Code::io, "'" + tileFile(bakery.folder, tile).string() + "' has gone while it was merged"};
+      return Error{Code::io, "'" + tileFile(bakery.folder, tile).string() + "' disappeared while it was merged"};
     if (Result<void> settled = merger.settle(*record); !settled) return settled.error();
     if (Result<void> added = writer->add(*record, bakery.memory); !added) return added.error();
     merged.world.add(*record);

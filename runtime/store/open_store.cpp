@@ -7,21 +7,21 @@
 namespace sgm::store {
 namespace {
 
-/// Records of tiles that are kept in memory, each about 60 KB: a viewer sees a few hundred tiles of all levels.
+/// The most cached tile records, each about 60 KB: a viewer sees a few hundred tiles of all levels.
 constexpr size_t kMostRecords = 256;
 
-/// Packs that stay open: those around a viewer.
+/// The most open packs: those around a viewer.
 constexpr size_t kMostOpen = 32;
 
 }  // namespace
 
-/// What is wrong with a file: told, and an error to whoever asked.
+/// Reports an error of a file, and returns it.
 Error OpenStore::told(const std::string& file, std::string message) {
   tell_(file, message);
   return {Code::io, std::move(message)};
 }
 
-/// Of this version. A folder is looked at when a world is opened, a server when it is first needed.
+/// Whether this is a store of this version. A folder is checked when it is opened, a server when it is first needed.
 Result<bool> OpenStore::isStore() {
   {
     const std::lock_guard lock(mutex_);
@@ -126,7 +126,7 @@ Result<OpenStore::Pack> OpenStore::packOf(const PackFile& pack) {
   }
   Result<Pack> file = files_->open(packFileName(pack.name), pack.bytes);
   if (!file) return file;
-  if (*file == nullptr) return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' is not there"};
+  if (*file == nullptr) return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' does not exist"};
   const std::lock_guard lock(mutex_);
   packs_.push_front({pack.name, *file});
   if (packs_.size() > kMostOpen) packs_.pop_back();
@@ -147,7 +147,7 @@ Result<std::pmr::vector<std::byte>> OpenStore::bytesOf(const TileRecord& record,
   std::optional<std::pmr::vector<std::byte>> bytes = unpacker_.unpack(*frame, content.bytes, memory);
   if (bytes && idOf(*bytes) == content.id) return std::move(*bytes);
   return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' is damaged" +
-                             (files_->isFar() ? "" : ": sgm store verify says where")};
+                             (files_->isFar() ? "" : ": find the place with sgm store verify")};
 }
 
 Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const ChunkKey& chunk, int part,
@@ -176,7 +176,7 @@ void OpenStore::reject(const ContentId& world, const ChunkKey& chunk, int part) 
   const Result<Place> place = placeOf(world, chunk, part);
   if (!place || place->content == nullptr) return;
   const std::string name = files_->nameOf(worldFileName(world));
-  tell_(name, "'" + name + "' has contents that are no parts of chunks");
+  tell_(name, "'" + name + "' has contents that are not parts of chunks");
   const std::lock_guard lock(mutex_);
   rejected_.insert(place->content->id);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One store, for reading: what of its files is open, and how parts of chunks are found in them.
+// A store opened for reading: its open files, and the search for parts of chunks in them.
 
 #include <list>
 #include <map>
@@ -17,13 +17,13 @@ struct FoundPart {
   std::pmr::vector<std::byte> bytes;
 };
 
-/// Keeps what was used last: indexes, records of tiles, packs. Any thread.
+/// Caches the most recently used indexes, tile records and packs. Thread-safe.
 class OpenStore {
  public:
-  /// Told of an error in the file of a name.
+  /// Receives errors of files.
   using Tell = std::function<void(const std::string& file, const std::string& message)>;
 
-  /// tell, memory (thread-safe) must outlive it.
+  /// tell and memory (thread-safe) must outlive the store.
   OpenStore(std::unique_ptr<StoreFiles> files, Tell tell, std::pmr::memory_resource* memory)
       : files_(std::move(files)),
         tell_(std::move(tell)),
@@ -37,17 +37,17 @@ class OpenStore {
 
   StoreFiles& files() { return *files_; }
 
-  /// Nothing where the store does not have it. io, also where it is not what it should be, which is told; busy: as
-  /// StoreFiles::open. Throws std::bad_alloc.
+  /// Finds a part; nullopt if the store does not have it. io, also if a file is damaged or invalid (reported by tell);
+  /// busy: as StoreFiles::open. Throws std::bad_alloc.
   Result<std::optional<FoundPart>> find(const ContentId& world, const ChunkKey& chunk, int part,
                                         std::pmr::memory_resource* memory);
-  /// Whether it was looked for the world, and the store has none of it.
+  /// Whether the world was searched, and the store has no data of it.
   bool lacks(const ContentId& world);
-  /// What was found is no part of a chunk: that is told, and it is not found again.
+  /// Call if a found part is invalid: reports that, and the part is not found again.
   void reject(const ContentId& world, const ChunkKey& chunk, int part);
 
  private:
-  using World = std::shared_ptr<const WorldFile>;  ///< null: the store has none, or none that can be read
+  using World = std::shared_ptr<const WorldFile>;  ///< null: the store has no index, or an unreadable one
   using Record = std::shared_ptr<const TileRecord>;
   using Pack = std::shared_ptr<const StoredFile>;
   struct RecordKey {
@@ -57,7 +57,7 @@ class OpenStore {
   };
   struct KeptRecord {
     RecordKey key;
-    Record record;  ///< null where it cannot be read
+    Record record;  ///< null if it cannot be read
   };
   struct OpenPack {
     ContentId name;
@@ -65,7 +65,7 @@ class OpenStore {
   };
   struct Place {
     Record record;
-    const StoredContent* content = nullptr;  ///< in it; null: the store does not have the part
+    const StoredContent* content = nullptr;  ///< in the record; null: the store does not have the part
   };
 
   Error told(const std::string& file, std::string message);
@@ -81,14 +81,14 @@ class OpenStore {
   const Tell tell_;
   std::pmr::memory_resource* const memory_;
   Unpacker unpacker_;
-  std::mutex opening_;  ///< who reads an index
-  std::mutex mutex_;    ///< of all below
+  std::mutex opening_;  ///< held while an index is read
+  std::mutex mutex_;    ///< guards the following
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;
-  std::pmr::set<ContentId> lacking_;  ///< of these
-  std::pmr::list<KeptRecord> kept_;   ///< the latest used first
+  std::pmr::set<ContentId> lacking_;  ///< the worlds that the store lacks
+  std::pmr::list<KeptRecord> kept_;   ///< most recently used first
   std::pmr::map<RecordKey, std::pmr::list<KeptRecord>::iterator> records_;
-  std::pmr::list<OpenPack> packs_;  ///< the latest used first
+  std::pmr::list<OpenPack> packs_;  ///< most recently used first
   std::pmr::set<ContentId> rejected_;
 };
 

@@ -1,27 +1,27 @@
 #pragma once
-// Whether a server that did not answer is to be left alone, and when that is worth a word.
+// Decides whether to avoid a server that did not answer, and when to report that.
 
 #include <chrono>
 #include <mutex>
 
 namespace sgm::store {
 
-/// One server's. After the first failure it is away, and asked again after a second, then two, a minute at most;
-/// failures that follow soon after an answer go on where the ones before have ended. Any thread; `begun` and `now` are
-/// when a request began, and when its outcome was known.
+/// The state of one server. After the first failure it is away, and tested again after one second, then two, doubling
+/// up to a minute. Failures soon after an answer continue with the previous delay. Thread-safe. `begun` and `now` are
+/// the times when a request began and when its outcome was known.
 class Outage {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kFirstRest{1}, kLongestRest{60};
 
   enum class Look { there, away, find_out };
-  /// find_out: it is away, and the caller is the one who asks it again, and says how that went.
+  /// find_out: the server is away, and the caller must test it and report the outcome.
   Look look(Clock::time_point now);
-  /// Whether that is to be told: once an outage, and no more than once a minute.
+  /// Returns whether to report the failure: once per outage, and at most once a minute.
   bool failed(Clock::time_point begun, Clock::time_point now);
-  /// Whether that is to be told: the end of an outage that was.
+  /// Returns whether to report the end of an outage: if its beginning was reported.
   bool answered(Clock::time_point begun, Clock::time_point now);
-  /// Who was to find out has not.
+  /// The caller that had to find out did not test the server.
   void gaveUp();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Stores as what a world streams from.
+// Combines stores as the source of a streamed world.
 
 #include <span>
 
@@ -8,12 +8,12 @@
 
 namespace sgm::store {
 
-/// The parts of the first store that has them, folders before servers. places: as storeFiles takes them. A world finds
-/// its own index by its identity, when it first asks; so a store that has none of it costs nothing, and a server is
-/// asked for nothing before. What is wrong with a file is told and costs what lies in it, no more: who asks derives it;
-/// that no store has anything of a world is told once. memory, thread-safe, must outlive the source. A server costs no
-/// more than that either where this build, or machine, can read from none. io, bad_input: a folder is no store of this
-/// version, an address is none; unsupported: as available().
+/// Returns each part from the first store that has it, folders before servers. places: as in storeFiles(). A world's
+/// index is found by its identity at the first query; so a store without data of the world costs nothing, and a server
+/// gets no earlier request. A faulty file is reported and loses only its own content, which is derived instead. It is
+/// reported once if no store has data of a world. A server is treated the same if this build or machine cannot read
+/// from servers. memory must be thread-safe and outlive the source. io, bad_input: a folder is not a store of this
+/// version, or an address is invalid; unsupported: as available().
 Result<std::shared_ptr<BakedParts>> openStores(std::span<const std::string> places, Log log,
                                                std::pmr::memory_resource* memory);
 

@@ -20,7 +20,7 @@ std::string shownPlace(const std::string& place) {
   const std::string authority = place.substr(host, path - host);
   size_t at = authority.rfind('@');
   if (at == std::string::npos) {
-    // A password may have a '/' that should have been %2F: then what seems a port is none.
+    // A password may contain a '/' that should have been %2F: then the text after ':' is not a port.
     const size_t colon = authority.rfind(':');
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     if (colon == std::string::npos || authority.back() == ']' ||
@@ -36,7 +36,7 @@ std::string shownPlace(const std::string& place) {
 Result<void> checkHere(const std::string& place) {
   if (!isAddress(place)) return {};
   return Error{Code::invalid_argument,
-               "'" + shownPlace(place) + "' is on a server: this works in folders, and only streaming reads from both"};
+               "'" + shownPlace(place) + "' is on a server: pass a folder, because only streaming reads from servers"};
 }
 
 Result<std::unique_ptr<StoreFiles>> storeFiles(const std::string& place, const Log& log,

@@ -28,8 +28,9 @@ Span chunksOn(const BakedRegion& region, int level, int axis) {
 
 Result<void> check(const BakedRegion& region) {
   if (region.first_level < 0 || region.last_level > kMaxLevel || region.first_level > region.last_level)
-    return Error{Code::invalid_argument, "levels go from 0 to " + std::to_string(kMaxLevel) + ", the finest first"};
-  if (region.finest_cell < 1) return Error{Code::invalid_argument, "a cell has at least one unit"};
+    return Error{Code::invalid_argument,
+                 "levels must be between 0 and " + std::to_string(kMaxLevel) + ", the finest first"};
+  if (region.finest_cell < 1) return Error{Code::invalid_argument, "a cell must be at least one unit wide"};
   for (int level = region.first_level; level <= region.last_level; ++level) {
     const int64_t edge = (int64_t{kChunkCells} * region.finest_cell) << level;
     for (int axis = 0; axis < 3; ++axis) {

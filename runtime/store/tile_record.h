@@ -1,5 +1,5 @@
 #pragma once
-// What a store knows of a tile: where each part of its chunks lies, and what was measured.
+// The record of a tile: the locations of its chunks' parts, and their measures.
 
 #include "chunk/chunk_part.h"
 #include "measure/chunk_measures.h"
@@ -8,22 +8,22 @@
 
 namespace sgm::store {
 
-/// Contents without triangles, and others as small, lie within the record as they are: they are a few, are the same for
-/// most chunks, and nobody should have to read a file for each.
+/// Contents without triangles, and others as small, are stored in the record itself: there are only a few different
+/// ones, most chunks share them, and no reader should need a file for each.
 inline constexpr uint32_t kInlined = 0xFFFFFFFF;
 inline constexpr size_t kMostInlined = 256;  ///< bytes
 
-/// A part as encodeChunkPart makes it.
+/// A part encoded by encodeChunkPart.
 struct StoredContent {
   ContentId id;         ///< idOf the content
   uint32_t bytes = 0;   ///< of the content
   uint32_t stored = 0;  ///< of its frame
-  uint32_t pack = 0;    ///< the file's number among TileRecord::packs, or kInlined
+  uint32_t pack = 0;    ///< index of the file in TileRecord::packs, or kInlined
   uint64_t offset = 0;  ///< in that file, or in TileRecord::inlined
   friend bool operator==(const StoredContent&, const StoredContent&) = default;
 };
 
-/// A file of frames, one behind the other behind its head; named as its bytes are.
+/// A file of consecutive frames after a head; named by a hash of its bytes.
 struct PackFile {
   ContentId name;
   uint64_t bytes = 0;
@@ -41,16 +41,15 @@ struct TileRecord {
 
   TileKey key;
   std::pmr::vector<PackFile> packs;
-  std::pmr::vector<StoredContent>
-      contents;  ///< each once, in the order in which chunks and their parts first have them
+  std::pmr::vector<StoredContent> contents;  ///< each once, in the order of its first use by chunks and parts
   std::pmr::vector<std::byte> inlined;
-  /// By chunk and part: 0 where it was not baked, else one more than the content's number.
+  /// By chunk and part: 0 if it was not baked, else the content's index plus one.
   std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
-  uint32_t chunks = 0;       ///< that were baked
+  uint32_t chunks = 0;       ///< number of baked chunks
   uint64_t plain_bytes = 0;  ///< of all parts, as if each were stored by itself
 
-  /// Of a chunk's part; null where it was not baked.
+  /// The content of a chunk's part; null if it was not baked.
   const StoredContent* contentOf(size_t chunk, int part) const {
     const uint16_t number = this->part(chunk, part);
     return number == 0 ? nullptr : &contents[number - 1u];
@@ -60,7 +59,7 @@ struct TileRecord {
 };
 
 std::vector<std::byte> encodeTile(const TileRecord& record);
-/// For any bytes: none where they are not what encodeTile gives, or a number in them leads nowhere.
+/// Accepts any bytes; nullopt if encodeTile cannot have made them, or an index in them is invalid.
 std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes,
                                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

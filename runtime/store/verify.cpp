@@ -19,7 +19,7 @@ std::string placeOf(const ChunkKey& chunk) {
          std::to_string(chunk.at.z) + ") of level " + std::to_string(chunk.level);
 }
 
-/// The one part that is in a content; none where there are several, or another's triangles.
+/// The only part in a content; nullopt if there are several, or triangles of another part.
 std::optional<int> partOf(const ChunkRecord& chunk) {
   std::optional<int> part = chunk.seams == 0 ? std::optional(0) : std::nullopt;
   for (int face = 0; face < 6; ++face) {
@@ -53,7 +53,7 @@ class Verifier {
 
  private:
   struct Looked {
-    std::optional<int> part;  ///< none where the content is wrong
+    std::optional<int> part;  ///< nullopt if the content is faulty
     BorderSums borders;
   };
   using Pack = std::shared_ptr<const OpenFile>;
@@ -79,14 +79,14 @@ class Verifier {
         const Looked& of_part = looked[static_cast<size_t>(content - record->contents.data())];
         if (of_part.part && *of_part.part != part)
           found_.problems.add("'" + world_.name + "': part " + std::to_string(part) + " of " + placeOf(chunk) +
-                              " is another part's content");
+                              " has the content of another part");
         parts[static_cast<size_t>(part)] = &of_part.borders;
       }
       closure_.add(chunk, parts);
     }
   }
 
-  /// Null where it cannot be read. The first time all its bytes are compared.
+  /// Null if the pack cannot be read. Compares all its bytes the first time.
   Pack open(const PackFile& pack) {
     const fs::path path = store_.pack(pack.name);
     const bool is_new = packs_.insert(pack.name).second;
@@ -105,13 +105,13 @@ class Verifier {
       return nullptr;
     } else if (!head || !std::ranges::equal(*head, packHead())) {
       found_.problems.add("'" + path.string() +
-                          "' is a pack of another version: bake its world anew into another store");
+                          "' is a pack of another version: bake its world again into another store");
     }
     return std::move(*file);
   }
 
-  /// Whether the content is all right, and the borders of what is in it. Where it is not its borders are none, and
-  /// open.
+  /// Checks a content, and computes the borders of its part. A faulty content counts as without triangles, so that
+  /// borders next to it do not fit.
   Looked lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     known_.insert(content.id);
     const auto wrong = [&] {
@@ -123,7 +123,7 @@ class Verifier {
       const auto first = record.inlined.begin() + static_cast<ptrdiff_t>(content.offset);
       bytes.assign(first, first + static_cast<ptrdiff_t>(content.stored));
     } else {
-      if (packs[content.pack] == nullptr) return Looked{};  // that has been told
+      if (packs[content.pack] == nullptr) return Looked{};  // already reported
       const auto frame = packs[content.pack]->read(content.offset, content.stored);
       if (!frame) return wrong();
       std::optional<std::pmr::vector<std::byte>> unpacked = unpacker_.unpack(*frame, content.bytes, memory_);
@@ -148,8 +148,8 @@ class Verifier {
   Unpacker unpacker_;
   Verified found_;
   Closure closure_;
-  std::unordered_set<ContentId, IdHash> known_;  ///< contents that were looked at
-  std::set<ContentId> packs_, damaged_;          ///< likewise; damaged: of these
+  std::unordered_set<ContentId, IdHash> known_;  ///< checked contents
+  std::set<ContentId> packs_, damaged_;          ///< checked packs; damaged ones
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
   Compared compared;
   const std::pmr::vector<TileEntry>& tiles = world.index.tiles;
-  // Of tiles that hold nothing but rock each is tried, too, but few of them are enough.
+  // Tiles of only rock are drawn, too, but a few of them are enough.
   for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);
     const Result<TileRecord> record = world.record(tiles[random % tiles.size()], bakery.memory);
@@ -184,7 +184,7 @@ Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world,
       const StoredContent* stored = record->contentOf(number, part);
       if (stored != nullptr && stored->id == (*ids)[static_cast<size_t>(part)]) continue;
       compared.problems.add("part " + std::to_string(part) + " of " + placeOf(chunk) +
-                            " is not what it is baked to here");
+                            " differs from the one that is baked here");
     }
   }
   return compared;

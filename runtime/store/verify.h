@@ -1,5 +1,5 @@
 #pragma once
-// Whether a store has what it says, and lets go of what nobody needs.
+// Checks a store's content, and removes files that no world needs.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::store {
 
-/// What is wrong, in words; the first few of it.
+/// The first few descriptions of problems, and their number.
 struct Problems {
   static constexpr size_t kMostTold = 20;
   std::vector<std::string> told;
@@ -25,9 +25,9 @@ struct Verified {
   Problems problems;
 };
 
-/// Reads everything that a world needs: that records and packs are whole, that each content is there, is what its id
-/// says and can be decoded; and that bodies and seams fit together at every border that two of them share, whoever made
-/// them, so that all frames that may be drawn of it are closed (closure.h). Throws std::bad_alloc.
+/// Reads everything that a world needs. Checks that records and packs are whole; that each content exists, matches its
+/// id and can be decoded; and that bodies and seams fit at every common border, so that all drawable frames are closed
+/// (closure.h). Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
 struct Compared {
@@ -35,17 +35,17 @@ struct Compared {
   Problems problems;
 };
 
-/// Makes so many chunks of the world anew, drawn by the seed among those that have triangles as far as there are any,
-/// and compares; fewer where few have. Errors: those of meshing; bad_input (verify says more).
+/// Makes this many chunks of the world anew and compares them. The seed selects them, preferring chunks with triangles;
+/// fewer if few have any. Errors: those of meshing; bad_input (verify says more).
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
 
 struct Cleaned {
   uint64_t packs = 0, bytes = 0;  ///< removed
-  uint64_t unfinished = 0;        ///< bakes that are not merged: these stay
+  uint64_t unfinished = 0;        ///< bakes that are not merged; they stay
 };
 
-/// Removes packs that no world of the store needs, and what is left of bakes that are merged. busy, unsupported: as
-/// StoreLock. Errors: of reading any index, before anything is removed; io.
+/// Removes packs that no world of the store needs, and the rest of merged bakes. busy, unsupported: as StoreLock.
+/// Errors: of reading any index, before anything is removed; io.
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory,
                       std::chrono::milliseconds patience = StoreLock::kPatience);
 

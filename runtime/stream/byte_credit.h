@@ -1,5 +1,5 @@
 #pragma once
-// How many bytes an update may hand over. Whatever is to be handed over gets its turn, however small the budgets are.
+// Limits the bytes that an update hands over. Every item gets its turn, however small the budgets are.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace sgm {
 
-/// Law: any updates in a row hand over at most the sum of their budgets, and one item. An item passes where it fits
-/// into what is left, or as the first of an update that owes nothing; what is then too much is owed by the next ones.
+/// Invariant: any successive updates hand over at most the sum of their budgets plus one item. An item passes if it
+/// fits the rest of the budget, or as the first item of an update without debt; later updates owe the excess.
 class ByteCredit {
  public:
-  /// Of an update. What the one before left is lost.
+  /// Begins an update. The unused rest of the previous one is lost.
   void begin(size_t budget) {
     constexpr auto kMost = static_cast<size_t>(std::numeric_limits<int64_t>::max());
-    // Never above the budget: so it cannot overflow.
+    // Never above the budget, so it cannot overflow.
     left_ = std::min<int64_t>(left_, 0) + static_cast<int64_t>(std::min(budget, kMost));
     is_first_ = true;
   }
@@ -27,7 +27,7 @@ class ByteCredit {
   }
 
  private:
-  int64_t left_ = 0;  ///< below 0: owed
+  int64_t left_ = 0;  ///< negative: debt
   bool is_first_ = true;
 };
 

@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// Chunks that one job compares: some milliseconds' work where nothing of their cells is known.
+/// Chunks that one job compares: some milliseconds of work if none of their cells is cached.
 constexpr size_t kComparedAtOnce = 64;
 
 }  // namespace
@@ -75,7 +75,7 @@ bool FieldSwitch::compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldE
   } catch (const std::bad_alloc&) {
     change_ = nullptr;
     const std::lock_guard lock(mutex_);
-    // One that is wanted since is as good, but not as going back.
+    // A field that was requested since serves as well, but not in place of the field to return to.
     std::shared_ptr<const WorldField>& again = going_back_ ? back_ : next_;
     if (again == nullptr) again = to_;
     comparing_ = open_ = false;

@@ -1,15 +1,15 @@
 #pragma once
-// How a world goes over to another field: one field after the other, however fast they come.
+// Switches a world to another field, one field at a time, however fast new fields arrive.
 //
 //   engine's thread     want()
-//   jobs                compare(): what differs (field_change.h), some chunks at a time
-//   then                the change goes to the world's edits, and the planner takes it up as it takes up a brush
+//   jobs                compare(): finds the differences (field_change.h), some chunks at a time
+//   then                the change goes to the world's edits, and the planner takes it up like a brush
 //
-// The next one waits until what came before is drawn; and where chunks are still to be meshed for a viewer that moves,
-// as long again, so that an animation leaves half of the time to them. Before anything is drawn only one field takes
-// another's place, or a world that is animated from the start would never show. Of a field that cannot be drawn the
-// world goes back to the one before, so that edits and queries are of what is drawn. Where nobody looks nothing is
-// drawn, and all wait.
+// The next switch waits until the previous field is drawn. If chunks are still to be meshed for a moving viewer, it
+// waits as long again, so that an animation leaves half of the time to them. Before the first drawn frame only one
+// switch happens, since a world animated from the start would never appear otherwise. If a field cannot be drawn, the
+// world returns to the previous field, so that edits and queries match the drawn one. Without viewers nothing is drawn,
+// and all switches wait.
 
 #include <chrono>
 #include <memory>
@@ -23,39 +23,40 @@
 
 namespace sgm {
 
-/// Thread-safe; one compare() at a time.
+/// Thread-safe, but only one compare() at a time.
 class FieldSwitch {
  public:
   /// sharp: the world's chunks have sharp features.
   explicit FieldSwitch(bool sharp = false) : sharp_(sharp) {}
 
-  /// Of several that have not been begun the last one counts.
+  /// Requests a switch. Of several requests that have not begun, the last one counts.
   void want(std::shared_ptr<const WorldField> next);
 
-  /// Nothing is in the making, and nothing wanted that somebody waits to see.
+  /// Whether no comparison runs and, with viewers, no switch is requested or unfinished.
   bool settled(bool viewed) const;
-  /// A job is comparing, or about to.
+  /// Whether a job is comparing or about to.
   bool busy() const;
 
-  /// Calls of want(): how many there were, and of which the field is drawn, counted from 1; 0: the first field is.
+  /// Numbers of want() calls, counted from 1: the last call, and the call whose field is drawn (0: the first field).
   struct Turn {
     uint64_t wanted = 0, drawn = 0;
   };
   Turn turn() const;
 
   struct Progress {
-    uint64_t drawn = 0;    ///< the state that is drawn
-    uint64_t failed = 0;   ///< one that cannot be
-    bool viewed = false;   ///< somebody looks
-    bool shown = false;    ///< something has been drawn
-    bool at_rest = false;  ///< all that viewers want is there
+    uint64_t drawn = 0;    ///< number of the drawn state
+    uint64_t failed = 0;   ///< number of a state that cannot be drawn
+    bool viewed = false;   ///< there are viewers
+    bool shown = false;    ///< a frame has been drawn
+    bool at_rest = false;  ///< everything that the viewers want is drawn
   };
-  /// Whether a job should call compare(); then no other until it returns.
+  /// Whether a job should call compare(). If so, this returns false until that call returns.
   bool begin(const Progress& progress);
 
-  /// One job's work. True: begin() should be asked again soon. Throws std::bad_alloc: the same field is begun anew.
+  /// The work of one job. Returns true if begin() should be called again soon. Throws std::bad_alloc; then the same
+  /// field is compared anew later.
   bool compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldEdits& edits, JobSystem& jobs);
-  /// What began could not be handed on.
+  /// Reports that the job of a successful begin() could not be submitted.
   void giveUp();
 
  private:
@@ -65,21 +66,22 @@ class FieldSwitch {
 
   bool compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSystem& jobs);
 
-  // Of compare() alone.
+  // Used only by compare().
   std::shared_ptr<const WorldField> from_, to_;
-  std::shared_ptr<const FieldChange> change_;  ///< null: none in the making
-  std::vector<ChunkKey> left_;                 ///< to be compared yet
+  std::shared_ptr<const FieldChange> change_;  ///< the comparison in progress, or null
+  std::vector<ChunkKey> left_;                 ///< chunks still to be compared
 
   mutable std::mutex mutex_;  ///< guards what follows
   std::shared_ptr<const WorldField> next_;
-  std::shared_ptr<const WorldField> back_;    ///< where the last one failed: the field before it, which comes first
-  std::shared_ptr<const WorldField> before_;  ///< the change that is open: what it starts from
+  std::shared_ptr<const WorldField> back_;    ///< set if the last field failed: the field to return to, before all
+                                              ///< others
+  std::shared_ptr<const WorldField> before_;  ///< the field before the open change
   Turn turn_;
-  uint64_t turn_begun_ = 0;  ///< of the change that is open
-  bool going_back_ = false;  ///< what is compared was back_
+  uint64_t turn_begun_ = 0;  ///< turn of the open change
+  bool going_back_ = false;  ///< the compared field was back_
   bool comparing_ = false;   ///< a job has begun, or is about to
-  bool open_ = false;        ///< a change is in the making, or not drawn yet
-  uint64_t state_ = 0;       ///< that it led to; 0: in the making
+  bool open_ = false;        ///< a change is in progress or not drawn yet
+  uint64_t state_ = 0;       ///< the state it led to; 0: in progress
   Clock::time_point begun_, not_before_;
 };
 

@@ -17,13 +17,13 @@ namespace sgm {
 namespace {
 
 constexpr size_t kHashedAtOnce = 256;
-/// Failures told in one update: there is room for so many.
+/// The most failures reported in one update; space is reserved for them.
 constexpr ptrdiff_t kFailedAtOnce = 64;
-/// Looks in a row that find nothing new, until a wait gives up.
+/// waitIdle gives up after this many checks in a row without progress.
 constexpr int kLooksInVain = 2000;
 constexpr auto kBetweenLooks = std::chrono::milliseconds(2);
 
-/// Counts how long a call takes.
+/// Measures the time of a call.
 class TimedCall {
  public:
   TimedCall(WorldCore& core, TimeHistogram WorldTimes::*of) : core_(core), of_(of) {}
@@ -46,7 +46,7 @@ std::string metres(double units) { return generalText(units / kUnitsPerMetre) + 
 
 Result<void> checkLod(const LodSettings& lod) {
   if (lod.top < 0 || lod.top > kMaxLevel) {
-    return Error{Code::invalid_argument, "the coarsest level is not 0 to " + std::to_string(kMaxLevel)};
+    return Error{Code::invalid_argument, "the coarsest level is not between 0 and " + std::to_string(kMaxLevel)};
   }
   if (!(lod.finest_distance > 0) || !(lod.view_distance > 0) || !std::isfinite(lod.finest_distance) ||
       !std::isfinite(lod.view_distance)) {
@@ -58,10 +58,10 @@ Result<void> checkLod(const LodSettings& lod) {
   near.finest_distance = lod.finest_cell;
   const bool views_too_far = expectedLeaves({&one, 1}, near) > kMostExpectedLeaves / 2;
   return Error{Code::limit, views_too_far ? "a view distance of " + metres(lod.view_distance) +
-                                                " takes too many chunks of level " + std::to_string(lod.top) +
-                                                ": raise the coarsest level, or view less far"
+                                                " needs too many chunks of level " + std::to_string(lod.top) +
+                                                ": raise the coarsest level, or lower the view distance"
                                           : "a finest distance of " + metres(lod.finest_distance) +
-                                                " takes too many chunks of level 0: lower it, or use larger cells"};
+                                                " needs too many chunks of level 0: lower it, or use larger cells"};
 }
 
 uint64_t randomAuthor() {
@@ -69,23 +69,23 @@ uint64_t randomAuthor() {
   return (uint64_t{device()} << 32 | device()) | 1;  // never 0
 }
 
-/// What is kept on disk is told from another field's by its identity.
+/// Stored data is distinguished from another field's by the field's identity.
 Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
   if (settings.journal.empty() && settings.cache.empty() && settings.baked == nullptr) return {};
   for (const HostField& host : field.settings().hosts) {
     if (host.identity != 0) continue;
     return Error{Code::invalid_argument,
-                 "a field of the host's has the identity 0: what is kept on disk could not be told from another's"};
+                 "a host field has the identity 0: its data on disk could not be told apart from another field's"};
   }
   return {};
 }
 
-/// Threads to wait for servers. Where none starts, what is near is all that is baked.
+/// Creates the threads that wait for servers. If none starts, only baked parts nearby are used.
 std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, const WorldSettings& settings) {
   Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(WorldCore::kLookers + 1, profiler, "sgm store");
   if (lookers) return std::move(*lookers);
   if (settings.on_warning) {
-    settings.on_warning("no thread to read baked worlds from a server with (" + lookers.error().message +
+    settings.on_warning("baked worlds cannot be read from a server (" + lookers.error().message +
                         "): chunks are derived instead");
   }
   return nullptr;
@@ -94,7 +94,7 @@ std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, const WorldSett
 Result<void> openJournal(WorldCore& core) {
   const std::shared_ptr<const WorldField> field = core.edits.state().field;
   const std::optional<std::vector<std::byte>> identity = field->identity();
-  if (!identity) return Error{Code::unsupported, "a world without a grammar cannot keep a journal of edits"};
+  if (!identity) return Error{Code::unsupported, "a world without a grammar cannot have an edit journal"};
   const WorldFieldSettings& of = field->settings();
   const Result<std::string> opened =
       core.edits.open(core.settings.journal, {checksum(*identity), of.seed, of.finest_cell});
@@ -113,7 +113,7 @@ Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> f
   if (Result<void> good = checkLod(settings.lod); !good) return good.error();
   const size_t least = largestChunk(settings) * (jobs.concurrency() + 2);
   if (settings.mesh_bytes < least) {
-    return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small to stream with: " +
+    return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small for streaming: " +
                                   std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};
   }
   if (Result<void> good = checkHosts(*field, settings); !good) return good.error();
@@ -195,8 +195,8 @@ void World::advance(size_t bytes, size_t colliders) {
     tellColliders(colliders);
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
-  // A better step does not keep back one that is drawn sooner: where meshing is quicker than handing over, steps would
-  // grow, and none would ever be whole. But edits are in the next frame or the one after.
+  // A better step does not hold back one that can be drawn sooner: if meshing is faster than handing over, steps would
+  // grow, and none would ever complete. But edits must be in the next frame or the one after it.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
       staged_->to->edits == step->to->edits && bytesLeft(*staged_) <= bytesLeft(*step)) {
     step = staged_;
@@ -212,13 +212,13 @@ void World::advance(size_t bytes, size_t colliders) {
   } else {
     core_->kickOverdue();
   }
-  // Also if this world's own plan waits: the time that has passed may pay for it now (plan_turns.h).
+  // Even if this world's own plan waits: the time that has passed may pay for it now (plan_turns.h).
   core_->startDuePlans();
   core_->kickFieldSwitch();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
-  // What was handed over for a step that will not be taken is wanted no more, but where this frame has it too.
+  // Surfaces handed over for a step that is abandoned are removed, unless this frame has them too.
   std::unordered_set<ChunkKey, ChunkKeyHash> drawn;
   for (const DrawnChunk& chunk : frame.drawn) drawn.insert(chunk.key);
   if (staged_ != nullptr) {
@@ -247,7 +247,8 @@ size_t World::bytesLeft(const FrameStep& step) const {
 }
 
 bool World::handOver(const FrameStep& step) {
-  events_.reserve(events_.size() + step.changes.size() - staged_changes_);  // what counts as handed over is told
+  events_.reserve(events_.size() + step.changes.size() - staged_changes_);  // whatever counts as handed over must be
+                                                                            // reported
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
     if (chunk.surface == nullptr || wasHanded(chunk)) continue;
@@ -276,7 +277,7 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step) {
     }
     return WorldEvent::Kind::removed;
   };
-  // All of them or none: nothing below can fail.
+  // All changes or none: nothing below can fail.
   events_.reserve(events_.size() + step->changes.size());
   for (const FrameChange& change : step->changes) {
     if (change.kind == FrameChange::Kind::removed) handed_.erase(change.chunk.key);
@@ -322,7 +323,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
     const uint64_t plans = core_->plans;
-    // Where nothing is at work a plan becomes due by time alone.
+    // If no work is running, a plan becomes due by time alone.
     const auto look_again = std::chrono::steady_clock::now() + kBetweenLooks;
     helpUntil(jobs_, lock, core_->changed, [&] {
       return core_->plans != plans || core_->settled() || std::chrono::steady_clock::now() >= look_again;
@@ -330,14 +331,15 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     lock.unlock();
     if (more && !more()) return Error{Code::cancelled, "the wait was cancelled"};
   }
-  return Error{Code::limit, "nothing more fits into mesh_bytes: poll the events, release meshes, or raise it"};
+  return Error{Code::limit, "mesh_bytes is used up: poll the events, release meshes, or raise it"};
 }
 
 Result<void> World::setField(std::shared_ptr<const WorldField> field) {
   const double cell = field->settings().finest_cell, own = core_->settings.lod.finest_cell;
   if (cell != own) {
-    return Error{Code::invalid_argument, "the field's finest cell is " + metres(cell) + ", the world's " + metres(own) +
-                                             ": make the field with the world's cell, or another world"};
+    return Error{Code::invalid_argument, "the field's finest cell is " + metres(cell) + ", but the world's is " +
+                                             metres(own) +
+                                             ": create the field with the world's cell, or create another world"};
   }
   if (field->isAlone() || this->field()->isAlone()) {
     return Error{Code::unsupported, "a world without a grammar cannot be compared with another"};
@@ -352,7 +354,7 @@ void World::cancel() {
   const std::lock_guard lock(core_->mutex);
   core_->queue.replace(dropped, true, std::chrono::steady_clock::now());
   ++core_->generation;
-  ++core_->viewers_set;  // to be planned anew
+  ++core_->viewers_set;  // forces a new plan
 }
 
 Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
@@ -382,7 +384,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
       add(surface->mesh.ranges[0].hash, surface->grid);
     }
   }
-  // A bounded number at one time: of what is meshed only the hash is kept.
+  // A bounded number at a time, since only the hash of each mesh is kept.
   for (size_t first = 0; first < rest.size(); first += kHashedAtOnce) {
     const auto some = std::span(rest).subspan(first, std::min(kHashedAtOnce, rest.size() - first));
     const Result<std::pmr::vector<PlacedChunk>> chunks =

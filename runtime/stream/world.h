@@ -1,14 +1,14 @@
 #pragma once
-// A world that is streamed: meshed around its viewers on the job system, handed to an engine frame by frame.
+// A streamed world: meshed around its viewers on the job system, passed to an engine frame by frame.
 //
 //   engine's thread            jobs
-//   setViewers, update  --->   plan (planner.h): which chunks, which frame next
+//   setViewers, update  --->   plan (planner.h): which chunks to mesh, and the next frame
 //   edit, setField      --->   mesh (mesh_chunks.h): each job meshes a request or a device batch, urgent ones first
 //   poll events         <---   write the journal of edits
 //
-// Where a store is far away, threads of the world's own look for chunks there before a job sees the request
-// (work_queue.h). What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for short work
-// without waiting. update() waits for nothing else, so that an engine never waits for a job or a device.
+// If a store is on a server, the world's own threads look there for chunks before a job takes the request
+// (work_queue.h). All sides share a mailbox (world_core.h) behind one mutex that is held only for short work. update()
+// waits for nothing else, so the engine never waits for a job or a device.
 
 #include <memory>
 #include <mutex>
@@ -33,144 +33,143 @@
 
 namespace sgm {
 
-/// What an engine is told, in order. Between two updates a whole frame's changes come, or none of them.
+/// An event for the engine, in order. Between two updates the changes of a whole frame arrive, or none.
 struct WorldEvent {
   enum class Kind {
-    ready,             ///< a surface to take over; it is not drawn yet
+    ready,             ///< a surface to upload; it is not drawn yet
     shown,             ///< draw it from now on
-    replaced,          ///< draw the surface that was ready last instead of the earlier one
-    seams,             ///< draw other seams of the same surface, or the same among other neighbours
-    removed,           ///< draw it no more, and forget it; also of one that was ready and never shown
-    failed,            ///< the chunk cannot be made: what is coarser stays in its place
-    collider,          ///< collide with this, instead of the chunk's earlier one
-    collider_removed,  ///< collide with the chunk no more
+    replaced,          ///< draw the last ready surface instead of the previous one
+    seams,             ///< draw other seams of the same surface, or the same seams among other neighbours
+    removed,           ///< stop drawing it, and forget it; also for a surface that was ready and never shown
+    failed,            ///< the chunk cannot be made: the coarser chunk stays in its place
+    collider,          ///< use this collider instead of the chunk's previous one
+    collider_removed,  ///< the chunk has no collider any more
   };
   Kind kind = Kind::ready;
   ChunkKey key;
-  std::shared_ptr<const ChunkSurface> surface;  ///< of ready
-  uint8_t seams = 0;                            ///< to draw, bit (1 << Face)
+  std::shared_ptr<const ChunkSurface> surface;  ///< for ready
+  uint8_t seams = 0;                            ///< the drawn seams, bit (1 << Face)
   Neighbourhood coarser = 0;                    ///< as DrawnChunk::coarser
-  uint64_t frame = 0;                           ///< that the change belongs to; 0 for ready and failed
-  std::optional<Error> error;                   ///< of failed
-  std::shared_ptr<const Collider> collider{};   ///< of collider
+  uint64_t frame = 0;                           ///< the frame of the change; 0 for ready and failed
+  std::optional<Error> error;                   ///< for failed
+  std::shared_ptr<const Collider> collider{};   ///< for collider
 };
 
 struct WorldStats {
   PlannerStats planner;
   size_t queued = 0, in_work = 0;  ///< requests
-  size_t stale = 0;                ///< of these, those planned for viewers of before
-  uint64_t frame = 0;              ///< number of the frame that is drawn
+  size_t stale = 0;                ///< of these, the ones planned for previous viewers
+  uint64_t frame = 0;              ///< number of the drawn frame
   uint64_t plans = 0;
-  uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of now, and of what is drawn
-  FieldSwitch::Turn fields;             ///< of setField()
+  uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of the current and of the drawn state
+  FieldSwitch::Turn fields;             ///< numbers of setField() calls
   DiskCacheStats cache;
   BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
-  bool idle = false;  ///< what the viewers want is drawn
+  bool idle = false;  ///< everything that the viewers want is drawn
 };
 
 class WorldCore;
 
 inline constexpr size_t kMostViewers = 256;
 
-/// Functions may be called from any thread, one of update, poll and waitIdle at a time.
+/// Thread-safe, except that update, poll and waitIdle must not run concurrently.
 class World {
  public:
-  /// Reads the journal, where there is to be one. Errors: invalid_argument; limit (mesh_bytes is too small to stream
-  /// with, or the distances are too large: the message says what would do); those of WorldEdits::open.
-  /// backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory. turns: of all worlds on
-  /// these jobs; null: there is no other.
+  /// Creates a world, and reads the journal if settings name one. Errors: invalid_argument; limit (mesh_bytes is too
+  /// small, or the distances are too large: the message names values that work); those of WorldEdits::open. backend,
+  /// jobs and memory must outlive the world; surfaces may outlive it, but not memory. turns: shared by all worlds on
+  /// these jobs; null: this is the only world.
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
                                                std::pmr::memory_resource* memory,
                                                std::shared_ptr<PlanTurns> turns = nullptr);
-  /// Waits for jobs that have begun, and a second or so for a server that is being asked; jobs that the job system runs
-  /// later find nothing to do.
+  /// Waits for jobs that have begun, and up to about a second for a pending server request; jobs that the job system
+  /// runs later do nothing.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Replaces all viewers; none: what is drawn stays, and nothing is meshed. Errors, and nothing changes: those of
-  /// checkViewer; limit (more than kMostViewers).
+  /// Replaces all viewers. Without viewers the drawn frame stays, and nothing is meshed. On error nothing changes.
+  /// Errors: those of checkViewer; limit (more than kMostViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
-  /// Takes over what is finished, at most `bytes` of new surfaces and settings' max_colliders, and has more work begun.
-  /// A surface that is larger is handed over as the first of an update all the same; later updates make up for it, so
-  /// that any of them in a row hand over at most their bytes and one surface (byte_credit.h). Never waits. While
-  /// events of the previous update have not been polled it returns false, and does nothing but schedule a write of the
-  /// journal.
+  /// Takes over finished work, at most `bytes` of new surfaces and max_colliders (settings) colliders, and starts more
+  /// work. A larger surface is still handed over, as the first of an update; later updates compensate, so that any
+  /// successive updates hand over at most their bytes plus one surface (byte_credit.h). Never waits. While events of
+  /// the previous update are unpolled, it returns false and only schedules a write of the journal.
   bool update(size_t bytes);
 
-  /// Gives `take` the next events, in order, until it returns false for one or none is left. An event that it refused,
-  /// or threw at, comes first the next time.
+  /// Passes the next events to `take`, in order, until it returns false or none is left. An event that `take` refused,
+  /// or for which it threw, comes first the next time.
   void poll(const std::function<bool(const WorldEvent&)>& take);
 
-  /// What is drawn since the last update that took a frame over.
+  /// The frame of the last update that took over a frame.
   std::shared_ptr<const DrawnFrame> drawn() const;
 
-  /// Updates, without a limit of bytes, until everything that the viewers want is drawn; the calling thread works too.
-  /// Polled events must make room: they gather meanwhile. `more` is asked now and then; false ends the wait.
-  /// Errors: cancelled; limit, where memory does not suffice for that.
+  /// Updates without a byte limit until everything that the viewers want is drawn; the calling thread works, too.
+  /// Events accumulate meanwhile, so poll first. `more` is called now and then; returning false cancels. Errors:
+  /// cancelled; limit (not enough memory).
   Result<void> waitIdle(const std::function<bool()>& more = {});
 
-  /// Puts another field in the place of the world's: other parameters, a grammar that was edited, other fields of the
-  /// host's. Chunks that the difference reaches (field_change.h) are meshed again, and drawn all at one time; others
-  /// keep their meshes. It waits for its turn while nobody looks. Where a chunk of it cannot be made
-  /// (WorldEvent::failed) the world goes back to the field before. Fields that come faster than they can be drawn are
-  /// passed over, but for the last. Edits stay: their materials and tags keep their numbers. Never waits. Errors, and
-  /// nothing changes: invalid_argument (another finest cell, or what create() would refuse).
+  /// Replaces the world's field: other parameters, an edited grammar, or other host fields. Chunks that the difference
+  /// reaches (field_change.h) are meshed again and replaced in one frame; others keep their meshes. Without viewers the
+  /// switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the previous field. If fields
+  /// arrive faster than they can be drawn, only the last one is used. Edits stay, and keep the numbers of their
+  /// materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another finest cell, or
+  /// anything that create() refuses).
   Result<void> setField(std::shared_ptr<const WorldField> field);
 
-  /// Drops everything that waits to be meshed, and what is being meshed is dropped when it comes back. The next update
-  /// begins anew for the viewers there are.
+  /// Drops all requests; results of running ones are dropped, too. The next update begins anew for the current viewers.
   void cancel();
 
-  /// Lays a brush on the world, or undoes an edit, as EditLog does; or takes over the edits of another world. Drawn two
-  /// frames of changes later at the latest. Never wait for a job or the disk.
+  /// Lays a brush, undoes an edit (as EditLog), or imports another world's edits. The result is drawn at the latest two
+  /// frames of changes later. None of these waits for a job or the disk.
   Result<EditId> edit(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> importEdits(std::span<const std::byte> bytes);
-  /// All edits but the first `since`, in the order in which they were learned here: for another world's importEdits().
+  /// All edits except the first `since`, in order of arrival, for another world's importEdits().
   std::vector<std::byte> exportEdits(uint64_t since = 0) const;
   uint64_t editCount() const;
-  /// Of the set of edits: worlds that have exchanged theirs have equal ones.
+  /// A hash of the set of edits: worlds that have exchanged their edits have equal hashes.
   uint64_t editHash() const;
-  /// Returns when the disk has every edit of before. Errors: io.
+  /// Blocks until all edits so far are on disk. Errors: io.
   Result<void> flushEdits();
 
-  /// The field of now: what chunks are meshed from next. A newer one may be about to follow it.
+  /// The current field, from which the next chunks are meshed. A newer one may be about to replace it.
   std::shared_ptr<const WorldField> field() const;
-  /// That field with the edits of now, to be asked at a level. Must not outlive its memory.
+  /// The current field with the current edits, for queries at a level. Must not outlive its memory.
   QueryField queryField(int level = 0) const;
 
-  /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi; chunks that are not drawn
-  /// are meshed. Errors: those of chunksOfRegion and meshChunks.
+  /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi. Meshes chunks that are not
+  /// drawn. Errors: those of chunksOfRegion and meshChunks.
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
 
-  /// As setViewers() was told last.
+  /// The viewers of the last setViewers().
   std::vector<Viewer> viewers() const;
   WorldTimes times() const;
   const WorldSettings& settings() const;
 
-  /// Of now; nothing where the settings do not ask for it. Takes some microseconds a hundred drawn chunks.
+  /// The current measures; nullopt if the settings do not ask for them. Takes some microseconds per hundred drawn
+  /// chunks.
   std::optional<WorldMeasures> measures() const;
 
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes, size_t colliders);
-  /// Tells the next changes of colliders. Precondition: the core's mutex is held.
+  /// Emits the next changes of colliders. Precondition: the core's mutex is held.
   void tellColliders(size_t most);
-  /// Takes back what was handed over for the staged step and is not in the frame that comes, or stays.
+  /// Removes surfaces that were handed over for the staged step, but are not part of the new frame.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
   bool wasHanded(const DrawnChunk& chunk) const;
-  /// Of the step's surfaces that have not been handed over.
+  /// The bytes of the step's surfaces that have not been handed over.
   size_t bytesLeft(const FrameStep& step) const;
   /// Whether all of the step's surfaces have been handed over.
   bool handOver(const FrameStep& step);
-  /// Hands over surfaces of a step, and when all are there its changes: then true.
+  /// Hands over surfaces of a step and, once all are handed over, its changes; then returns true.
   bool stage(const std::shared_ptr<const FrameStep>& step);
 
   std::unique_ptr<WorldCore> core_;
@@ -181,7 +180,7 @@ class World {
   size_t polled_ = 0;
   ByteCredit credit_;
   std::shared_ptr<const FrameStep> staged_;
-  size_t staged_changes_ = 0;  ///< of staged_, whose surfaces have been handed over
+  size_t staged_changes_ = 0;  ///< changes of staged_ whose surfaces have been handed over
   std::unordered_map<ChunkKey, std::shared_ptr<const ChunkSurface>, ChunkKeyHash> handed_;
 };
 

@@ -10,9 +10,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2;
-/// So many updates may hand over colliders until the next are made.
+/// Colliders are made for this many updates at once.
 constexpr size_t kUpdatesOfColliders = 4;
-/// With the time that a disk takes: no more than a second's edits are ever lost.
+/// Including the time of the disk, at most a second's edits are ever lost.
 constexpr auto kBetweenFlushes = 250ms;
 
 PlannerSettings plannerSettings(const WorldSettings& settings) {
@@ -69,7 +69,7 @@ void WorldCore::stop() noexcept {
     helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
   }
   surfaces_->close();
-  flush_failed_ = false;  // this time for good: it is told of again
+  flush_failed_ = false;  // finally: report the failure again
   flushOnce();
 }
 
@@ -78,7 +78,7 @@ void WorldCore::warn(const char* message) const noexcept {
   try {
     settings.on_warning(message);
   } catch (const std::bad_alloc&) {
-    // A job lets no exception out, and there is no memory to say more.
+    // A job must not throw, and there is no memory for a longer message.
   }
 }
 
@@ -118,7 +118,7 @@ void WorldCore::tellScarce() noexcept {
     scarce = true;
     if (std::exchange(scarce_told_, true)) return;
   }
-  warn("memory is too scarce for what the viewers want: what is drawn stays, and every update tries again");
+  warn("there is too little memory for the viewers' chunks: the drawn ones stay, and every update tries again");
 }
 
 void WorldCore::kickJournal() {
@@ -148,10 +148,10 @@ void WorldCore::flushOnce() {
     first = !flushed && !flush_failed_;
     flush_failed_ = !flushed;
   }
-  // What could not be written is tried again with the next edits, and at the end.
+  // A failed write is repeated with the next edits, and at the end.
   if (!first) return;
   const Error& why = flushed.error();
-  warn(why.code == Code::out_of_memory ? "out of memory while writing the journal of edits" : why.message.c_str());
+  warn(why.code == Code::out_of_memory ? "out of memory while writing the edit journal" : why.message.c_str());
 }
 
 void WorldCore::kickFieldSwitch() {
@@ -235,7 +235,7 @@ bool WorldCore::planIsDue() const {
   const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
                     planning_with_.applied != applied || !finished_.empty() ||
                     (!colliders_done_ && collider_changes.empty());
-  // Without room, out of memory, or between two states of edits of which one changed nothing.
+  // No room, out of memory, or between two states of edits of which one changed nothing.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || news;
@@ -256,7 +256,7 @@ bool WorldCore::makePlan() {
     const ProfileScope scope(profiler, zone::kPlan);
     if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
     Plan plan = planner_.plan(planInput());
-    // A step that was offered before a restart may be taken after it: the planner has forgotten where that leads.
+    // A step offered before a restart may be taken after it: the planner has forgotten that frame.
     if (planner_.applied().number != planning_with_.applied) {
       losePlanner();
       return false;
@@ -265,7 +265,7 @@ bool WorldCore::makePlan() {
     publish(std::move(plan));
     return true;
   } catch (const std::bad_alloc&) {
-    // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
+    // The planner's data is no longer consistent. It restarts from the drawn frame at the next update.
     tellScarce();
     losePlanner();
     return false;
@@ -290,7 +290,7 @@ void WorldCore::planOnce() {
     }
     seconds += secondsSince(begun_at);
   }
-  turns_->endPlan(turn_, seconds);  // before anyone may ask for another
+  turns_->endPlan(turn_, seconds);  // before another plan may be requested
   bool again;
   {
     const std::lock_guard lock(mutex);
@@ -306,11 +306,11 @@ void WorldCore::makeColliders() {
   std::vector<Viewer> around;
   {
     const std::lock_guard lock(mutex);
-    if (!collider_changes.empty()) return;  // what has not been taken yet
+    if (!collider_changes.empty()) return;  // earlier changes are not yet taken
     frame = drawn;
     around = viewers;
   }
-  // Without viewers everything stays as it is.
+  // Without viewers the colliders stay as they are.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
   const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
   const size_t most = std::min(room, kUpdatesOfColliders * settings.max_colliders);
@@ -326,12 +326,12 @@ void WorldCore::makeColliders() {
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
   const std::lock_guard lock(mutex);
-  // From now on a job may find anew that it must restart.
+  // From now on a job may again request a restart.
   return std::exchange(planner_lost_, false) ? drawn : nullptr;
 }
 
 void WorldCore::publish(Plan&& plan) {
-  // The queue is long, and the engine may wait for the mutex: most of what has begun meanwhile goes without it.
+  // The queue is long, and the engine may wait for the mutex: remove most of the begun requests without it.
   std::vector<ChunkKey> begun;
   {
     const std::lock_guard lock(mutex);
@@ -346,7 +346,7 @@ void WorldCore::publish(Plan&& plan) {
   const std::lock_guard lock(mutex);
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
-  // What was there before goes with the plan, when nobody waits for it.
+  // The previous queue goes into the plan, and is freed without the mutex.
   queue.replace(plan.queue, mayLook(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);

@@ -1,4 +1,4 @@
-// The jobs that mesh what a world has planned, and the lookers, which look for it far away before.
+// The jobs that mesh a world's planned chunks, and the lookers, which prefetch chunks from a server.
 
 #include <algorithm>
 
@@ -10,15 +10,15 @@ namespace sgm {
 
 namespace {
 
-/// Requests that come back before the planner looks at them, where more are waiting and no update comes.
+/// Finished requests that trigger a plan while more are waiting and no update comes.
 constexpr size_t kFinishedToPlan = 64;
 constexpr int kMeshPriority = 1, kLookPriority = 1;
-static_assert(kMeshPriority <= kSharePriority, "parts of chunks that came too late would never be let go");
+static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finished too late would never be released");
 
 }  // namespace
 
 bool WorldCore::isLooking() const {
-  // Without room they wait for that.
+  // Without room the requests wait for that instead.
   return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
@@ -27,12 +27,12 @@ bool WorldCore::isOverdue() const {
 }
 
 void WorldCore::kickMeshing() {
-  // A job system that runs jobs at once gets no more than these.
+  // A job system that runs jobs at once gets only this many.
   for (size_t more = mostMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      // What lookers bring is not tried in vain, one after the other.
+      // After a failed allocation do not try one prefetched chunk after the other.
       if (lookers_ != nullptr && passed_over_) return;
       if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
@@ -60,13 +60,13 @@ void WorldCore::kickLooking() {
     }
     if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
     const std::lock_guard lock(mutex);
-    --look_jobs_;  // jobs mesh it when its time is over
+    --look_jobs_;  // jobs mesh the requests after kPatience
     return;
   }
 }
 
 void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
-  // A device is only busy with many chunks at one time; but each job is to have some, and room for them.
+  // A device needs many chunks at a time; but each job should have some, and room for them.
   const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
   const Clock::time_point now = Clock::now();
@@ -76,7 +76,7 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
        at = queue.nextReady(*at, now)) {
     const WorkItem& next = queue[*at];
-    // What is more urgent does not wait for what is less.
+    // Urgent requests do not wait for less urgent ones.
     if (!items.empty() && next.rank != items.front().rank) break;
     try {
       begun_.push_back(next.request.key);
@@ -123,7 +123,7 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
     done.error =
         Error{Code::limit, "a chunk has " + std::to_string(bytes) +
                                " bytes with its anchors, morph offsets and texture coordinates, more than the " +
-                               std::to_string(largestChunk(settings)) + " of the largest; place fewer anchors"};
+                               std::to_string(largestChunk(settings)) + " that are allowed; place fewer anchors"};
     return;
   }
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
@@ -141,7 +141,7 @@ void WorldCore::lookFar() {
     try {
       look = std::make_shared<Look>();
     } catch (const std::bad_alloc&) {
-      // Jobs mesh what nobody looks for, when its time is over.
+      // Jobs mesh requests without a prefetch after kPatience.
     }
     std::optional<ChunkRequest> request;
     WorldState under;
@@ -158,7 +158,7 @@ void WorldCore::lookFar() {
     try {
       found = mesherOf(under).find(*request, under.brushes.get());
     } catch (const std::bad_alloc&) {
-      // It is meshed.
+      // The chunk is meshed instead.
     }
     {
       const std::lock_guard lock(mutex);
@@ -214,7 +214,7 @@ void WorldCore::meshOnce() {
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
-    // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
+    // If the job system runs a submitted job at once, within submit(), one call would mesh the whole queue.
     if (!handsOn()) takeItems(batch, items);
     under = queue_edits_;
     of_generation = generation;
@@ -227,7 +227,7 @@ void WorldCore::meshOnce() {
     done.back().before = item.before;
     done.back().edits = under.number;
   }
-  // Of a batch that nobody wants any more what has not begun is left.
+  // Skip the rest of a batch that is no longer wanted.
   const auto wanted = [&](uint64_t, uint64_t) {
     const std::lock_guard lock(mutex);
     return !stopped_ && generation == of_generation;
@@ -262,15 +262,15 @@ void WorldCore::meshOnce() {
       try {
         finished_.push_back(std::move(chunk));
       } catch (const std::bad_alloc&) {
-        // The planner would wait for this one for ever, and so would a new one that was told of its begin.
+        // The planner, or a new one that knows of its begin, would wait for this chunk for ever.
         planner_lost_ = out_of_memory = true;
         std::erase(begun_, key);
       }
     }
-    // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
+    // Edited chunks, and those needed to stand on, are drawn as soon as the last one of their rank is finished.
     const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.mostUrgent().rank > rank);
     plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
-    // Memory may suffice for what is less urgent; but what is tried in vain is little.
+    // Memory may suffice for less urgent chunks; but limit failed attempts to one.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
   }

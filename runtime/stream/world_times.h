@@ -1,5 +1,5 @@
 #pragma once
-// How long a world's work takes, each time: what an average hides is what a player sees.
+// Durations of a world's work as histograms: averages would hide the peaks that a player notices.
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// Seconds. counts[i] are those above 2^(i - 17) and up to 2^(i - 16); the first ones too that took less, the last
-/// ones too that took more.
+/// Seconds. counts[i] has the durations above 2^(i - 17) and up to 2^(i - 16); the first bucket also has shorter ones,
+/// the last bucket also longer ones.
 struct TimeHistogram {
   static constexpr int kBuckets = 21, kFirstExponent = -16;
 
@@ -27,11 +27,11 @@ struct TimeHistogram {
 };
 
 struct WorldTimes {
-  TimeHistogram update, poll;                     ///< calls, with their wait for each other
-  std::array<TimeHistogram, kMaxLevel + 1> mesh;  ///< of bodies by level; of a batch each has an equal share
-  TimeHistogram read;                             ///< of bodies that came from disk or from far, likewise
-  double clock_seconds = 0;                       ///< in which jobs meshed or read chunks
-  double job_seconds = 0;                         ///< likewise, times how many jobs they were
+  TimeHistogram update, poll;                     ///< calls, including the wait for each other
+  std::array<TimeHistogram, kMaxLevel + 1> mesh;  ///< of bodies by level; each chunk of a batch has an equal share
+  TimeHistogram read;                             ///< of bodies from the disk or a server, in equal shares
+  double clock_seconds = 0;                       ///< time during which jobs meshed or read chunks
+  double job_seconds = 0;                         ///< the same, multiplied by the number of these jobs
 };
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Along and around a bent tube.
+// Coordinates along and around a bent tube.
 
 #include <span>
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace sgm {
 
-/// Where a point lies by a line.
+/// The position of a point relative to a line.
 struct SweepPlace {
-  double along = 0;         ///< units from the first point; below 0 before it, more than length() behind the last
+  double along = 0;         ///< units from the first point; negative before it, more than length() after the last
   double side = 0, up = 0;  ///< across the line, units: towards tangent x up, and towards up
   Vec3 outward;             ///< from the line to the point, any length
   Vec3 tangent;             ///< of length 1
 };
 
-/// A line with a frame that is carried along without twist (framesAlong).
+/// A polyline with a frame that is transported without twist (framesAlong).
 class SweepLine {
  public:
-  /// At least two points, no two neighbours the same; up: where the frame starts.
+  /// points: at least two, consecutive ones distinct; up: the up vector at the start.
   explicit SweepLine(std::span<const Int3> points, Vec3 up = {0, 1, 0});
 
   double length() const { return length_; }
-  /// By the nearest segment, of several the first. p: relative to the first point, units.
+  /// Uses the nearest segment, the first if several are. p: relative to the first point, units.
   SweepPlace at(Vec3 p) const;
 
  private:

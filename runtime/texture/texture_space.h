@@ -1,5 +1,5 @@
 #pragma once
-// A shape's own texture coordinates: along and around a passage, over the faces of a box, by the world's axes where no
+// Texture coordinates of a shape: along and around a passage, over the faces of a box, or by the world's axes if no
 // shape makes the surface.
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// A part of a shape's surface that is laid out by itself.
+/// A part of a shape's surface that has its own layout.
 using Chart = uint16_t;
 
 /// x, y, z.
@@ -24,8 +24,8 @@ struct TextureCoordinates {
   double u = 0, v = 0;
 };
 
-/// Coordinates count tiles of one edge. Around what is closed a whole number of tiles fits, so that a texture that
-/// repeats meets itself; u x v points into the void, so that nothing is mirrored.
+/// Coordinates count square tiles. Around a closed direction the number of tiles is whole, so that a repeating texture
+/// meets itself; u x v points into the void, so that no texture is mirrored.
 ///
 ///   sphere, ellipsoid, superquadric   six charts by the local axis that is largest, as a cube's, by equal angles; an
 ///                                     ellipsoid seven times as wide as high has 0.5 to 1.4 times as many tiles
@@ -35,24 +35,24 @@ struct TextureCoordinates {
 ///   beam                              the same, around by the way along its four sides
 ///   torus                             around the ring and around the tube: one chart
 ///   halfspace                         its plane
-///   what is left                      none of its own: by the world's axes
+///   all others                        none of their own: by the world's axes
 ///
 /// Immutable. Positions are world positions in units, exact in double precision.
 class TextureSpace {
  public:
-  /// By the world's axes, from a base in units. tile: of the edge, units, at least 1. A base that is a multiple of the
-  /// tile puts the tiles of all worlds' parts on one lattice.
+  /// Maps by the world's axes, from a base in units. tile: its edge, units, at least 1. If each base is a multiple of
+  /// the tile, the tiles of all parts of the world lie on one lattice.
   TextureSpace(Int3 base, int32_t tile);
-  /// Of a leaf, or of the union of a sweep's pieces; byWorld() where it has none of its own.
+  /// For a leaf, or for the union of a sweep's pieces; byWorld() if the shape has no coordinates of its own.
   TextureSpace(const GrammarChunk& chunk, uint32_t shape, int32_t tile);
 
-  /// The chart that suits a triangle with this middle and this normal (any length, out of the solid).
+  /// The chart for a triangle with this centre and this normal (any length, out of the solid).
   Chart chartOf(const TexturePoint& middle, const TexturePoint& normal) const;
-  /// Whether it is the world's axes: three planes that pass into each other look better there than one chart does.
+  /// True if the world's axes map it: triplanar blending then looks better than one chart.
   bool byWorld() const { return kind_ == Kind::world; }
-  /// Of a point, in a chart of any triangle near it.
+  /// The coordinates of a point, in the chart of any triangle near it.
   TextureCoordinates at(const TexturePoint& p, Chart chart) const;
-  /// Tiles after which the same place comes again; 0: never. Where it is not 0, at() leaps by it somewhere.
+  /// The period in tiles after which a position repeats; 0: never. If it is not 0, at() jumps by it somewhere.
   TextureCoordinates period(Chart chart) const;
 
  private:
@@ -62,11 +62,11 @@ class TextureSpace {
   TexturePoint turned(const TexturePoint& world) const;
   TextureCoordinates plane(const TexturePoint& q, int face) const;
   Chart prismChart(const TexturePoint& q, const TexturePoint& n) const;
-  /// Of the surface without displacement, at a local point.
+  /// The outward normal of the undisplaced surface at a local point.
   TexturePoint outwardAt(const TexturePoint& q) const;
   double tilesAround(double radius) const;
   double tilesAroundLine() const;
-  /// -1/2 to 1/2 of the way around the line, 0 on the upper side.
+  /// The angle around the line, from -1/2 to 1/2 turn, 0 on the upper side.
   double turnOf(const SweepPlace& place) const;
 
   Kind kind_ = Kind::world;

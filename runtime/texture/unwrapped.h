@@ -1,5 +1,5 @@
 #pragma once
-// A mesh with texture coordinates, as unwrap.h makes it.
+// A mesh with texture coordinates, the result of unwrap.h.
 
 #include <array>
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace sgm {
 
-/// A vertex as one chart and one pair of materials sees it.
+/// A vertex in one chart and with one pair of materials.
 struct Wedge {
   uint32_t vertex = 0;                    ///< of the mesh: position, normal and label
   float u = 0, v = 0;                     ///< tiles
-  std::array<uint16_t, 2> materials{};    ///< of the triangles that have it, rising; both the same where they have one
+  std::array<uint16_t, 2> materials{};    ///< of its triangles, ascending; both the same if they have one
   uint8_t share = 0;                      ///< of the second material here, in 255ths
-  std::array<uint8_t, 3> plane_shares{};  ///< planeShares(), where the world's axes texture it; else all 0
+  std::array<uint8_t, 3> plane_shares{};  ///< planeShares() if the world's axes texture it, else all 0
   friend bool operator==(const Wedge&, const Wedge&) = default;
 };
 
 struct Unwrapped {
-  std::pmr::vector<Wedge> wedges;      ///< in the order in which triangles come to them
-  std::pmr::vector<uint32_t> corners;  ///< into wedges, three a triangle: the mesh's indices, one by one
+  std::pmr::vector<Wedge> wedges;      ///< in the order of their first use by triangles
+  std::pmr::vector<uint32_t> corners;  ///< into wedges, three per triangle, parallel to the mesh's indices
 
   explicit Unwrapped(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : wedges(memory), corners(memory) {}

@@ -1,6 +1,6 @@
 #pragma once
-// Derived cells, kept by use up to a number of bytes. What a cell derives to is a pure function of its key, so losing
-// one costs time only.
+// A cache of derived cells with least-recently-used eviction and a byte limit. A derived cell is a pure function of its
+// key, so an evicted cell costs only time.
 
 #include <atomic>
 #include <condition_variable>
@@ -31,12 +31,12 @@ struct DerivedCell {
 struct CellKey {
   uint32_t layer = 0;
   Int3 cell;
-  int32_t cell_edge = 0;  ///< what levels with cells of this edge or a larger one have of it, units; 0: all
+  int32_t cell_edge = 0;  ///< the cell's content for levels whose cells have this edge or a larger one, units; 0: all
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 
-/// Finished cells that one piece of work has found: it finds them again without a word that other threads write, as
-/// the count of a cell's owners is. Not thread-safe.
+/// Finished cells that one piece of work has found. Finding a cell here again writes no memory that threads share (the
+/// cache would change the owner count). Not thread-safe.
 using CellsAtHand = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
 
 struct CellCacheStats {
@@ -44,7 +44,7 @@ struct CellCacheStats {
   size_t bytes = 0, cells = 0;
 };
 
-/// Thread-safe. A cell asked for by several threads at once is derived by one of them; the others wait for it.
+/// Thread-safe. If several threads ask for a cell at once, one of them derives it and the others wait.
 class CellCache {
  public:
   using Derive = std::function<Result<GrammarChunk>()>;
@@ -54,10 +54,10 @@ class CellCache {
   /// derive runs without any lock held, and may ask for cells of lower layers. A failed cell is not kept.
   Result<std::shared_ptr<const DerivedCell>> get(const CellKey& key, const Derive& derive);
 
-  /// The finished cells among those of the keys, in their order, null for each other: found[i] is that of keys[i].
+  /// Looks up finished cells: found[i] is the cell of keys[i], null if it is missing or unfinished.
   void find(std::span<const CellKey> keys, std::vector<std::shared_ptr<const DerivedCell>>& found);
 
-  /// Takes over finished cells of another cache that it does not have itself, the latest used first, as far as there is
+  /// Takes over finished cells of another cache that are missing here, most recently used first, as far as there is
   /// room. take must not call back.
   void adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take);
 
@@ -66,28 +66,28 @@ class CellCache {
  private:
   struct Entry {
     std::shared_ptr<const DerivedCell> cell;  ///< null while it is being derived
-    std::atomic<uint64_t> used{0};            ///< what clock_ was when it was last asked for
+    std::atomic<uint64_t> used{0};            ///< clock_ at the latest use
     std::list<CellKey>::iterator listed;
-    uint64_t listed_as = 0;  ///< what `used` was when it got its place in the list
+    uint64_t listed_as = 0;  ///< the value of `used` when the entry got its place in the list
   };
-  /// Under the lock, shared or not.
+  /// The caller holds the lock, shared or exclusive.
   std::shared_ptr<const DerivedCell> use(Entry& entry);
-  /// So that so many bytes more are within the limit, or no cell is left.
+  /// Evicts cells until this many more bytes fit the limit, or no cell is left.
   void makeRoom(size_t bytes);
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Cells that are there are found by many threads at one time, and only note when. Who has been asked for since it got
-  // its place in the list gets one at the beginning when its turn to go has come.
+  // Many threads find cells concurrently, so a hit only notes the time. An entry that was used since it got its place
+  // in the list moves to the front, instead of being evicted, when it comes last (second chance).
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
-  std::list<CellKey> by_use_;  ///< by use, about the latest first; only finished cells
-  // Counts the cells that have come: between two of them nothing can have to go, so that no order is needed, and who
-  // finds a cell in use has nothing to write. 0 is before all uses: adopted cells have it.
+  std::list<CellKey> by_use_;  ///< finished cells only, roughly by use, latest first
+  // The number of inserted cells. Eviction happens only at an insertion, so uses between two insertions need no order,
+  // and repeated hits write nothing. Adopted cells have 0, which is before all uses.
   std::atomic<uint64_t> clock_{1};
   std::atomic<uint64_t> hits_{0};
-  CellCacheStats stats_;  ///< but for the hits
+  CellCacheStats stats_;  ///< without the hits
 };
 
 }  // namespace sgm

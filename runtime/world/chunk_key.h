@@ -1,5 +1,5 @@
 #pragma once
-// The name of a chunk: its level and its place among the chunks of that level.
+// Identifies a chunk by its level and its place among the chunks of that level.
 
 #include "base/fixed.h"
 #include "base/hash.h"
@@ -8,14 +8,14 @@ namespace sgm {
 
 inline constexpr int kMaxLevel = 16;
 
-/// Chunk (x, y, z) of a level has its lowest corner at that times 32 cells of the level.
+/// The lowest corner of chunk (x, y, z) lies at (x, y, z) * 32 cells of its level.
 struct ChunkKey {
   int level = 0;
   Int3 at;
   friend auto operator<=>(const ChunkKey&, const ChunkKey&) = default;
 };
 
-/// For unordered containers, whose order must never be seen.
+/// For unordered containers; no result may depend on their order.
 struct ChunkKeyHash {
   size_t operator()(const ChunkKey& key) const {
     const auto bits = [](int v) { return uint64_t{static_cast<uint32_t>(v)}; };
@@ -24,10 +24,10 @@ struct ChunkKeyHash {
   }
 };
 
-/// The chunk one level coarser that holds this one.
+/// The chunk one level coarser that contains this one.
 inline ChunkKey parentOf(const ChunkKey& key) { return {key.level + 1, {key.at.x >> 1, key.at.y >> 1, key.at.z >> 1}}; }
 
-/// One of the eight chunks one level finer in this one: bits 0, 1, 2 of `index` are its half in x, y, z.
+/// One of the eight chunks one level finer: bits 0, 1, 2 of `index` select the upper half in x, y, z.
 inline ChunkKey childOf(const ChunkKey& key, int index) {
   return {key.level - 1,
           {2 * key.at.x + (index & 1), 2 * key.at.y + (index >> 1 & 1), 2 * key.at.z + (index >> 2 & 1)}};
@@ -38,7 +38,7 @@ inline ChunkKey neighbourOf(const ChunkKey& key, int dx, int dy, int dz) {
   return {key.level, {key.at.x + dx, key.at.y + dy, key.at.z + dz}};
 }
 
-/// Whether `inner` lies in `outer`, or is it.
+/// Whether `inner` lies in `outer` or equals it.
 inline bool holds(const ChunkKey& outer, const ChunkKey& inner) {
   const int down = outer.level - inner.level;
   return down >= 0 && Int3{inner.at.x >> down, inner.at.y >> down, inner.at.z >> down} == outer.at;

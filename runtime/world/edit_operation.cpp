@@ -24,7 +24,7 @@ Int3 getPlace(ByteReader& in) {
   return p;
 }
 
-// Nothing where a byte stands for nothing.
+// false if a byte is not a valid value.
 bool get(ByteReader& in, Brush& brush) {
   const auto shape = in.get<uint8_t>(), cut = in.get<uint8_t>();
   if (shape > static_cast<uint8_t>(Brush::Shape::capsule) || cut > 1) return false;
@@ -78,7 +78,8 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes) {
 Result<void> checkEdit(const EditOperation& operation) {
   for (const uint64_t n : {operation.order.time, operation.order.id.number}) {
     if (n >= 1 && n <= kMostEditTime) continue;
-    return Error{Code::invalid_argument, "an edit's time or number is " + std::to_string(n) + ", which is none"};
+    return Error{Code::invalid_argument,
+                 "an edit's time or number is " + std::to_string(n) + ", which is out of range"};
   }
   return operation.kind == EditOperation::Kind::brush ? checkBrush(operation.brush) : Result<void>();
 }
@@ -96,8 +97,8 @@ Result<EditOperation> decodeEdit(ByteReader& bytes) {
   } else {
     operation.target = getId(bytes);
   }
-  if (bytes.failed()) return bad("they end too early");
-  if (!known) return bad("a number lies beyond what there is");
+  if (bytes.failed()) return bad("they are truncated");
+  if (!known) return bad("a number is out of range");
   if (Result<void> could = checkEdit(operation); !could) return bad(could.error().message);
   return operation;
 }

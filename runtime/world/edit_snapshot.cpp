@@ -10,8 +10,8 @@ namespace {
 // Levels of the octree: a node's edge is 2^level units.
 constexpr int kWorldLevel = 32, kLeafLevel = 12;
 
-// The deepest node that holds the box's middle and whose edge is no shorter than the box: so a brush stands in one
-// node, and sticks out of it by half an edge at most.
+// The deepest level whose edge is no shorter than the box. A brush stands in the one node that holds its middle, and
+// sticks out of it by half an edge at most.
 int homeLevel(const IntBox& box) {
   int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, int64_t{box.hi[axis]} - box.lo[axis]);
@@ -34,9 +34,9 @@ size_t childOfMiddle(const IntBox& box, int level) {
 struct EditSnapshot::Node {
   std::array<NodePtr, 8> children;
   std::pmr::vector<Entry> entries;  ///< by order
-  IntBox bounds;                    ///< of all below
-  size_t count = 0;                 ///< of all below
-  uint64_t batch = 0;               ///< that made it
+  IntBox bounds;                    ///< of all entries below
+  size_t count = 0;                 ///< of all entries below
+  uint64_t batch = 0;               ///< the batch that made the node
 
   explicit Node(std::pmr::memory_resource* memory) : entries(memory) {}
   Node(const Node& other, std::pmr::memory_resource* memory)
@@ -63,7 +63,7 @@ struct EditSnapshot::Change {
 
 EditSnapshot::NodePtr EditSnapshot::changed(const NodePtr& node, int level, const Change& change) const {
   const std::pmr::polymorphic_allocator<Node> allocator(memory_);
-  // What this batch made nobody else has seen.
+  // A node made by this batch has no other reader yet.
   const bool ours = node && change.batch != 0 && node->batch == change.batch;
   const std::shared_ptr<Node> own = ours   ? std::const_pointer_cast<Node>(node)
                                     : node ? std::allocate_shared<Node>(allocator, *node, memory_)

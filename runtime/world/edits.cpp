@@ -41,7 +41,7 @@ bool EditLog::hidden(EditId brush) const {
 Result<void> EditLog::checkLabels(const Brush& brush) const {
   const auto beyond = [](const char* what, uint16_t has, uint16_t most) {
     return Error{Code::invalid_argument, "a brush's " + std::string(what) + " is " + std::to_string(has) +
-                                             "; the last one is " + std::to_string(most)};
+                                             ", but the last one is " + std::to_string(most)};
   };
   if (brush.material > settings_.most_material) return beyond("material", brush.material, settings_.most_material);
   if (brush.tag > settings_.most_tag) return beyond("tag", brush.tag, settings_.most_tag);
@@ -52,7 +52,7 @@ void EditLog::makeRoom(size_t more) {
   if (known_.capacity() - known_.size() < more) known_.reserve(std::max(known_.size() + more, 2 * known_.size()));
 }
 
-// Precondition: there is room. Where memory runs out, the operation is not known, and nothing has changed.
+// Precondition: there is room. If memory runs out, the operation stays unknown and nothing changes.
 IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
   const EditId id = operation.order.id;
   const uint64_t own = checksum(bytesOf(operation));
@@ -88,9 +88,10 @@ IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
 
 Result<EditLog::Edited> EditLog::make(EditOperation operation) {
   if (known_.size() >= settings_.most_operations || number_ >= kMostEditTime) {
-    return Error{Code::limit, "the world's edits are full: " + std::to_string(known_.size()) + " are known"};
+    return Error{Code::limit,
+                 "the world cannot hold more edits than the " + std::to_string(known_.size()) + " that it has"};
   }
-  // Whoever sends the last time there is makes equals of all that follow; numbers still order them.
+  // A received time may already be the largest one: then all later operations share it, and their numbers order them.
   operation.order = {std::min(latest_ + 1, kMostEditTime), {settings_.author, number_ + 1}};
   if (Result<void> good = checkEdit(operation); !good) return good.error();
   makeRoom(1);
@@ -129,14 +130,14 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
     if (!known) {
       fresh.emplace(id, &operation);
     } else if (bytesOf(*known) != bytesOf(operation)) {
-      return Error{Code::bad_input, "edit " + nameOf(id) + " is known here with another content"};
+      return Error{Code::bad_input, "edit " + nameOf(id) + " already exists with other contents"};
     }
   }
   if (known_.size() + fresh.size() > settings_.most_operations) {
-    return Error{Code::limit, "the world's edits would be " + std::to_string(known_.size() + fresh.size()) +
-                                  "; it holds " + std::to_string(settings_.most_operations)};
+    return Error{Code::limit, "the world would have " + std::to_string(known_.size() + fresh.size()) +
+                                  " edits, but it holds at most " + std::to_string(settings_.most_operations)};
   }
-  // Undos and redos first, the latest before all: so no brush comes or goes more than once.
+  // Undos and redos first, latest first: so no brush appears or disappears more than once.
   std::vector<const EditOperation*> order;
   for (const auto& [id, operation] : fresh) order.push_back(operation);
   std::sort(order.begin(), order.end(), [](const EditOperation* a, const EditOperation* b) {
@@ -153,17 +154,17 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
 
 Result<std::vector<IntBox>> EditLog::import(std::span<const std::byte> bytes) {
   const auto bad = [](const char* why) {
-    return Error{Code::bad_input, "these are no exported edits: " + std::string(why)};
+    return Error{Code::bad_input, "these bytes are not exported edits: " + std::string(why)};
   };
-  if (bytes.size() < kExportHead + kChecksumBytes) return bad("they end too early");
+  if (bytes.size() < kExportHead + kChecksumBytes) return bad("they are truncated");
   const auto content = bytes.first(bytes.size() - kChecksumBytes);
   ByteReader in(content), tail(bytes.last(kChecksumBytes));
-  if (in.get<uint32_t>() != kExportMagic) return bad("they begin otherwise");
-  if (in.get<uint32_t>() != kExportVersion) return bad("another version wrote them");
+  if (in.get<uint32_t>() != kExportMagic) return bad("their magic number differs");
+  if (in.get<uint32_t>() != kExportVersion) return bad("they have another version");
   if (tail.get<uint64_t>() != checksum(content)) return bad("their checksum differs");
   const auto count = in.get<uint64_t>();
-  // Before room is made for them.
-  if (count > in.left() / kLeastEditBytes) return bad("they end too early");
+  // Check the count before allocating.
+  if (count > in.left() / kLeastEditBytes) return bad("they are truncated");
   std::vector<EditOperation> operations;
   operations.reserve(static_cast<size_t>(count));
   for (uint64_t i = 0; i < count; ++i) {
@@ -171,7 +172,7 @@ Result<std::vector<IntBox>> EditLog::import(std::span<const std::byte> bytes) {
     if (!operation) return operation.error();
     operations.push_back(*operation);
   }
-  if (in.left() > 0) return bad("something follows them");
+  if (in.left() > 0) return bad("there are bytes after the last edit");
   return merge(operations);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// What the derivation of one cell sees of the layers below it, through programs compiled once for the cell's
-// surroundings.
+// The layers below a cell, as its derivation sees them: programs compiled once for the cell's surroundings.
 
 #include <exception>
 #include <map>
@@ -12,7 +11,7 @@
 
 namespace sgm {
 
-/// Lives for one derivation, on its thread. An error below is kept and must be looked at when the derivation is done.
+/// Lives for one derivation, on its thread. The caller must check error() after the derivation.
 class LayersBelow final : public LowerLayers {
  public:
   LayersBelow(const WorldField& world, const IntBox& around);
@@ -23,18 +22,18 @@ class LayersBelow final : public LowerLayers {
   BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const override;
 
   const std::optional<Error>& error() const { return error_; }
-  /// That the layers which were asked have read (GrammarChunk::parameters).
+  /// The parameters that the queried layers have read (GrammarChunk::parameters).
   uint64_t parameters() const { return parameters_; }
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
-  /// Derivation knows nothing of the settings' shift.
+  /// Applies the settings' shift, which derivation does not know.
   Int3 shifted(Int3 p) const;
 
   const WorldField& world_;
   IntBox around_;
   mutable std::map<uint32_t, std::shared_ptr<const FieldProgram>> programs_;
-  mutable std::shared_ptr<const FieldProgram> elsewhere_;  ///< of a box outside of `around_`
+  mutable std::shared_ptr<const FieldProgram> elsewhere_;  ///< for a box outside of `around_`
   mutable EvalScratch scratch_;
   mutable PruneScratch prune_scratch_;
   mutable PrunedProgram pruned_, piece_;

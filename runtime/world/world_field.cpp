@@ -74,7 +74,7 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
   const ProfileScope scope(profiler(), zone::kDerive);
-  // Probes start in the cell and end within its reach; what queries look at lies within it.
+  // Probes start in the cell and end within its reach; queries stay within it too.
   const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);
@@ -106,7 +106,7 @@ Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_ed
     return derived;
   });
   if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
-  // Cells of far levels would tell the same again.
+  // Cells of coarse levels would report the same again.
   if (chunk && settings_.on_notes && !chunk->notes.empty() && cell_edge <= settings_.finest_cell)
     settings_.on_notes(*chunk);
   return chunk;
@@ -126,13 +126,13 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
 }
 
 CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
-  // What is kept for a level does for the next one as well. Never made of what is kept for finer levels: what a chunk
-  // shows must not depend on what the cache happens to hold.
+  // A cell kept for a level also serves the next one. It is never made of a cell kept for finer levels: a chunk's
+  // content must not depend on the state of the cache.
   constexpr int kLevelsTogether = 2;
   int32_t kept = settings_.finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // The finest level does not show all of a cell either: where cells are of 50 cm, houses have no glazing bars. Layers
-  // above ask for more than it shows: they see what is finer, too.
+  // The finest level does not show all of a cell either: at cells of 50 cm, houses have no glazing bars. Layers above
+  // see these finer parts, too, and so ask for the whole cell.
   const Layer& info = settings_.program->layers[layer];
   if (!info.by_level || cell_edge < settings_.finest_cell || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
@@ -165,7 +165,7 @@ Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const Int
       if (found.size() > most) {
         return Error{Code::limit, "the region holds more than " + std::to_string(most) + " uses of `" +
                                       std::string(settings_.program->text(settings_.program->rules[rule].name)) +
-                                      "`; choose a smaller one"};
+                                      "`; choose a smaller region"};
       }
       return {};
     });
@@ -178,7 +178,7 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by
                                    const std::function<Result<void>(const CellKey&)>& visit) const {
   const Program& program = *settings_.program;
   const Layer& info = program.layers[layer];
-  // A grammar without layers is one cell.
+  // A grammar without layers has one cell.
   if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
   const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
                                   saturate(-int64_t{settings_.shift.z})});
@@ -206,7 +206,7 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by
                                std::string(program.text(info.name)) + "` reach into ";
       return Error{Code::limit, by == CellsBy::shapes
                                     ? what + "one chunk; make the layer's cells larger, or mesh at a finer level"
-                                    : what + "the box; ask for a smaller one, or make the layer's cells larger"};
+                                    : what + "the box; choose a smaller box, or make the layer's cells larger"};
     }
   }
   for (int64_t z = first[2]; z <= last[2]; ++z) {
@@ -319,7 +319,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
                                                                      uint64_t* parameters) const {
-  // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
+  // A cell of one unit: full detail, independent of the cells with which the world is meshed.
   CellsAtHand at_hand;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
@@ -357,7 +357,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAt
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
   };
-  // A cell has no anchors outside of it.
+  // Anchors never lie outside of their cell.
   const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, at_hand);
   if (!visited) return visited.error();
   return found;

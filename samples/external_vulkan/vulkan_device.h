@@ -129,7 +129,7 @@ class VulkanDevice {
       best = rankOf(properties.deviceType);
       physical_ = candidate;
     }
-    if (!physical_) throw NoDevice("no usable Vulkan device here" + lacks);
+    if (!physical_) throw NoDevice("there is no usable Vulkan device" + lacks);
     family_ = *drawingFamily(physical_);
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};

@@ -99,7 +99,8 @@ class VulkanInstance {
     if (result == VK_ERROR_LAYER_NOT_PRESENT) {
       throw std::runtime_error("no validation layer here: install the package vulkan-validationlayers");
     }
-    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw NoDevice("no Vulkan driver here: install mesa-vulkan-drivers");
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+      throw NoDevice("there is no Vulkan driver: install mesa-vulkan-drivers");
     must(result, "vkCreateInstance");
   }
   template <class Function>

@@ -589,26 +589,29 @@ TEST_CASE("measuring is checked") {
   CHECK(refused([&](sgm_measure_desc& d) { d.position_count = uint64_t{1} << 32; }) ==
         "desc.position_count is more than 2^32 - 1");
   CHECK(refused([&](sgm_measure_desc& d) { d.index_count = 2; }) ==
-        "desc.index_count is no multiple of 3 up to 2^32 - 1");
+        "desc.index_count is not a multiple of 3 or is above 2^32 - 1");
   CHECK(refused([&](sgm_measure_desc& d) { d.positions = nullptr; }) ==
-        "one of desc.positions and desc.positions_double must be given, and one alone");
+        "exactly one of desc.positions and desc.positions_double must be given");
   CHECK(refused([&](sgm_measure_desc& d) { d.positions_double = doubles; }) ==
-        "one of desc.positions and desc.positions_double must be given, and one alone");
+        "exactly one of desc.positions and desc.positions_double must be given");
   CHECK(refused([&](sgm_measure_desc& d) { d.position_stride = 8; }) ==
-        "desc.position_stride is below three numbers, or no multiple of one");
+        "desc.position_stride is below the size of three coordinates or not a multiple of the size of one");
   CHECK(refused([&](sgm_measure_desc& d) { d.position_stride = uint64_t{1} << 63; }) ==
         "desc.position_stride is too large");
   CHECK(refused([&](sgm_measure_desc& d) { d.indices = nullptr; }) == "desc.indices is NULL");
-  CHECK(refused([&](sgm_measure_desc& d) { d.position_count = 2; }) == "desc.indices[2] is 2, and there are 2 points");
-  CHECK(refused([&](sgm_measure_desc& d) { d.weld = -1; }) == "desc.weld is not a finite number from 0");
-  CHECK(refused([&](sgm_measure_desc& d) { d.weld = std::nan(""); }) == "desc.weld is not a finite number from 0");
-  CHECK(refused([&](sgm_measure_desc& d) { d.cubes = HUGE_VAL; }) == "desc.cubes is not a finite number from 0");
-  CHECK(refused([&](sgm_measure_desc& d) { d.histogram_mode = 3; }) == "desc.histogram_mode is no sgm_histogram_mode");
+  CHECK(refused([&](sgm_measure_desc& d) { d.position_count = 2; }) == "desc.indices[2] is 2, but there are 2 points");
+  CHECK(refused([&](sgm_measure_desc& d) { d.weld = -1; }) == "desc.weld is not a finite number of at least 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.weld = std::nan(""); }) ==
+        "desc.weld is not a finite number of at least 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.cubes = HUGE_VAL; }) == "desc.cubes is not a finite number of at least 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.histogram_mode = 3; }) ==
+        "desc.histogram_mode is not a valid sgm_histogram_mode");
   CHECK(refused([&](sgm_measure_desc& d) { d.histogram_bins = 0; }) ==
         "a histogram has 1 to 4096 bins, not 0: an odd number is best");
   CHECK(refused([&](sgm_measure_desc& d) { d.curvature_length = 0; }) ==
         "the length that curvature is scaled by must be more than 0");
-  CHECK(refused([&](sgm_measure_desc& d) { d.flags = 4; }) == "desc.flags has a bit that is no sgm_measure_flag");
+  CHECK(refused([&](sgm_measure_desc& d) { d.flags = 4; }) ==
+        "desc.flags has unknown bits: pass 0 or values of sgm_measure_flag");
   CHECK(refused([&](sgm_measure_desc& d) { d.histogram_capacity = 3; }) == "desc.histogram is NULL");
 
   sgm_measure_desc small = good;

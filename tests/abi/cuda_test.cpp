@@ -205,7 +205,7 @@ TEST_CASE("a context that cannot be lent is refused, for a reason, and changes n
   // What was only asked about gives way; it is AUTO's, too.
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
   REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &good, nullptr) == SGM_OK);
-  refused(SGM_ERR_BUSY, "CUDA device already", [](auto&) {});
+  refused(SGM_ERR_BUSY, "already has a CUDA device", [](auto&) {});
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
   const RuntimeOwner used = makeRuntime();
   const GrammarOwner grammar = compile(used.get(), kBalls);
@@ -224,7 +224,7 @@ TEST_CASE("auto says why it passes over a driver that is there", "[cuda]") {
   gpu.memory_pools = 0;
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
   gpu.memory_pools = 1;
-  CHECK_THAT(said, Catch::Contains("auto passes over CUDA: ") && Catch::Contains("memory pools"));
+  CHECK_THAT(said, Catch::Contains("backend auto skips CUDA: ") && Catch::Contains("memory pools"));
 }
 
 TEST_CASE("what is not in a lent context says so", "[cuda]") {

@@ -76,7 +76,7 @@ TEST_CASE("a folder that cannot hold pipelines costs one line in the log", "[vul
   std::ofstream(folder.path / "file") << "in the way";
   const std::vector<std::string> warnings = warningsOfABall(folder.path / "file" / "folder");
   REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
+  CHECK(warnings[0].find("compiled pipelines are not cached") != std::string::npos);
   CHECK(warnings[0].find((folder.path / "file" / "folder").string()) != std::string::npos);
   CHECK(sgm::contentOf(folder.path / "file") == "in the way");
 }

@@ -266,10 +266,9 @@ TEST_CASE("an end outside of the region is told by its name, in units") {
   sgm_way way = SGM_WAY_INIT;
   sgm_error error = SGM_ERROR_INIT;
   CHECK(sgm_field_find_way(field.get(), &desc, &way, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(
-      std::string(error.message) ==
-      "the end `to` of the way lies outside of the region: it is at (0, 9000.5, 0), and the region goes from (0, 0, 0) "
-      "to (8192, 8192, 8192), in units of 1/1024 m");
+  CHECK(std::string(error.message) ==
+        "the end `to` of the path lies outside of the region: it is at (0, 9000.5, 0), but the region goes from "
+        "(0, 0, 0) to (8192, 8192, 8192), in units of 1/1024 m");
 }
 
 TEST_CASE("many threads ask one field", "[threads]") {

@@ -62,7 +62,7 @@ TEST_CASE("a runtime with children is busy") {
   GrammarOwner grammar = compile(runtime.get(), kBall);
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);
   REQUIRE(errors.size() == 1);
-  CHECK(errors[0].find("not ended: 1") != std::string::npos);
+  CHECK(errors[0].find("not destroyed: 1") != std::string::npos);
   FieldOwner field = makeField(runtime.get(), grammar.get());
   grammar.reset();
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);

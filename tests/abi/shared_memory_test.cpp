@@ -254,12 +254,12 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
     gpu.state().id[0] ^= 1;
     const RuntimeOwner runtime = lentRuntime(lender);
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_ERR_UNSUPPORTED);
-    CHECK_THAT(error.message, Catch::Contains("the GPU that draws"));
+    CHECK_THAT(error.message, Catch::Contains("the drawing GPU"));
     CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
     const CudaLender context;
     const sgm_cuda_device_desc desc = context.lend();
     CHECK(sgm_runtime_lend_cuda(runtime.get(), &desc, &error) == SGM_ERR_UNSUPPORTED);
-    CHECK_THAT(error.message, Catch::Contains("the GPU that draws"));
+    CHECK_THAT(error.message, Catch::Contains("the drawing GPU"));
   }
   SECTION("a driver that imports nothing") {
     gpu.state().fail_call = GENERATE("importExternalMemory", "externalMemoryGetMappedBuffer");
@@ -284,6 +284,6 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
     const sgm_vulkan_device_desc desc = lender.lend();
     CHECK(sgm_runtime_lend_vulkan(runtime.get(), &desc, &error) == SGM_ERR_BUSY);
-    CHECK_THAT(error.message, Catch::Contains("lend the Vulkan device before"));
+    CHECK_THAT(error.message, Catch::Contains("lend the Vulkan device first"));
   }
 }

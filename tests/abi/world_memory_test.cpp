@@ -23,7 +23,7 @@ struct Log {
 
   static void write(void* user, sgm_log_level, const char* message) {
     auto& log = *static_cast<Log*>(user);
-    if (std::strstr(message, "memory is too scarce")) log.scarce.fetch_add(1);
+    if (std::strstr(message, "too little memory")) log.scarce.fetch_add(1);
     if (std::strstr(message, "damaged") || std::strstr(message, "cut off")) log.damaged.fetch_add(1);
   }
 };

@@ -16,7 +16,7 @@ json 'j.tiles > 10 && j.chunks > 1000 && j.triangles > 50000 && j.sound'
 json 'j.bytes_per_triangle > 1 && j.bytes_per_triangle < 12 && j.contents < j.chunks'
 name=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world' "$work/.out")
 expect 0 "$SGM" bake "${world[@]}" --out one
-out_has 'baked already'
+out_has 'already baked'
 
 # Three workers at one time, one of them killed in the middle, and all once more.
 expect 0 "$SGM" bake "${world[@]}" --out many --shard 5/50
@@ -89,7 +89,7 @@ rm one/packs/*/*.sgmp
 expect 0 "$SGM" "${flight[@]}" --edits 4 --store one
 json "j.world_hash === '${hashes[4]}' && j.stores.damaged > 0 && j.open_edges === 0"
 expect 0 "$SGM" bake "${world[@]}" --out one
-out_has ' 0 of them made before'
+out_has ' 0 of them baked before'
 expect 0 "$SGM" store verify one
 
 expect 0 "$SGM" bake "$cave" --seed 3 --region 0,0,0:32,32,32 --levels 0 --cell 0.25 --backend cpu --out finer
@@ -111,7 +111,7 @@ json 'j.changed === j.chunks.length && j.added === 0 && j.removed === 0 && j.cha
 expect 0 "$SGM" store diff two two --from "$first" --to "$first"
 out_has '^0 chunks changed, 0 added, 0 removed; 0.00 MB'
 expect 1 "$SGM" store diff two two
-err_has '2 worlds: say which'
+err_has '2 worlds: choose one'
 rm two/worlds/"$second".*
 expect 0 "$SGM" store gc two
 [[ -z $err ]] || failed "words of nothing: $err"
@@ -131,7 +131,7 @@ wait
 PATH=$(dirname "$SGM"):$PATH
 for share in 1 2; do SGE_TASK_ID=$share expect 0 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three; done
 expect 0 bash "$SOURCE/samples/bake/share.sh" end sgm bake "${small[@]}" --out three
-out_has 'whole and closed'
+out_has 'complete and closed'
 expect 2 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three
 err_has 'set SHARE, from 0 to 1'
 
@@ -140,14 +140,14 @@ expect 1 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0..2 --ba
 err_has 'has another region of this world'
 one_line
 expect 1 "$SGM" bake "${small[@]}" --out nowhere --merge
-err_has 'is no store of baked worlds'
+err_has 'is not a store of baked worlds'
 printf 'xx' >one/worlds/damaged.sgmi
 expect 1 "$SGM" store verify one
 err_has 'damaged.sgmi.*remove it, and bake its world again'
-out_has 'whole and closed'
+out_has 'complete and closed'
 rm one/worlds/damaged.sgmi
 mkdir taken && touch taken/file
-for line in "1:taken:is not empty and no store" "1:old:store of another version"; do
+for line in "1:taken:is neither empty nor a store" "1:old:store of another version"; do
   IFS=: read -r wanted folder message <<<"$line"
   [[ $folder != old ]] || { mkdir old && echo "sgm store 99" >old/format; }
   expect "$wanted" "$SGM" bake "${small[@]}" --out "$folder"
@@ -155,13 +155,13 @@ for line in "1:taken:is not empty and no store" "1:old:store of another version"
   one_line
 done
 expect 1 "$SGM" fly "$cave" --frames 1 --unpaced --store taken
-err_has 'is no store of baked worlds'
+err_has 'is not a store of baked worlds'
 for options in "--shard 3/3" "--shard x" "--levels 3..1" "--levels 0..99" "--merge --shard 0/2"; do
   # shellcheck disable=SC2086
   expect 2 "$SGM" bake "${small[@]}" --out new $options
 done
 expect 2 "$SGM" bake "$cave" --out new
-err_has 'say which part with --region'
+err_has 'choose a part with --region'
 expect 1 "$SGM" bake "$cave" --region -2000000,-2000000,-2000000:2000000,2000000,2000000 --out new
 err_has 'more than 4194304 tiles'
 # A disk that is full: here, files that may not grow.

@@ -32,7 +32,7 @@ done
 expect 0 "$SGM" classify "$grammars/storeys.sgm" --set floors=11 --set convex=0.9
 out_has 'storeys\.sgm: building, by a margin of 0\.[0-9]+'
 out_has 'cloud +0\.[0-9]+ +0\.[0-9]+  cloud [0-9]+, most like '
-out_has 'masters: built in, for mode curvature, 65 bins, curvature length 1 m, any density'
+out_has 'reference histograms: built in, for mode curvature, 65 bins, curvature length 1 m, any density'
 only_here
 
 # Mesh files say what their grammar says, in whatever format, but for the float32 of their positions.
@@ -56,7 +56,7 @@ for mode in printed corrected; do
   err_has '--ld'
   expect 1 "$SGM" classify storeys.glb --mode $mode --ld 3
   one_line
-  err_has 'no masters for mode .* at 3 cells per metre, but for: '
+  err_has 'no reference histograms for mode .* at 3 cells per metre; there are some for: '
 done
 
 # Noise, and what has no edge to measure.
@@ -80,7 +80,7 @@ expect 4 "$SGM" classify none.glb
 one_line
 echo 'Dear Sir or Madam' >letter.txt
 expect 1 "$SGM" classify letter.txt
-err_has 'letter.txt: no mesh format that we can read; .glb'
+err_has 'letter.txt: the mesh format is unsupported; use .glb'
 one_line
 printf 'glTF and nothing else' >bad.glb
 expect 1 "$SGM" classify bad.glb
@@ -94,11 +94,11 @@ json 'j.masters === "built in" && j.keys.length === 5 && j.keys.every(k => new S
 json 'j.keys.every(k => k.limits.mse > 0 && k.limits.emd > 0)'
 json 'j.keys.every(k => k.masters.every(m => Math.abs(m.shares.reduce((a, b) => a + b) - 1) < 1e-9))'
 expect 0 "$SGM" masters list
-out_has 'built in: [0-9]+ masters'
+out_has 'built in: [0-9]+ reference histograms'
 expect 0 "$SGM" masters build --help
 only_here
 expect 0 "$SGM" masters build --models 2 --out base.db --emit base.inc
-out_has 'base\.inc: base\.db: [0-9]+ masters of [0-9]+ models'
+out_has 'base\.inc: base\.db: [0-9]+ reference histograms of [0-9]+ models'
 expect 0 "$SGM" masters list base.db --json
 json 'j.masters === "base.db" && j.keys.length === 5'
 expect 0 "$SGM" classify storeys.glb --masters base.db --json
@@ -121,7 +121,7 @@ mkdir -p "$XDG_DATA_HOME/sgm"
 base=$XDG_DATA_HOME/sgm/masters.db
 cp cut.db "$base"
 expect 0 "$SGM" classify storeys.glb --json
-err_has 'warning: .*masters\.db was damaged \(.*\): it is .*masters\.db\.damaged-1 now'
+err_has 'warning: .*masters\.db was damaged \(.*\): it is named .*masters\.db\.damaged-1 now'
 json 'j.class === "building" && j.masters.endsWith("/sgm/masters.db")'
 cmp -s cut.db "$base.damaged-1" || failed 'the damaged base is lost'
 expect 0 "$SGM" classify storeys.glb --json

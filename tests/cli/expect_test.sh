@@ -88,7 +88,7 @@ out_has '"pieces":'
 # Below one sample nothing can be told apart.
 sed 's/^report genus;/report components(solid above 0.01m3);/; s/^expect .*/expect components(solid above 2m3) >= 1;/' bar.sgm >small.sgm
 expect 0 "$SGM" check --expect small.sgm --cell 1 --region=-16,0,0:16,16,16
-out_has 'not measured: one sample stands for 1 m3, which is more than what is asked about: measure with smaller cells'
+out_has 'not measured: one sample stands for 1 m3, more than the volume in question: measure with smaller cells'
 
 # The volume is that of the solid, in a region that cuts it as well; the paper's count of cubes has a name of its own.
 cat >slab.sgm <<'END'

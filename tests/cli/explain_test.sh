@@ -5,7 +5,7 @@ source "$(dirname "$0")/common.sh"
 lipp=$SOURCE/tests/bench/grammars/table4/lipp.sgm
 expect 0 "$SGM" explain "$lipp" --at=-9,-3,7.8
 out_has '^-9,-3,7.79[0-9]+ m, seed 0, cells of 0.5 m'
-out_has 'open: outside of what is nearest, Palace/Body\[0\]/Storey\[0\]/Facade\[0\]/Bay\[1\]/Pier\[0\]'
+out_has 'open: outside of the nearest shape, Palace/Body\[0\]/Storey\[0\]/Facade\[0\]/Bay\[1\]/Pier\[0\]'
 out_has 'nearest surface 0.40 m away at -9.00,-3.00,7.40 m \(plaster\): Palace/Body\[0\]'
 out_has '>   box +outside +0.40 m  .*lipp.sgm:[0-9]+:[0-9]+'
 err_empty
@@ -34,7 +34,7 @@ json 'j.solid && j.material === "limestone"'
 # Far away there is nothing to tell.
 ball >ball.sgm
 expect 0 "$SGM" explain ball.sgm --at=500,0,0
-out_has "open: the domain's own, no shape comes near"
+out_has "open: no shape is near, the domain decides"
 out_has 'no surface within 64 m'
 expect 0 "$SGM" explain ball.sgm --at=0,2.5,0 --set radius=2m
 out_has 'nearest surface 0.50 m away at 0.00,2.00,0.00 m \(marble\): Ball'

@@ -14,7 +14,7 @@ done
 for command in render preview fly; do
   expect 0 "$SGM" $command --help
   out_has '--light TEXT:\{auto,sun,lamp,none\}=auto'
-  out_has 'Light: from where .* the sun shines'
+  out_has 'Light: from the points .* sun[[:space:]]+shines'
 done
 expect 0 "$SGM" --version
 out_has '^sgm [0-9]+\.[0-9]+\.[0-9]+$'

@@ -105,7 +105,7 @@ judged hole.glb --kind glb
 json '!j.valid && j.measures.open_edges === 3'
 refused truncated.glb 'j.status === 422 && j.code === "bad_input" && /byte/.test(j.detail)' --kind glb
 refused out_of_bounds.glb 'j.status === 422 && j.pointer === "/accessors/1" && /corner/.test(j.detail)' --kind glb
-refused nan.glb 'j.status === 422 && j.pointer === "/accessors/0" && /no number/.test(j.detail)' --kind glb
+refused nan.glb 'j.status === 422 && j.pointer === "/accessors/0" && /not a number/.test(j.detail)' --kind glb
 refused nan_bounds.glb 'j.status === 422' --kind glb
 refused external.glb 'j.status === 422 && j.pointer === "/buffers/1"' --kind glb
 refused elsewhere.glb 'j.status === 422 && j.pointer === "/buffers/0"' --kind glb

@@ -33,7 +33,7 @@ run bash -c '"$1" lsp <talk' - "$SGM"
 { printf 'Content-Length: 99999999999\r\n\r\n'; head -c 1000 /dev/zero; } >talk
 run bash -c '"$1" lsp <talk' - "$SGM"
 [[ $status == 1 ]] || failed 'a message that is too large'
-out_has 'a message has 1 to'
+out_has 'a message must have 1 to'
 # Each deeper than a stack is large: in the parameters, and where nothing else is.
 deep=$(head -c 1000000 /dev/zero | tr '\0' '[')
 shut=$(tr '[' ']' <<<"$deep")
@@ -49,16 +49,16 @@ run lsp "$hello" '{"jsonrpc":"2.0","id":3,"method":"no/such","params":["\"[[","'
 # Headers without an end, and lengths that no stream has.
 run bash -c 'yes Content-Type: | tr -d "\n" | "$1" lsp' - "$SGM"
 [[ $status == 1 ]] || failed 'a header without an end'
-err_has 'no message of the Language Server Protocol'
+err_has 'not a message of the Language Server Protocol'
 for length in 9223372036854775807 9223372036854775808 18446744073709551615 99999999999999999999 -5; do
   { message "$hello"; printf 'Content-Length: %s\r\n\r\n' "$length"; message "$bye"; } >talk
   run bash -c '"$1" lsp <talk' - "$SGM"
   [[ $status == 1 ]] || failed "a length of $length"
-  err_has 'no message of the Language Server Protocol'
+  err_has 'not a message of the Language Server Protocol'
 done
 printf 'GET / HTTP/1.1\r\n\r\n' >talk
 run bash -c '"$1" lsp <talk' - "$SGM"
 [[ $status == 1 ]] || failed 'another protocol'
-err_has 'no message of the Language Server Protocol'
+err_has 'not a message of the Language Server Protocol'
 one_line
 finish

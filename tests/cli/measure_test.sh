@@ -59,7 +59,7 @@ out_has 'left out, at the region.s cut'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --region -4,-4,-4:0,4,4 --json --strict
 json 'j.cut && !j.valid && j.valid_but_for_cut && j.cut_edges > 30 && j.cut_edges === j.open_edges && j.problems.length === 0'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --region -4,-4,-4:0,4,4
-out_has 'verdict +whole but for the region.s border, which cuts it along [0-9]+ edges'
+out_has 'verdict +closed except at the region.s border, which cuts it along [0-9]+ edges'
 out_has 'volume .*m3, which means little: the surface is cut'
 out_has 'cells of 0.25 m, region -8,-8,-8:0,8,8 m'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --strict
@@ -70,7 +70,7 @@ out_has 'verdict +empty'
 # Where it is wrong.
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\n' > open.obj
 expect 0 "$SGM" measure open.obj
-out_has '3 edges have one triangle alone: there are holes, the first at 2,2,0'
+out_has '3 open edges .with one triangle.: there are holes, the first at 2,2,0'
 expect 1 "$SGM" measure open.obj --strict --json
 json 'j.places.length === 3 && j.places.every((p) => p.kind === "open_edge") && j.places[0].at.join() === "2,2,0" && !j.valid_but_for_cut'
 printf 'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' > tetra.obj
@@ -79,7 +79,7 @@ printf 'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n
 expect 0 "$SGM" measure nested.obj --json
 json 'j.nested === 1 && j.volume_counts_once === false && j.places[0].kind === "nested"'
 expect 0 "$SGM" measure nested.obj
-out_has 'counts what lies in several parts several times'
+out_has 'counts overlaps of parts several times'
 expect 0 "$SGM" measure tetra.obj --json
 json 'j.valid && j.volume_counts_once && j.places.length === 0'
 
@@ -101,7 +101,7 @@ printf 'sgm 1; start A; rule A { at(0.7m, 0.7m, 0.7m) sphere(0.4m); }\n' > speck
 expect 0 "$SGM" measure speck.sgm --cell 0.25 --region -8,-8,-8:8,8,8 --levels 3 --json
 json 'j.valid && j.levels.length === 3 && !j.levels[0].vanished && j.levels.some((l) => l.vanished && l.at_least === undefined)'
 expect 0 "$SGM" measure speck.sgm --cell 0.25 --region -8,-8,-8:8,8,8 --levels 3
-out_has 'one has a surface here and the other none'
+out_has 'one has a surface here and the other has none'
 out_has 'neither has a surface here'
 
 # Options of grammars say nothing to files, nor the other way round.
@@ -133,7 +133,7 @@ json 'j.texels.resolution === 512 && j.texels.triangles === j.triangles && j.tex
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --texels --json
 json 'j.texels.resolution === 1024 && j.texels.triangles > 0 && j.texels.min > 1000 && j.texels.triplanar_share === 0'
 expect 0 "$SGM" measure textured.glb --texels
-out_has 'texels +1[0-9.e+]* a unit of length at the median, .* of a texture of 1024'
+out_has 'texels +1[0-9.e+]* per unit of length at the median, .* for a texture of 1024'
 
 # Two triangles that share an edge: 4 vertices, once each. In the other half no vertex is found again. Two squares, one behind the
 # other, are shaded twice where the nearer one is drawn last.
@@ -153,7 +153,7 @@ json 'j.drawing.overdraw === 1'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --drawing --json
 json 'j.drawing.triangles === j.triangles && j.drawing.acmr > 0.5 && j.drawing.acmr < 1 && j.drawing.overdraw >= 1'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --drawing
-out_has 'drawing +0[0-9.]+ vertices a triangle .ACMR., each 1[0-9.]+ times .ATVR., with a cache of 16; each pixel'
+out_has 'drawing +0[0-9.]+ vertices per triangle .ACMR., each 1[0-9.]+ times .ATVR., with a cache of 16; each pixel'
 printf 'sgm 1; start A; rule A { at(100m, 0m, 0m) sphere(1m); }\n' > elsewhere.sgm
 expect 0 "$SGM" measure elsewhere.sgm --region 0,0,0:8,8,8 --drawing
 out_has 'drawing +no triangle that could be drawn'
@@ -165,7 +165,7 @@ out_has 'texels +none: the file has no texture coordinates'
 expect 0 "$SGM" measure "$SOURCE/samples/grammars/table4/voxel.sgm" --region 0,0,0:16,16,16 --texels --json
 json 'j.triangles > 100 && j.texels.triplanar_share === 1 && j.texels.triangles === 0 && j.texels.triplanar_density === 1024'
 expect 0 "$SGM" measure "$SOURCE/samples/grammars/table4/voxel.sgm" --region 0,0,0:16,16,16 --texels
-out_has 'texels +1024 everywhere on the 100.0 % of the area that three planes texture'
+out_has 'texels +1024 everywhere on the 100.0 % of the area with triplanar texturing'
 
 # What a file does not have, and what is no file.
 expect 2 "$SGM" measure ball.glb --field
@@ -180,7 +180,7 @@ expect 2 "$SGM" measure ball.glb --texels 0
 expect 2 "$SGM" measure ball.glb --texels nan
 echo 'Dear Sir or Madam' >letter.txt
 expect 1 "$SGM" measure ball.glb --against letter.txt
-err_has 'letter.txt: no mesh format that we can read; .glb'
+err_has 'letter.txt: the mesh format is unsupported; use .glb'
 one_line
 for subject in ball.glb ball.sgm; do
   expect 4 "$SGM" measure $subject --against nothing.glb
@@ -194,7 +194,7 @@ grep -v '^f' ball.obj >holes.obj
 grep '^f' ball.obj | tail -n +4 >>holes.obj
 expect 0 "$SGM" measure holes.obj
 out_has 'not the surface of a solid'
-out_has 'edges have one triangle alone: there are holes'
+out_has 'open edges .with one triangle.: there are holes'
 expect 0 "$SGM" measure holes.obj --json
 json '!j.valid && !j.watertight && j.open_edges > 3 && j.problems.length === 1'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >inverted.obj
@@ -227,7 +227,7 @@ err_has 'cannot read nothing.glb'
 one_line
 mkdir folder.glb
 expect 4 "$SGM" measure folder.glb
-err_has 'cannot read folder.glb: it is no file of bytes'
+err_has 'cannot read folder.glb: it is not a regular file'
 one_line
 mkfifo pipe.obj
 expect 4 "$SGM" measure pipe.obj
@@ -236,7 +236,7 @@ expect 4 "$SGM" measure ball.txt
 err_has 'cannot read ball.txt'
 one_line
 expect 1 "$SGM" measure letter.txt
-err_has 'letter.txt: no mesh format that we can read; .glb'
+err_has 'letter.txt: the mesh format is unsupported; use .glb'
 one_line
 # A name without a known ending is no fault: the bytes tell the format.
 cp ball.glb unnamed
@@ -284,7 +284,7 @@ END
 from_to=(--from -13.9,0,0 --to 2,0.2,0)
 expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}"
 out_has 'voids +2, .* 2 of them sealed'
-out_has 'way +1[5-7]\.?[0-9]* m, [0-9]+ places'
+out_has 'path +1[5-7]\.?[0-9]* m, [0-9]+ places'
 out_has 'widest +agents of radius below 0\.[5-9][0-9]* m pass'
 err_empty
 expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius 0.4 --json --threads 3
@@ -295,7 +295,7 @@ json 'j.way.places.every((p, i) => i === 0 || Math.hypot(...p.map((x, a) => x - 
 json 'j.voids.count === 2 && j.voids.sealed === 2 && j.voids.largest.length === 2 && j.voids.sealed_volume === j.voids.volume'
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius 1
 out_has 'voids +3'
-err_has 'there is no way in the region: --from lies in a void of .* agents of radius below 0\.[5-9]'
+err_has 'there is no path in the region: --from lies in a void of .* agents of radius below 0\.[5-9]'
 one_line
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 14,0,0 --json
 json '!j.way.found && j.way.verdict === "apart" && j.way.widest === 0 && j.way.length === null && j.way.places.length === 0'
@@ -334,10 +334,10 @@ expect 1 "$SGM" measure rooms.sgm --cell 0.25 --radius 8
 err_has 'less than 32 cells, 8 m'
 one_line
 expect 1 "$SGM" measure rooms.sgm --from -14,0,0 --to 1e9,8,8
-err_has 'the end `to` of the way lies outside of the region: it is at \(1e\+09, 8, 8\), and the region goes from \(-32, -16, -16\) to \(32, 16, 16\), in metres'
+err_has 'the end `to` of the path lies outside of the region: it is at \(1e\+09, 8, 8\), but the region goes from \(-32, -16, -16\) to \(32, 16, 16\), in metres'
 one_line
 expect 2 "$SGM" measure "$SOURCE/tests/bench/grammars/cave.sgm" --radius 0
-err_has 'endless: say which part with --region'
+err_has 'endless: choose a part with --region'
 one_line
 
 # Work that takes long shows how far it is, where somebody looks.

@@ -25,15 +25,15 @@ measured concave_c.ply "j.valid && $(near j.volume 7) && $(near j.area 30)" ''
 measured skinned.glb "j.valid && $(near j.volume 8) && $(near '(j.bounds[0][0] + j.bounds[1][0]) / 2' 100)" ''
 measured morphed.glb "j.valid && $(near j.volume 12)" ''
 measured sparse.glb "j.valid && $(near j.volume 8)" ''
-measured strip.glb "j.valid && $(near j.volume 8)" '1 strip has triangles at odd places alone, at /meshes/0/primitives/0'
+measured strip.glb "j.valid && $(near j.volume 8)" '1 strip has triangles at odd places only, at /meshes/0/primitives/0'
 measured lines_beside.glb "j.valid && $(near j.volume 8)" '1 primitive of lines or points is left out, at /meshes/0/primitives/1'
 measured byte_order_mark.stl "j.valid && $(near j.volume 8)" ''
 measured glb_named.stl "j.valid && $(near j.volume 8)" 'by its bytes it is glTF, not STL'
-measured bytes_behind.stl "j.valid && $(near j.volume 8)" '16 bytes behind its last triangle are left out, at byte 684'
+measured bytes_behind.stl "j.valid && $(near j.volume 8)" '16 bytes after its last triangle are left out, at byte 684'
 measured empty_normals.obj "j.valid && $(near j.volume 8)" ''
 measured missing_coordinates.obj "j.valid && $(near j.volume '8 / 6')" '12 corners of faces name texture coordinates that the file does not have, such as number 4 at line 6'
 measured surplus_values.ply "j.valid && $(near j.volume 4.5)" '4 lines have more values than the header declares, the first at line 19'
-measured unpadded.glb "j.valid && $(near j.volume '8 / 6')" 'the length of a part is not a multiple of 4 (518), at byte 12'
+measured unpadded.glb "j.valid && $(near j.volume '8 / 6')" 'the length of a chunk is not a multiple of 4 (518), at byte 12'
 
 # A square of one metre under a picture of 256 pixels that is laid four times each way.
 expect 0 "$SGM" measure texture_transform.glb --texels 256 --json
@@ -77,8 +77,8 @@ ball >ball.sgm
 expect 0 "$SGM" mesh ball.sgm --cell 0.5 --out ball.stl
 printf 'behind' >>ball.stl
 expect 0 "$SGM" classify ball.stl --json
-json 'j.notes.length === 1 && j.notes[0].startsWith("6 bytes behind")'
-err_has '^sgm: note: ball.stl: 6 bytes behind'
+json 'j.notes.length === 1 && j.notes[0].startsWith("6 bytes after")'
+err_has '^sgm: note: ball.stl: 6 bytes after'
 
 # An upload is read likewise, whatever its type says, and its report has the notes.
 "$SGM" inspect --kind stl --name house.stl <glb_named.stl >.frame 2>.err

@@ -32,7 +32,7 @@ json 'j.texture.density.p5 > 0.6 && j.texture.density.p95 < 1.3 && j.texture.den
 grep -q TEXCOORD_0 ball.glb || failed "no TEXCOORD_0"
 grep -q TEXCOORD_0 plain.glb && failed "TEXCOORD_0 without --uv"
 expect 0 "$SGM" mesh ball.sgm --out ball.obj --uv
-out_has 'texture +tiles of 1 m lie [0-9.]+ to [0-9.]+ times'
+out_has 'texture +tiles of 1 m are [0-9.]+ to [0-9.]+ times'
 grep -q '^vt ' ball.obj && grep -Eq '^f [0-9]+/[0-9]+/[0-9]+ ' ball.obj || failed "no vt in the .obj"
 for format in ply stl; do
   expect 2 "$SGM" mesh ball.sgm --out "ball.$format" --uv
@@ -89,22 +89,22 @@ empty() {
   expect 0 "$SGM" mesh empty.sgm "$@" --json
   json 'j.triangles === 0'
 }
-empty 'no shape lies in this region: what is derived may lie elsewhere, which --region takes, or be left out, as warnings say' \
+empty 'no shape lies in this region: the shapes may lie elsewhere (choose another --region), or be left out (see the warnings)' \
   'sgm 1; start A; rule A { sphere(2m); }' --region 90,0,0:99,9,9
-empty 'nothing is cut from the rock in this region: what is derived may lie elsewhere, which --region takes, or be left out, as warnings say' \
+empty 'nothing is cut from the rock in this region: the shapes may lie elsewhere (choose another --region), or be left out (see the warnings)' \
   'sgm 1; domain infinite solid rock; layer a cell 64m reach 9m { start A; } rule A { cut sphere(2m); }' --region 20,20,20:30,30,30
-empty 'this region lies all within the solid: take more of the world with --region' \
+empty 'this region lies entirely inside the solid: choose a larger --region' \
   'sgm 1; start A; rule A { box(300m); }' --region 9,9,9:10,10,10
-empty 'what is here is thinner than a cell of 1 m: take smaller ones with --cell' \
+empty 'the shapes here are thinner than a cell of 1 m: choose smaller cells with --cell' \
   'sgm 1; start A; rule A { at(30cm, 30cm, 30cm) sphere(5cm); }' --cell 1
-empty 'all is carved away here, or is thinner than a cell of 0.5 m: look at the cuts, or take smaller cells with --cell' \
+empty 'all shapes are cut away here, or thinner than a cell of 0.5 m: check the cuts, or choose smaller cells with --cell' \
   'sgm 1; start A; rule A { sphere(2m); cut box(9m); }'
-empty 'what is cut is filled again here, or is thinner than a cell of 0.5 m: look at the cuts, or take smaller cells with --cell' \
+empty 'all cuts are filled again here, or thinner than a cell of 0.5 m: check the cuts, or choose smaller cells with --cell' \
   'sgm 1; domain infinite solid rock; layer a cell 64m reach 9m { start A; } rule A { cut { sphere(2m); cut box(9m); } }' --region=-4,-4,-4:4,4,4
 rm empty.sgm
 echo 'sgm 1; start A; rule A { size(9m, 3m, 9m) { box(scope); cut treemap(wall 0.15m) { a 3: { } b 4: { } } } }' >rooms.sgm
 expect 0 "$SGM" mesh rooms.sgm --cell 0.25
-[[ ${err%%$'\n'*} == 'rooms.sgm:1:61: warning: the walls of this treemap, 0.15 m, are thinner than a cell of 0.25 m, and may have holes or be gone: take smaller cells, such as --cell 0.075' ]] ||
+[[ ${err%%$'\n'*} == 'rooms.sgm:1:61: warning: the walls of this treemap, 0.15 m, are thinner than a cell of 0.25 m, and may have holes or be missing: choose smaller cells, such as --cell 0.075' ]] ||
   failed 'nothing is said of thin walls'
 expect 0 "$SGM" mesh rooms.sgm --cell 0.125
 err_empty

@@ -63,7 +63,7 @@ END
 expect 0 "$SGM" render sky.sgm --out sky.png --size 64x64 --json
 json 'j.cut === false && j.cell === 2 && j.triangles > 0'
 expect 0 "$SGM" render sky.sgm --out part.png --size 64x64 --region=1400,1800,900:1800,2200,1200 --cell 8
-out_has 'border +cuts the surface, which goes on'
+out_has 'border +cuts the surface, which continues outside'
 rm sky.sgm sky.png part.png
 
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
@@ -194,11 +194,11 @@ rm row.sgm row.png
 printf '%s\n' 'sgm 1; domain finite box(24m, 24m, 24m); start A;' \
   'rule A { box(20m); cut { sphere(6m); anchor spawn; } at(0m, 11m, 0m) anchor beacon; }' >hollow.sgm
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32
-[[ $err != *'is not used'* ]] || failed "an anchor in a hollow is said not to be used"
+[[ $err != *'is ignored'* ]] || failed "an anchor in a hollow is said not to be used"
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32 --pixels 2
-[[ $err != *'is not used'* ]] || failed "an anchor in a hollow is said not to be used with small cells near it"
+[[ $err != *'is ignored'* ]] || failed "an anchor in a hollow is said not to be used with small cells near it"
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at beacon --cell 1 --size 32x32
-err_has 'note: --at beacon is not used'
+err_has 'note: --at beacon is ignored'
 rm hollow.sgm hollow.png
 
 # Seeds side by side, about as many columns as rows; one that fails has its place, is told, and decides the status.
@@ -252,7 +252,7 @@ json 'j.frame.path.endsWith("/Row/Post[2]") && j.frame.seen > 0.8 && !j.frame.in
 json 'j.cell < 0.5 && j.camera.position[1] > 0'
 picture post.png 96 96
 expect 0 "$SGM" render posts.sgm --out post.png --frame Post --size 32x32 --region=0,-4,0:32,8,32
-out_has 'frame +rows\(0, 0, 0\)/Row/Post\[[0-2]\], [0-9]+ % of its near side in sight'
+out_has 'frame +rows\(0, 0, 0\)/Row/Post\[[0-2]\], [0-9]+ % of its near side visible'
 # A room is looked at from within.
 lake=$SOURCE/tests/bench/grammars/lake.sgm
 expect 0 "$SGM" render "$lake" --out post.png --frame Room --seed 3 --size 32x32 --cell 1 --json
@@ -261,10 +261,10 @@ expect 0 "$SGM" render "$lake" --out post.png --frame cave.Dripstone --seed 3 --
 json 'j.frame.path.includes("/cave.Dripstone[") && j.frame.seen > 0.5 && j.cell < 0.5'
 expect 1 "$SGM" render posts.sgm --out wrong.png --frame Pots
 one_line
-err_has "rule 'Pots' is not there: did you mean 'Post'\\?"
+err_has "there is no rule 'Pots': did you mean 'Post'\\?"
 expect 1 "$SGM" render posts.sgm --out wrong.png --frame Elephant
 one_line
-err_has "rule 'Elephant' is not there: the grammar has Post, Row"
+err_has "there is no rule 'Elephant': the grammar has Post, Row"
 expect 1 "$SGM" render "$lake" --out wrong.png --frame Dripstone
 err_has "did you mean 'cave.Dripstone'\\?"
 expect 1 "$SGM" render posts.sgm --out wrong.png --frame "Row/Post[7]" --region=0,-4,0:32,8,32
@@ -281,7 +281,7 @@ err_has 'excludes'
 rm posts.sgm post.png
 
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
-err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchor at all"
+err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchors"
 printf 'sgm 1; start A; rule A { sphere(2m); anchor spawn "camp"; }\n' >named.sgm
 expect 1 "$SGM" render named.sgm --out wrong.png --at spwan
 err_has "no anchor of the name, kind or tag 'spwan'; did you mean 'spawn'\\?"

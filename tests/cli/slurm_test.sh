@@ -38,9 +38,9 @@ expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7 --json
 json 'j.baked && j.failed === 0 && j.merge === "COMPLETED" && j.verification === "COMPLETED"'
 err_has 'are submitted'
 expect 0 diff -r -x slurm alone shared
-expect 0 bash -c 'grep -h "whole and closed" shared/slurm/*/verify.txt'
+expect 0 bash -c 'grep -h "complete and closed" shared/slurm/*/verify.txt'
 expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7
-out_has 'baked already'
+out_has 'already baked'
 
 # A node dies while it bakes; its shard starts anew elsewhere, when the others have long ended.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach

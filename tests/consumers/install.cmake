@@ -1,4 +1,4 @@
-# Installs the library into an empty prefix, and the metrics service where it is asked for:
+# Installs the library, and the metrics service on request, into an empty prefix:
 # cmake -DBUILD=... -DPREFIX=... -DSERVICE=... -P install.cmake
 file(REMOVE_RECURSE ${PREFIX})
 set(components library)

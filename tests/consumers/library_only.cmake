@@ -1,7 +1,7 @@
-# Configures the library alone where no package is found but those it needs: cmake -DSOURCE=... -DBINARY=... "-DOPTIONS=..."
-# -P library_only.cmake
+# Configures the library alone, with no other packages available than those it needs: cmake -DSOURCE=... -DBINARY=...
+# "-DOPTIONS=..." -P library_only.cmake
 #
-# What the rest of the tree looks for is hidden; what is found by path alone (find_path) is looked at afterwards.
+# Packages of the rest of the tree are hidden; those found by path (find_path) are checked afterwards.
 file(REMOVE_RECURSE ${BINARY})
 set(hidden)
 foreach(package Boost CGAL CLI11 Catch2 PkgConfig SQLite3 Vulkan fmt glm meshoptimizer nlohmann_json prometheus-cpp)

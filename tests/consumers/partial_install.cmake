@@ -1,10 +1,10 @@
-# Installs a build of which some parts are missing, as after samples/demo.sh or after building the library alone: what is
-# there is installed whole, what is not is named, and nothing refers to it. The build's install scripts and its built
-# files are copied to WORK, so that parts can be taken away there.
+# Installs a build of which some parts are missing, as after samples/demo.sh or after building the library alone:
+# existing parts are installed completely, missing ones are reported, and nothing refers to them. The build's install
+# scripts and its built files are copied to WORK, so that parts can be removed there.
 #
 #   cmake -DBUILD=... -DWORK=... "-DLIBRARY=files" "-DSERVICE=files" "-DCOMMAND=files" -P partial_install.cmake
 #
-# An empty list: the build has no such part. Leaves the library, installed from a tree that has it alone, in WORK/prefix.
+# An empty list: the build has no such part. Leaves in WORK/prefix the library, installed from a tree that has only it.
 cmake_minimum_required(VERSION 3.25)
 set(tree ${WORK}/build)
 file(REMOVE_RECURSE ${WORK})
@@ -15,11 +15,11 @@ list(FILTER scripts EXCLUDE REGEX "^tests/consumers/.*/")
 foreach(script IN LISTS scripts)
   file(READ ${BUILD}/${script} text)
   string(REPLACE "${BUILD}" "${tree}" text "${text}")
-  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # which the built files have
+  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # as in the built files
   file(CONFIGURE OUTPUT ${tree}/${script} CONTENT "@text@" @ONLY)
 endforeach()
 
-# install_with([PARTS ...] [ARGS ...]): installs the copied tree with these parts in it; sets case, status, said and
+# install_with([PARTS ...] [ARGS ...]): installs the copied tree with these parts; sets case, status, said and
 # installed.
 function(install_with)
   cmake_parse_arguments(ARG "" "" "PARTS;ARGS" ${ARGN})
@@ -80,7 +80,7 @@ if(COMMAND)
   install_with(PARTS COMMAND ARGS --component command)
   require("installs" status EQUAL 0)
   require_parts(command)
-  # What samples/demo.sh builds.
+  # The parts that samples/demo.sh builds.
   install_with(PARTS COMMAND LIBRARY)
   require("installs" status EQUAL 0 AND NOT said MATCHES "(library|command) is not built")
   require_parts(command library)

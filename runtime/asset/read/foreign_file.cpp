@@ -24,7 +24,7 @@ std::string_view foreignFile(std::span<const std::byte> bytes) {
       {"#usda", "a USD file, which sgm does not read"},
       {"ISO-10303-21", "a STEP file, which sgm does not read"},
       {"#VRML", "a VRML file, which sgm does not read"},
-      {"version https://git-lfs", "a pointer of Git LFS, not the file itself: `git lfs pull` fetches that"},
+      {"version https://git-lfs", "a Git LFS pointer, not the file itself: run `git lfs pull`"},
   };
   constexpr std::pair<std::string_view, std::string_view> kFirstWords[] = {
       {"OFF", "an OFF file, which sgm does not read"},
@@ -33,10 +33,10 @@ std::string_view foreignFile(std::span<const std::byte> bytes) {
       {"sgm", "a grammar (.sgm), not a mesh file"},
       {"<?xml", "an XML file (such as COLLADA or X3D), which sgm does not read"},
       {"<COLLADA", "a COLLADA file, which sgm does not read"},
-      {"<!DOCTYPE", "a page of the web, not a mesh"},
-      {"<!doctype", "a page of the web, not a mesh"},
-      {"<html", "a page of the web, not a mesh"},
-      {"<html>", "a page of the web, not a mesh"},
+      {"<!DOCTYPE", "a web page, not a mesh"},
+      {"<!doctype", "a web page, not a mesh"},
+      {"<html", "a web page, not a mesh"},
+      {"<html>", "a web page, not a mesh"},
   };
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const auto& [beginning, what] : kBeginnings)

@@ -1,5 +1,5 @@
 #pragma once
-// Files that are no meshes, or meshes that this library does not read, told by how they begin.
+// Recognises by their first bytes files that are not meshes, or meshes that this library does not read.
 
 #include <cstddef>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace sgm::asset {
 
-/// Such as "a PNG picture"; empty if it is not one of those that people mistake for meshes.
+/// Such as "a PNG picture"; empty if it is not a format that users commonly mistake for a mesh.
 std::string_view foreignFile(std::span<const std::byte> bytes);
 
 }  // namespace sgm::asset

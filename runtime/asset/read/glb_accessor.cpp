@@ -8,8 +8,8 @@ namespace {
 
 constexpr size_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
                  kFloat = 5126;
-constexpr size_t kNowhere = SIZE_MAX;  ///< an offset that is no whole number: beyond every end
-/// Of an accessor without bytes, which any count fits.
+constexpr size_t kNowhere = SIZE_MAX;  ///< an offset that is not a whole number: beyond every end
+/// For an accessor without bytes, which any count would fit.
 constexpr size_t kMostZeros = size_t{1} << 24;
 
 std::string numbered(std::string_view what, size_t number) {
@@ -42,14 +42,14 @@ size_t componentBytes(size_t component) {
   }
 }
 
-/// Whether `count` elements of `size` bytes, each `stride` behind the one before, from `offset` on lie in `available`
-/// bytes; without a product or a sum that may overflow.
+/// True if `count` elements of `size` bytes, at distances of `stride` from `offset` on, lie within `available` bytes;
+/// computed without products or sums that may overflow.
 bool liesWithin(size_t offset, size_t count, size_t size, size_t stride, size_t available) {
   if (offset > available || size > available - offset) return false;
   return count - 1 <= (available - offset - size) / stride;
 }
 
-/// Little-endian, as the machines are that we build for.
+/// Little-endian, like all supported machines.
 template <class Value>
 Value valueAt(const std::byte* at) {
   Value value;
@@ -74,8 +74,8 @@ double numberAt(const std::byte* at, size_t component, bool normalized) {
   }
 }
 
-/// The first corner that is none of the primitive's points; nothing where there is none. stride and the loop's type are
-/// known to the compiler, for this is what reading a large file comes to.
+/// The first corner that is not a point of the primitive; nullopt if all are. stride and the loop's type are known at
+/// compile time, because this loop dominates the reading of a large file.
 template <class Index>
 std::optional<size_t> appendTriangles(const std::byte* first, size_t count, const GlbCorners& corners,
                                       std::vector<std::array<uint32_t, 3>>& out) {
@@ -93,7 +93,7 @@ std::optional<size_t> appendTriangles(const std::byte* first, size_t count, cons
 }
 
 std::string noPointOf(size_t points) {
-  return " has a corner that is none of the primitive's " + std::to_string(points) + " points";
+  return " has a corner that is not one of the primitive's " + std::to_string(points) + " points";
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ GlbAccessors::Accessor GlbAccessors::accessorIn(const JsonValue& value) {
 
 GlbAccessors::GlbAccessors(const JsonValue& root, const GlbContainer& file, bool quantized)
     : buffers_(root, file), quantized_(quantized) {
-  // Read once: members are searched for by name, and a small file may name one accessor a million times.
+  // Parsed once: members are looked up by name, and a small file may refer to one accessor a million times.
   for (const JsonValue& value : root.list("accessors")) accessors_.push_back(accessorIn(value));
 }
 
@@ -157,7 +157,7 @@ bool GlbAccessors::mayHold(const Accessor& a, Holds holds) const {
   return false;
 }
 
-/// Bytes that a view holds; packed: one element behind the other, whatever stride the view has.
+/// The bytes of elements in a view; packed: elements are contiguous, regardless of the view's stride.
 Result<GlbAccessors::Elements> GlbAccessors::elementsIn(size_t number, std::string_view member, size_t view,
                                                         size_t offset, size_t count, size_t size, bool packed) const {
   const auto joined = [&](std::string_view name) {
@@ -211,8 +211,8 @@ Result<void> GlbAccessors::asManyAs(size_t a, size_t count) const {
   return wrongIn(a, "count", " does not hold as many elements as there are positions");
 }
 
-/// Puts each element, by its number; elements that are sparse a second time, with the value that counts. put: whether
-/// it takes the numbers; complaint: what is wrong if it does not.
+/// Puts each element by its index, and sparse elements a second time with their final value. put: returns whether it
+/// accepts the numbers; complaint: the problem if it does not.
 template <size_t N, class Put>
 Result<void> GlbAccessors::each(size_t number, const Elements& from, std::string_view complaint, const Put& put) const {
   const Accessor& a = accessors_[number];
@@ -242,7 +242,7 @@ Result<void> GlbAccessors::eachSparse(size_t number, std::string_view complaint,
   const Sparse& s = *a.sparse;
   const size_t index_bytes = componentBytes(s.index_component), bytes = componentBytes(a.component);
   if (index_bytes == 0 || s.index_component == kFloat || s.index_component == kByte || s.index_component == kShort)
-    return wrongIn(number, "sparse/indices/componentType", " is sparse by indices that are not unsigned whole numbers");
+    return wrongIn(number, "sparse/indices/componentType", " has sparse indices that are not unsigned whole numbers");
   const Result<Elements> indices =
       elementsIn(number, "sparse/indices", s.index_view.value_or(kNowhere), s.index_offset, s.count, index_bytes, true);
   if (!indices) return indices.error();

@@ -1,6 +1,6 @@
 #pragma once
-// The numbers of a glTF file, as its accessors describe them. Nothing of what the file says of itself is believed
-// before it is compared with the bytes that are there.
+// The numbers of a glTF file, as its accessors describe them. Every claim of the file is checked against the bytes
+// present.
 
 #include <algorithm>
 #include <array>
@@ -17,11 +17,11 @@
 
 namespace sgm::asset {
 
-/// Which corners a primitive's triangles have.
+/// The points that a primitive's triangles index.
 struct GlbCorners {
-  size_t points = 0;      ///< the primitive's own
-  uint32_t first = 0;     ///< the number that the first of them has in the mesh
-  bool mirrored = false;  ///< turns the triangles round
+  size_t points = 0;      ///< of the primitive
+  uint32_t first = 0;     ///< index of the first of them in the mesh
+  bool mirrored = false;  ///< reverses the orientation of the triangles
 };
 
 class GlbAccessors {
@@ -31,41 +31,41 @@ class GlbAccessors {
 
   size_t size() const { return accessors_.size(); }
   size_t bytes() const { return buffers_.bytes(); }
-  /// As many elements as accessor a says that it holds, but no more than there are bytes; 0 if it is not one of them.
+  /// The number of elements that accessor a declares, but at most the number of bytes; 0 if a is not an accessor.
   size_t countAtMost(size_t a) const {
     return a < accessors_.size() ? std::min(accessors_[a].count.value_or(0), bytes()) : 0;
   }
   std::optional<size_t> countOf(size_t a) const { return accessors_[a].count; }
-  /// Whether accessor a, one of them, has no bytes: all its numbers are 0.
+  /// True if accessor a, which must exist, has no bytes: all its numbers are 0.
   bool isZero(size_t a) const { return !accessors_[a].view && !accessors_[a].sparse; }
 
-  // Each appends what accessor a, one of them, holds, and leaves `out` in any state if it refuses. Errors: bad_input,
-  // with the JSON pointer or the byte in the message; limit.
+  // Each function appends the content of accessor a, which must exist, to `out`, whose state is unspecified after an
+  // error. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
 
-  /// Three numbers each; in all as many as the limits allow.
+  /// Three numbers per element; the total is at most the limit.
   Result<void> points(size_t a, const MeshLimits& limits, std::vector<Point>& out) const;
-  /// Three numbers each, as many as `count`, such as a morph target's differences.
+  /// Three numbers per element, exactly `count` elements, such as a morph target's differences.
   Result<void> vectors(size_t a, size_t count, std::vector<Point>& out) const;
-  /// Three numbers each, as many as `count`; not yet of length one.
+  /// Three numbers per element, exactly `count`; not normalised yet.
   Result<void> normals(size_t a, size_t count, std::vector<Normal>& out) const;
-  /// Two numbers each, as many as `count`; the second grows downward.
+  /// Two numbers per element, exactly `count`; the second one grows downward.
   Result<void> coordinates(size_t a, size_t count, std::vector<TextureCoordinates>& out) const;
-  /// Four numbers each, as many as `count`: weights of joints, or quaternions.
+  /// Four numbers per element, exactly `count`: weights of joints, or quaternions.
   Result<void> fractions(size_t a, size_t count, std::vector<std::array<double, 4>>& out) const;
-  /// Four unsigned whole numbers each, as many as `count`.
+  /// Four unsigned integers per element, exactly `count`.
   Result<void> joints(size_t a, size_t count, std::vector<std::array<double, 4>>& out) const;
-  /// Sixteen floats each, `least` at least.
+  /// Sixteen floats per element, at least `least` elements.
   Result<void> matrices(size_t a, size_t least, std::vector<std::array<double, 16>>& out) const;
-  /// Unsigned whole numbers of one, two or four bytes that name points of a primitive; at most as many as three times
-  /// the triangles that the limits allow.
+  /// Unsigned integers of one, two or four bytes, each an index of a point of a primitive; at most three times the
+  /// number of triangles that the limits allow.
   Result<void> indices(size_t a, size_t points, const MeshLimits& limits, std::vector<uint32_t>& out) const;
-  /// The same as triangles; in all as many as the limits allow.
+  /// The same as triangles; the total is at most the limit.
   Result<void> triangles(size_t a, const GlbCorners& corners, const MeshLimits& limits,
                          std::vector<std::array<uint32_t, 3>>& out) const;
 
  private:
   enum class Type { scalar, pair, triple, quadruple, matrix, other };
-  /// What an accessor may hold.
+  /// The component types that an accessor may have.
   enum class Holds { floats, small, fractions, unsigned_small, indices };
 
   struct Sparse {
@@ -73,7 +73,7 @@ class GlbAccessors {
     std::optional<size_t> index_view, value_view;
     size_t index_offset = 0, value_offset = 0, index_component = 0;
   };
-  /// As the file says.
+  /// The values as declared by the file.
   struct Accessor {
     Type type = Type::other;
     size_t component = 0, offset = 0;
@@ -81,7 +81,7 @@ class GlbAccessors {
     bool normalized = false;
     std::optional<Sparse> sparse;
   };
-  /// Bytes that are there.
+  /// Bytes that are present.
   struct Elements {
     const std::byte* first = nullptr;  ///< null: all numbers are 0
     size_t count = 0, stride = 0, buffer = 0;

@@ -10,9 +10,9 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr size_t kNoOffset = SIZE_MAX;  ///< an offset that is no whole number: beyond every end
+constexpr size_t kNoOffset = SIZE_MAX;  ///< an offset that is not a whole number: beyond every end
 
-/// Standard base64 (RFC 4648), with or without its padding. nullopt if a character is not one of it.
+/// Standard base64 (RFC 4648), with or without padding. nullopt if a character is invalid.
 std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<int, 256> values;
@@ -35,7 +35,7 @@ std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   return out;
 }
 
-/// Some programs write 0 for elements that lie side by side, which is what no stride says.
+/// Some programs write 0 for contiguous elements, which a missing stride means.
 std::optional<size_t> strideIn(const JsonValue& view) {
   if (view.find("byteStride") == nullptr) return std::nullopt;
   const size_t stride = view.count("byteStride").value_or(kNoOffset);
@@ -98,7 +98,8 @@ Result<GlbBuffers::View> GlbBuffers::view(size_t number) const {
   const auto wrong = [&](std::string_view what, std::string_view member) {
     return wrongInJson("buffer view " + std::to_string(number) + std::string(what), pointer + std::string(member));
   };
-  if (!said.buffer || *said.buffer >= buffers_.size()) return wrong(" is of a buffer that is not there", "/buffer");
+  if (!said.buffer || *said.buffer >= buffers_.size())
+    return wrong(" refers to a buffer that does not exist", "/buffer");
   const Buffer& buffer = buffers_[*said.buffer];
   if (!buffer.problem.empty() && !said.compression.empty())
     return wrong(" is compressed by the extension " + shown(said.compression), "/extensions");

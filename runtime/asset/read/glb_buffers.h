@@ -27,23 +27,23 @@ class GlbBuffers {
   size_t viewCount() const { return views_.size(); }
   /// Bytes of all buffers.
   size_t bytes() const { return bytes_; }
-  /// Of one of the views. Error: bad_input, if its bytes are not there.
+  /// The bytes of a view, which must exist. Error: bad_input if its bytes are missing.
   Result<View> view(size_t number) const;
-  /// "byte 12", or "byte 12 of buffer 1" if the buffer is no part of the file as it is.
+  /// "byte 12", or "byte 12 of buffer 1" if the buffer is not stored in the file as it is.
   std::string placeOf(size_t buffer, const std::byte* at) const;
 
  private:
-  /// As the file says.
+  /// The values as declared by the file.
   struct Said {
     std::optional<size_t> buffer;
     size_t offset = 0, length = 0;
     std::optional<size_t> stride;
-    std::string compression;  ///< the extension that packs it
+    std::string compression;  ///< the extension that compresses it
   };
   struct Buffer {
     std::span<const std::byte> bytes;
     std::optional<size_t> file_at;
-    std::string problem;  ///< why there are no bytes
+    std::string problem;  ///< the reason why there are no bytes
   };
 
   void addBuffer(const JsonValue& value, size_t number, const GlbContainer& file);

@@ -15,12 +15,12 @@ constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
-  uint32_t word = 0;  // little-endian, as the machines are that we build for
+  uint32_t word = 0;  // little-endian, like all supported machines
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
 }
 
-/// Where the next part begins: parts are to be padded to four bytes, and some programs pad them without saying so.
+/// The offset of the next part: parts must be padded to four bytes, and some programs do not count the padding.
 size_t endOfPart(std::span<const std::byte> bytes, size_t at, size_t size) {
   const size_t end = at + size, padded = at + (size + 3) / 4 * 4;
   const auto holdsPart = [&](size_t from) {
@@ -43,7 +43,7 @@ Result<GlbContainer> openGlb(std::span<const std::byte> bytes) {
   GlbContainer out;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (bytes.size() < sizeof kMagic || wordAt(bytes, 0) != kMagic) {
-    if (!beginsAsGltf(text)) return Error{Code::bad_input, "it is no GLB file: it does not begin with `glTF`", 0, 0};
+    if (!beginsAsGltf(text)) return Error{Code::bad_input, "it is not a GLB file: it does not begin with `glTF`", 0, 0};
     out.json = text;
     out.is_text = true;
     return out;
@@ -54,17 +54,17 @@ Result<GlbContainer> openGlb(std::span<const std::byte> bytes) {
   const size_t said = wordAt(bytes, 8);
   if (said > bytes.size() || said < kHeaderBytes + kChunkHeaderBytes)
     return wrongAtByte(
-        "it says that it has " + std::to_string(said) + " bytes, and has " + std::to_string(bytes.size()), 8);
+        "its header declares " + std::to_string(said) + " bytes, and the file has " + std::to_string(bytes.size()), 8);
   if (said < bytes.size())
-    out.notes.push_back(counted(bytes.size() - said, "byte behind its end is", "bytes behind its end are") +
+    out.notes.push_back(counted(bytes.size() - said, "byte after its end is", "bytes after its end are") +
                         " left out, at " + byteText(said));
   bytes = bytes.first(said);
   size_t at = kHeaderBytes;
   for (size_t number = 0; bytes.size() - at >= kChunkHeaderBytes; ++number) {
     const size_t size = wordAt(bytes, at), begin = at + kChunkHeaderBytes;
     const uint32_t kind = wordAt(bytes, at + 4);
-    if (size > bytes.size() - begin) return wrongAtByte("a part of it reaches beyond its end", at);
-    if (number == 0 && kind != kJsonChunk) return wrongAtByte("its first part is not JSON", at + 4);
+    if (size > bytes.size() - begin) return wrongAtByte("a chunk of it reaches beyond its end", at);
+    if (number == 0 && kind != kJsonChunk) return wrongAtByte("its first chunk is not JSON", at + 4);
     if (number == 0) out.json = text.substr(begin, size);
     if (number == 1 && kind == kBinaryChunk) {
       out.binary = bytes.subspan(begin, size);
@@ -72,13 +72,13 @@ Result<GlbContainer> openGlb(std::span<const std::byte> bytes) {
       out.binary_at = begin;
     }
     if (size % 4 != 0)
-      out.notes.push_back("the length of a part is not a multiple of 4 (" + std::to_string(size) + "), at " +
+      out.notes.push_back("the length of a chunk is not a multiple of 4 (" + std::to_string(size) + "), at " +
                           byteText(at));
     at = endOfPart(bytes, begin, size);
   }
   if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; out.json.starts_with(kByteOrderMark))
     out.json.remove_prefix(kByteOrderMark.size());
-  // The padding of JSON is to be blanks.
+  // The padding of JSON must be spaces.
   if (const size_t end = out.json.find_last_not_of('\0') + 1; end < out.json.size()) {
     out.notes.push_back("its JSON is padded with zero bytes, not with blanks");
     out.json = out.json.substr(0, end);

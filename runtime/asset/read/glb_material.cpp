@@ -10,7 +10,7 @@ namespace {
 
 const JsonValue* find(const JsonValue* of, std::string_view name) { return of == nullptr ? nullptr : of->find(name); }
 
-/// The texture that is seen first, and where it stands.
+/// The most visible texture, and its place in the file.
 struct Texture {
   const JsonValue* info = nullptr;
   std::string pointer;
@@ -33,7 +33,7 @@ Texture firstTexture(const JsonValue& material) {
 }  // namespace
 
 TextureCoordinates GlbTextureTransform::operator()(const TextureCoordinates& at) const {
-  // Counter-clockwise as a picture is seen, whose second coordinate grows downward.
+  // Counter-clockwise in the image, whose second coordinate grows downward.
   const double u = scale[0] * double{at[0]}, v = scale[1] * double{at[1]};
   return {static_cast<float>(offset[0] + cosine * u + sine * v), static_cast<float>(offset[1] - sine * u + cosine * v)};
 }
@@ -56,7 +56,7 @@ Result<std::vector<GlbMaterial>> readGlbMaterials(const JsonValue& root) {
                                                 rotation->number >= -kMostTurned && rotation->number <= kMostTurned);
     if (!turned || !readNumbers(*transform, "offset", laid.offset) || !readNumbers(*transform, "scale", laid.scale))
       return wrongInJson(
-          "a texture is laid by what are not numbers, or not as many as it takes",
+          "a texture transform has values that are not numbers, or a wrong count of them",
           "/materials/" + std::to_string(out.size() - 1) + texture.pointer + "/extensions/KHR_texture_transform");
     if (rotation == nullptr) continue;
     laid.cosine = detCos(rotation->number);

@@ -1,5 +1,5 @@
 #pragma once
-// The part of a glTF file's materials that a mesh needs: names, and how textures are laid.
+// The part of a glTF file's materials that a mesh needs: names, and texture coordinates.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-/// Where a texture lies on texture coordinates (KHR_texture_transform).
+/// The transform of a texture on its coordinates (KHR_texture_transform).
 struct GlbTextureTransform {
   std::array<double, 2> offset{0, 0}, scale{1, 1};
   double cosine = 1, sine = 0;
@@ -23,7 +23,7 @@ struct GlbTextureTransform {
 
 struct GlbMaterial {
   std::string name;
-  size_t coordinates = 0;  ///< the set, TEXCOORD_n, that its first texture names: of the base colour, if there is one
+  size_t coordinates = 0;  ///< set TEXCOORD_n of its first texture: the base colour's, if there is one
   std::optional<GlbTextureTransform> transform;
 };
 

@@ -8,7 +8,7 @@ namespace sgm::asset {
 namespace {
 
 constexpr size_t kAbsent = SIZE_MAX, kWrong = SIZE_MAX - 1;
-/// A primitive's mode.
+/// Modes of a primitive.
 constexpr size_t kLineStrip = 3, kTriangles = 4, kStrip = 5, kFan = 6;
 
 size_t indexIn(const JsonValue* of, std::string_view name) {
@@ -25,7 +25,7 @@ GlbMeshes::GlbMeshes(const JsonValue& root, const GlbAccessors& accessors, std::
                      const MeshLimits& limits)
     : accessors_(accessors), materials_(std::move(materials)), limits_(limits), skins_(root, accessors) {
   for (const GlbMaterial& material : materials_) mesh_.material_names.push_back(material.name);
-  // Read once: nodes may show one mesh many times.
+  // Parsed once: nodes may show one mesh many times.
   for (const JsonValue& value : root.list("meshes")) {
     Mesh& mesh = meshes_.emplace_back();
     for (const JsonValue& primitive : value.list("primitives")) mesh.primitives.push_back(primitiveIn(primitive));
@@ -59,8 +59,8 @@ GlbMeshes::Primitive GlbMeshes::primitiveIn(const JsonValue& value) const {
   return out;
 }
 
-/// For each mesh shown once, all at once: what grows step by step is there twice. Never for more than the bytes that
-/// are there can hold.
+/// Reserves memory at once for each mesh shown once, because growing vectors need twice the memory. Never reserves more
+/// than the present bytes can fill.
 void GlbMeshes::makeRoom() {
   size_t points = 0, corners = 0;
   bool normals = false, coordinates = false;
@@ -90,12 +90,12 @@ Error GlbMeshes::wrong(const Here& here, std::string_view what, std::string_view
   return wrongInJson("mesh " + std::to_string(here.mesh) + std::string(what), pointerOf(here) + std::string(member));
 }
 
-/// Whether all accessors that the primitive names are there.
+/// Checks that all accessors of the primitive exist.
 Result<void> GlbMeshes::areThere(const Here& here) const {
   const Primitive& p = here.primitive;
   const auto missing = [&](size_t accessor) { return accessor != kAbsent && accessor >= accessors_.size(); };
   const auto notThere = [&](std::string_view what, const std::string& member) {
-    return wrong(here, " has " + std::string(what) + " that are not there", member);
+    return wrong(here, " refers to " + std::string(what) + " that do not exist", member);
   };
   if (missing(p.own.position)) return notThere("positions", "/attributes/POSITION");
   if (missing(p.own.normal)) return notThere("normals", "/attributes/NORMAL");
@@ -154,7 +154,7 @@ Result<void> GlbMeshes::primitive(const Here& here, const GlbShown& shown) {
   return {};
 }
 
-/// With normals and texture coordinates. pose: becomes that of each point, if the mesh has a skin.
+/// Adds points with normals and texture coordinates. pose: receives the transform of each point if the mesh has a skin.
 Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::vector<GlbTransform>& pose) {
   const Primitive& p = here.primitive;
   const size_t first = mesh_.points.size();
@@ -184,7 +184,7 @@ Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::
   const std::span<Point> added = std::span(mesh_.points).subspan(first);
   const bool moved = !pose.empty() || !shown.place.rests();
   for (size_t i = 0; moved && i < count; ++i) added[i] = pose.empty() ? shown.place(added[i]) : pose[i](added[i]);
-  // Each node's numbers are small, and yet a row of them leads anywhere.
+  // The numbers of each node are small, but a chain of nodes may exceed the limit.
   for (size_t i = 0; (moved || !p.targets.empty()) && i < count; ++i)
     if (!limits_.isPlace(added[i].x, added[i].y, added[i].z))
       return wrong(here, " has a position " + noPlaceWithin(limits_) + ", once it is moved", "");
@@ -195,12 +195,12 @@ Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::
     if (laid) at = (*materials_[p.material].transform)(at);
     if (!isFloat(double{at[0]}) || !isFloat(double{at[1]}))
       return wrong(here, " has texture coordinates that are not finite, once they are transformed", "");
-    at[1] = 1 - at[1];  // a picture's rows go down
+    at[1] = 1 - at[1];  // the rows of an image go down
   }
   return {};
 }
 
-/// Adds the differences of the targets that have a weight.
+/// Adds the displacements of the targets with a weight.
 Result<void> GlbMeshes::morph(const Here& here, const GlbShown& shown, size_t first) {
   const std::vector<Attributes>& targets = here.primitive.targets;
   const Attributes& own = here.primitive.own;
@@ -252,7 +252,7 @@ Result<void> GlbMeshes::addTriangles(const Here& here, const GlbCorners& corners
   return {};
 }
 
-/// Triangles with a corner twice are left out: strips have them to lead on to the next one.
+/// Triangles with a repeated corner are left out: strips use them as connections.
 Result<void> GlbMeshes::addStripOrFan(const Here& here, const GlbCorners& corners) {
   const Primitive& p = here.primitive;
   std::vector<uint32_t> list;
@@ -266,12 +266,12 @@ Result<void> GlbMeshes::addStripOrFan(const Here& here, const GlbCorners& corner
   const auto isTriangle = [&](size_t i) {
     return list[i] != list[i + 1] && list[i + 1] != list[i + 2] && list[i + 2] != list[i];
   };
-  // A strip whose triangles all stand at odd places is made of single ones, put together without regard to the rule.
+  // If all triangles of a strip are at odd positions, the strip consists of single ones, concatenated against the rule.
   bool unruly = p.mode == kStrip;
   for (size_t i = 0; unruly && i + 2 < list.size(); i += 2) unruly = !isTriangle(i);
   const size_t before = mesh_.triangles.size();
   for (size_t i = 0; i + 2 < list.size(); ++i) {
-    // As the specification orders them (section 3.7.2.1).
+    // In the order of the specification (section 3.7.2.1).
     const size_t odd = unruly ? 0 : i % 2;
     std::array<uint32_t, 3> t{list[i], list[i + 1 + odd], list[i + 2 - odd]};
     if (p.mode == kFan) t = {list[i + 1], list[i + 2], list[0]};
@@ -288,12 +288,12 @@ Result<TriangleMesh> GlbMeshes::finish() {
   addNote(notes, lines_, "primitive of lines or points is left out", "primitives of lines or points are left out");
   addNote(notes, placeless_, "primitive has no positions and is left out",
           "primitives have no positions and are left out");
-  addNote(notes, unruly_, "strip has triangles at odd places alone", "strips have triangles at odd places alone",
-          ": not turned round, as the format would have it");
+  addNote(notes, unruly_, "strip has triangles at odd places only", "strips have triangles at odd places only",
+          ": read without the reversal that the format requires");
   addNote(notes, zero_, "primitive has positions without bytes", "primitives have positions without bytes",
           ": all of them are 0");
   addNote(notes, uncharted_, "primitive lacks the texture coordinates that its material names",
-          "primitives lack the texture coordinates that their materials name", ": read without");
+          "primitives lack the texture coordinates that their materials name", ": read without them");
   addNote(notes, unbound_, "primitive has a skin and no joints or weights",
           "primitives have a skin and no joints or weights", ": moved by the node");
   skins_.addNotes(notes);

@@ -1,5 +1,5 @@
 #pragma once
-// Primitives of a glTF file's meshes: their points, moved and morphed, and their triangles.
+// Primitives of a glTF file's meshes: their points, transformed and morphed, and their triangles.
 
 #include <cstddef>
 #include <span>
@@ -18,12 +18,12 @@
 
 namespace sgm::asset {
 
-/// How a node shows a mesh.
+/// An instance of a mesh in a node.
 struct GlbShown {
   size_t mesh = 0;
   GlbTransform place;  ///< unless it has a skin
   std::optional<size_t> skin;
-  std::vector<double> weights;  ///< of morph targets; fewer than there are: the others' are 0
+  std::vector<double> weights;  ///< of morph targets; missing ones are 0
 };
 
 class GlbMeshes {
@@ -32,17 +32,17 @@ class GlbMeshes {
             const MeshLimits& limits);
 
   size_t size() const { return meshes_.size(); }
-  /// The weights that a mesh has by itself.
+  /// The default weights of a mesh.
   const std::vector<double>& weightsOf(size_t mesh) const { return meshes_[mesh].weights; }
   /// Adds a mesh's triangles. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
   Result<void> show(const GlbShown& shown);
-  /// All that has been shown. Once. Error: bad_input, if there is no triangle.
+  /// Returns everything that was shown. Call once. Error: bad_input if there is no triangle.
   Result<TriangleMesh> finish();
 
   TriangleMesh& mesh() { return mesh_; }
 
  private:
-  /// A primitive as the file says: numbers of accessors.
+  /// A primitive as declared by the file: indices of accessors.
   struct Attributes {
     size_t position, normal, coordinates;
   };
@@ -58,7 +58,7 @@ class GlbMeshes {
     std::vector<Primitive> primitives;
     std::vector<double> weights;
   };
-  /// Of the primitive that is being read.
+  /// The primitive that is being read.
   struct Here {
     size_t mesh, number;
     const Primitive& primitive;

@@ -30,7 +30,7 @@ Result<void> GlbScene::show() {
   return {};
 }
 
-/// Puts the scene's nodes on the list, the first one last.
+/// Pushes the scene's nodes on the stack, the first one last.
 Result<void> GlbScene::openRoots() {
   const auto scenes = root_.list("scenes");
   std::vector<size_t> first;
@@ -43,12 +43,12 @@ Result<void> GlbScene::openRoots() {
       if (!child[i]) first.push_back(i);
   } else {
     const size_t scene = root_.find("scene") == nullptr ? 0 : root_.count("scene").value_or(scenes.size());
-    if (scene >= scenes.size()) return wrongInJson("its scene is not there", "/scene");
+    if (scene >= scenes.size()) return wrongInJson("its scene does not exist", "/scene");
     scene_ = "/scenes/" + std::to_string(scene) + "/nodes";
     for (const JsonValue& node : scenes[scene].list("nodes")) first.push_back(node.whole().value_or(nodes_.size()));
     if (scenes.size() > 1)
-      meshes_.mesh().notes.push_back("it has " + std::to_string(scenes.size()) + " scenes, and scene " +
-                                     std::to_string(scene) + " alone is read");
+      meshes_.mesh().notes.push_back("it has " + std::to_string(scenes.size()) + " scenes, and only scene " +
+                                     std::to_string(scene) + " is read");
   }
   for (size_t i = first.size(); i-- > 0;) open_.push_back({first[i], {}, nodes_.size()});
   return {};
@@ -58,7 +58,7 @@ Result<void> GlbScene::visit(const Open& at) {
   const auto wrongHere = [&](std::string_view what) {
     return wrongInJson(what, at.parent < nodes_.size() ? nodePointer(at.parent) + "/children" : scene_);
   };
-  if (at.node >= nodes_.size()) return wrongHere("a node that is named is not there");
+  if (at.node >= nodes_.size()) return wrongHere("it refers to a node that does not exist");
   if (seen_[at.node]) return wrongHere(nodeText(at.node) + " stands below two others, or below itself");
   seen_[at.node] = true;
   const JsonValue& value = nodes_[at.node];
@@ -84,7 +84,7 @@ Result<void> GlbScene::showMesh(size_t node, const GlbTransform& place) {
   const JsonValue& value = nodes_[node];
   const auto mesh = value.count("mesh");
   if (!mesh || *mesh >= meshes_.size())
-    return wrongInJson(nodeText(node) + " shows a mesh that is not there", nodePointer(node) + "/mesh");
+    return wrongInJson(nodeText(node) + " refers to a mesh that does not exist", nodePointer(node) + "/mesh");
   GlbShown shown{.mesh = *mesh, .place = place, .skin = {}, .weights = meshes_.weightsOf(*mesh)};
   if (value.find("weights") != nullptr) {
     shown.weights.clear();
@@ -93,7 +93,7 @@ Result<void> GlbScene::showMesh(size_t node, const GlbTransform& place) {
   if (value.find("skin") != nullptr) {
     shown.skin = value.count("skin").value_or(root_.list("skins").size());
     if (*shown.skin >= root_.list("skins").size())
-      return wrongInJson(nodeText(node) + " has a skin that is not there", nodePointer(node) + "/skin");
+      return wrongInJson(nodeText(node) + " refers to a skin that does not exist", nodePointer(node) + "/skin");
   }
   const JsonValue* const instancing = extensionOf(value, "EXT_mesh_gpu_instancing");
   const JsonValue* const attributes = instancing == nullptr ? nullptr : instancing->find("attributes");
@@ -107,7 +107,7 @@ Result<void> GlbScene::showMesh(size_t node, const GlbTransform& place) {
   return {};
 }
 
-/// Where each instance stands, from its node.
+/// The transform of each instance, relative to its node.
 Result<std::vector<GlbTransform>> GlbScene::instances(const JsonValue& attributes, size_t node) const {
   const std::string pointer = nodePointer(node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
   std::optional<size_t> count;
@@ -117,7 +117,7 @@ Result<std::vector<GlbTransform>> GlbScene::instances(const JsonValue& attribute
     if (attributes.find(name) == nullptr) continue;
     const size_t accessor = attributes.count(name).value_or(accessors_.size());
     if (accessor >= accessors_.size() || !accessors_.countOf(accessor))
-      return wrongInJson(nodeText(node) + " has instances that are not there", pointer);
+      return wrongInJson(nodeText(node) + " refers to instances that do not exist", pointer);
     if (count && accessors_.countOf(accessor) != count)
       return wrongInJson(nodeText(node) + " has instances of different numbers", pointer);
     count = accessors_.countOf(accessor);

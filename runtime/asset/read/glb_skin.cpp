@@ -27,7 +27,7 @@ GlbSkins::GlbSkins(const JsonValue& root, const GlbAccessors& accessors)
 }
 
 Result<GlbTransform> GlbSkins::nodeInWorld(size_t node) {
-  // Down from the first one that is known.
+  // Goes down from the nearest ancestor with a known transform.
   std::vector<size_t> above;
   for (size_t at = node; at < nodes_.size() && !in_world_[at]; at = parents_[at]) {
     if (above.size() > nodes_.size())
@@ -53,7 +53,7 @@ Result<void> GlbSkins::readJoints(size_t skin) {
   if (value.find("inverseBindMatrices") != nullptr) {
     const auto accessor = value.count("inverseBindMatrices");
     if (!accessor || *accessor >= accessors_.size())
-      return wrongInJson(skinText(skin) + " has matrices that are not there",
+      return wrongInJson(skinText(skin) + " refers to matrices that do not exist",
                          skinPointer(skin) + "/inverseBindMatrices");
     if (Result<void> read = accessors_.matrices(*accessor, joints.size(), inverse); !read) return read;
   }
@@ -61,7 +61,7 @@ Result<void> GlbSkins::readJoints(size_t skin) {
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto node = joints[j].whole();
     if (!node || *node >= nodes_.size())
-      return wrongInJson(skinText(skin) + " has a joint that is not there", skinPointer(skin) + "/joints");
+      return wrongInJson(skinText(skin) + " refers to a joint that does not exist", skinPointer(skin) + "/joints");
     const Result<GlbTransform> in_world = nodeInWorld(*node);
     if (!in_world) return in_world.error();
     std::optional<GlbTransform> bound = GlbTransform{};
@@ -103,7 +103,7 @@ Result<std::vector<GlbTransform>> GlbSkins::pose(size_t skin, const GlbBinding& 
     constexpr double kRounding = 0.01;
     if (!(std::fabs(sums[i] - 1) <= kRounding)) unbalanced_.add([&] { return skinPointer(skin) + " of its JSON"; });
     if (sums[i] == 1) continue;
-    // Weights are rounded; a point without any goes with the first joint.
+    // Weights are rounded; a point without weights follows the first joint.
     const GlbTransform sum = out[i];
     out[i] = sums[i] > 0 ? kUnmoved : joints[0];
     if (sums[i] > 0) addTo(out[i], 1 / sums[i], sum);

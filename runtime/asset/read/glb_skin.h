@@ -1,5 +1,5 @@
 #pragma once
-// Skins of a glTF file: where the bones of its nodes hold the points of a mesh, at rest.
+// Skins of a glTF file: the rest pose of a mesh's points by the joints of the skeleton.
 
 #include <cstddef>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace sgm::asset {
 
-/// The numbers of a primitive's accessors that bind its points: JOINTS_n and WEIGHTS_n, as many of each.
+/// The indices of the accessors that bind a primitive's points: equally many of JOINTS_n and WEIGHTS_n.
 struct GlbBinding {
   std::vector<size_t> joints, weights;
 };
@@ -25,11 +25,11 @@ class GlbSkins {
 
   size_t size() const { return skins_.size(); }
 
-  /// How each of a primitive's points is moved from its mesh to the world: by its joints, weighted. The node that shows
-  /// the mesh plays no part (glTF 2.0, section 3.7.3.3). Errors: bad_input; limit.
+  /// The transform of each point of a primitive from its mesh to the world, by its weighted joints. The node that shows
+  /// the mesh has no effect (glTF 2.0, section 3.7.3.3). Errors: bad_input; limit.
   Result<std::vector<GlbTransform>> pose(size_t skin, const GlbBinding& binding, size_t points);
 
-  /// About weights that do not sum to one.
+  /// Adds notes about weights that do not sum to one.
   void addNotes(std::vector<std::string>& notes) const;
 
  private:
@@ -40,7 +40,7 @@ class GlbSkins {
   const GlbAccessors& accessors_;
   std::vector<size_t> parents_;
   std::vector<std::optional<GlbTransform>> in_world_;  ///< of nodes
-  std::vector<std::vector<GlbTransform>> joints_;      ///< of skins that have been read: of the mesh to the world
+  std::vector<std::vector<GlbTransform>> joints_;      ///< of skins already read: from the mesh to the world
   NotedPlaces unbalanced_;
 };
 

@@ -35,7 +35,7 @@ Result<GlbTransform> glbTransformOf(const JsonValue& node, size_t number) {
   std::array<double, 4> q{0, 0, 0, 1};
   if (!readNumbers(node, "matrix", m) || !readNumbers(node, "translation", moved) ||
       !readNumbers(node, "scale", scaled) || !readNumbers(node, "rotation", q))
-    return refused(" is moved by what are not numbers, or not as many as it takes");
+    return refused(" has a transform with values that are not numbers, or a wrong count of them");
   if (node.find("matrix") != nullptr) {
     const std::optional<GlbTransform> out = glbTransformOf(m);
     if (!out) return refused(" is moved by a matrix whose last row is not 0, 0, 0, 1");

@@ -1,5 +1,5 @@
 #pragma once
-// How a GLB file's node moves what it shows.
+// The transform of a node of a glTF file.
 
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ struct GlbTransform {
   }
   bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
   bool rests() const { return columns == GlbTransform{}.columns && origin == Point{}; }
-  /// What normals are multiplied by, but for a factor: the inverse's transpose, which is the cofactors with the
-  /// determinant's sign. Zero where all is flattened to a line.
+  /// The matrix for normals, up to a factor: the inverse transpose, computed as the cofactors with the determinant's
+  /// sign. Zero if the transform flattens everything to a line.
   std::array<Point, 3> forNormals() const {
     const double sign = mirrors() ? -1 : 1;
     return {sign * cross(columns[1], columns[2]), sign * cross(columns[2], columns[0]),
@@ -33,14 +33,15 @@ struct GlbTransform {
   }
 };
 
-/// Of a translation, a rotation as a quaternion of any length but 0 (x, y, z, w), and a scale.
+/// From a translation, a rotation as a quaternion of any length but 0 (x, y, z, w), and a scale.
 GlbTransform glbTransformOf(Point translation, const std::array<double, 4>& rotation, Point scale);
-/// Of a matrix, column by column; nullopt if it is not affine.
+/// From a matrix, column by column; nullopt if it is not affine.
 std::optional<GlbTransform> glbTransformOf(const std::array<double, 16>& matrix);
-/// Of node `number`, by its matrix or by its translation, rotation and scale. Error: bad_input.
+/// Of node `number`, from its matrix or from its translation, rotation and scale. Error: bad_input.
 Result<GlbTransform> glbTransformOf(const JsonValue& node, size_t number);
 
-/// Reads as many numbers as there are in `out`; false if the member is something else. Leaves `out` if it is missing.
+/// Reads a member with as many numbers as `out` has; false if the member is anything else. If it is missing, `out`
+/// stays unchanged.
 template <size_t N>
 bool readNumbers(const JsonValue& of, std::string_view name, std::array<double, N>& out) {
   if (of.find(name) == nullptr) return true;

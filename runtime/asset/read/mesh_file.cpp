@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kKindNames[] = {"glb", "obj", "ply", "stl"};
 constexpr std::string_view kKindTitles[] = {"glTF", "OBJ", "PLY", "STL"};
-constexpr std::string_view kNoFormat = "no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are";
+constexpr std::string_view kNoFormat = "the mesh format is unsupported; use .glb, .gltf, .obj, .ply or .stl";
 
 std::string titleOf(MeshFileKind kind) { return std::string(kKindTitles[static_cast<size_t>(kind)]); }
 
@@ -36,10 +36,10 @@ Result<TriangleMesh> readKind(std::span<const std::byte> bytes, MeshFileKind kin
     case MeshFileKind::stl:
       return readStl(bytes, limits);
   }
-  return Error{Code::invalid_argument, "no such kind of mesh file", 0, 0};
+  return Error{Code::invalid_argument, "there is no such kind of mesh file", 0, 0};
 }
 
-/// Whether the first line that is no comment is one of an OBJ file.
+/// True if the first line that is not a comment is a line of an OBJ file.
 bool beginsAsObj(std::string_view text) {
   constexpr std::string_view kFirst[] = {"v", "vt", "vn", "mtllib", "usemtl", "o", "g", "s", "f", "l", "p"};
   TextReader reader(text);
@@ -87,7 +87,7 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits) {
   if (bytes.empty()) return Error{Code::bad_input, "it is empty", 0, 0};
-  // What is binary by its beginning or its size is no text, whatever it begins with.
+  // A file that is binary by its first bytes or its size is not text, however it begins.
   std::optional<MeshFileKind> found = isBinaryStl(bytes) ? std::optional(MeshFileKind::stl) : std::nullopt;
   const DecodedText decoded(found ? std::span<const std::byte>() : bytes);
   const std::span<const std::byte> content = found ? bytes : decoded.bytes();

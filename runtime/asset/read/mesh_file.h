@@ -1,5 +1,5 @@
 #pragma once
-// Files of triangles from outside, whatever their format.
+// Reads mesh files from outside, of any supported format.
 
 #include <cstddef>
 #include <optional>
@@ -13,23 +13,23 @@ namespace sgm::asset {
 
 enum class MeshFileKind { glb, obj, ply, stl };
 
-/// By what a path's name ends in, in letters of any case; .gltf is read as .glb is. Error: invalid_argument, naming the
-/// endings.
+/// The kind by the extension of a path, in any case; .gltf is read as .glb. Error: invalid_argument, with the supported
+/// extensions.
 Result<MeshFileKind> meshFileKind(std::string_view path);
-/// By how a file begins, or by its size; nullopt if it is none of the four.
+/// The kind by the first bytes of a file, or by its size; nullopt if the format is unknown.
 std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes);
 
-/// What to do about a file that its reader refuses.
+/// The remedy for a file that its reader rejects.
 std::string_view meshFileAdvice(MeshFileKind kind);
 
-/// The triangles of a file, as the reader of its kind says. The bytes decide the kind where they tell it: `named` is
-/// what a name or a media type says, nullopt if that says nothing, and a note tells if the bytes say something else.
+/// Reads the triangles of a file by the reader of its kind. The bytes determine the kind if they are unambiguous.
+/// `named` is the kind by the file name or media type, nullopt if unknown; if the bytes contradict it, a note is added.
 /// Text may be in UTF-8 or UTF-16. Linear in the file's size. Errors: bad_input, with the line, the byte or the JSON
-/// pointer in the message; limit. Behind what is wrong the message says what to do.
+/// pointer in the message; limit. The message ends with a remedy.
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
                               const MeshLimits& limits = {});
 
-/// The same, with messages that say what is wrong alone; `kind` becomes that of the bytes.
+/// The same, with messages that state only the problem; `kind` is set to the kind of the bytes.
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits = {});
 

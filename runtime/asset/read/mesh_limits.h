@@ -1,5 +1,5 @@
 #pragma once
-// What a file from outside may ask for, and how it is refused: what is wrong, and where in the file.
+// Limits on files from outside, and errors that state the problem and its place in the file.
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,15 @@
 
 namespace sgm::asset {
 
-/// Beside these a reader takes no more memory than a small multiple of the file's size.
+/// Besides these, a reader takes at most a small multiple of the file's size in memory.
 struct MeshLimits {
-  size_t points = 1u << 22;  ///< of a GLB file: of all primitives, each as often as nodes show it
+  size_t points = 1u << 22;  ///< of a GLB file: of all primitives, once for each node that shows them
   size_t triangles = 1u << 22;
   double farthest = 1e6;         ///< metres from the origin, along each axis
   size_t json_bytes = 1u << 20;  ///< of a GLB file
   size_t nodes = 1u << 16;       ///< of a GLB file
 
-  /// Points are numbered in 32 bits, and the last number means none.
+  /// Point indices have 32 bits, and the largest one means none.
   size_t mostPoints() const { return std::min<size_t>(points, 0xFFFFFFFEu); }
   bool isPlace(double x, double y, double z) const {
     return std::fabs(x) <= farthest && std::fabs(y) <= farthest && std::fabs(z) <= farthest;
@@ -29,10 +29,10 @@ struct MeshLimits {
 
 inline std::string noPlaceWithin(const MeshLimits& limits) {
   const std::string farthest = std::to_string(static_cast<long long>(limits.farthest));
-  return "that is no number from -" + farthest + " to " + farthest;
+  return "that is not a number from -" + farthest + " to " + farthest;
 }
 
-/// Whether a number from a file is one that attributes hold.
+/// True if an attribute can store the number.
 inline bool isFloat(double value) { return std::fabs(value) <= double{std::numeric_limits<float>::max()}; }
 
 inline Error wrongAtByte(std::string_view what, size_t byte) {
@@ -45,7 +45,7 @@ inline Error wrongAtLine(std::string_view what, size_t line) {
 inline Error wrongInJson(std::string_view what, std::string_view pointer) {
   return {Code::bad_input, std::string(what) + ", at " + std::string(pointer) + " of its JSON", 0, 0};
 }
-/// The pointer in a message of wrongInJson(), whatever stands around it; empty where there is none.
+/// The pointer in a message of wrongInJson(), with any text around it; empty if there is none.
 inline std::string_view pointerIn(std::string_view message) {
   const size_t end = message.find(" of its JSON");
   const size_t begin = message.substr(0, end).rfind(", at /");

@@ -1,5 +1,5 @@
 #pragma once
-// Notes of a reader: each tells what it left out of a file or how it read a part that is not as the format demands.
+// Notes of a reader: each reports a part of a file that it left out, or how it read a part that violates the format.
 
 #include <cstddef>
 #include <string>
@@ -25,8 +25,8 @@ inline std::string counted(size_t count, std::string_view one, std::string_view 
   return std::to_string(count).append(" ").append(count == 1 ? one : several);
 }
 
-/// Appends "3 lines are left out, the first at line 9: behind" if the places have any; `one` and `several` hold noun
-/// and verb.
+/// Appends "3 lines are left out, the first at line 9: behind" if the places have any; `one` and `several` are noun and
+/// verb.
 inline void addNote(std::vector<std::string>& notes, const NotedPlaces& places, std::string_view one,
                     std::string_view several, std::string_view behind = {}) {
   if (places.count == 0) return;

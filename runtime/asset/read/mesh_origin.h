@@ -1,5 +1,5 @@
 #pragma once
-// Where the positions of a file that we exported count from.
+// The origin of the positions in a file exported by this library.
 
 #include <cstddef>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace sgm::asset {
 
-/// Metres, as mesh/export/export.h writes it into every format: exports keep their positions near 0, where floats are
-/// fine. {0, 0, 0} of any other file. Looks at the file's first megabyte alone.
+/// In metres, as mesh/export/export.h writes it into every format: exports keep their positions near 0, where floats
+/// are precise. {0, 0, 0} for any other file. Reads only the file's first megabyte.
 Point originOf(std::span<const std::byte> bytes);
 
 }  // namespace sgm::asset

@@ -19,14 +19,15 @@ using Corners = std::array<uint32_t, 3>;
 
 constexpr uint32_t kNoValue = 0xFFFFFFFFu;
 
-/// Words that begin lines without triangles, so that leaving these out changes nothing.
+/// Keywords of lines without triangles, which can be ignored.
 constexpr std::string_view kIdleWords[] = {
     "g",   "o",     "s",     "mg",         "mtllib",    "maplib", "usemap", "bevel", "c_interp", "d_interp", "lod",
     "vp",  "step",  "bmat",  "deg",        "cstype",    "parm",   "trim",   "hole",  "scrv",     "sp",       "end",
     "con", "ctech", "stech", "shadow_obj", "trace_obj", "bsp",    "bzp",    "cdc",   "cdp",      "res"};
 constexpr std::string_view kCurveWords[] = {"curv", "curv2", "surf"};
 
-/// The values of corners, or of points where all corners of each point have the same one; zero where there is none.
+/// Stores values per point instead of per corner, if all corners of each point have the same value; zero if there is
+/// none.
 template <class Value>
 void settleByPoint(CornerValues<Value>& of, const std::vector<Corners>& triangles, size_t points) {
   if (of.corners.empty()) {
@@ -81,8 +82,8 @@ class ObjReader {
   }
 
  private:
-  /// The highest number that faces have named so far, and where: what it names may come later. And the numbers that can
-  /// name nothing.
+  /// The highest index that faces have used so far, and its place: the element may come later. Also the invalid
+  /// indices.
   struct Reach {
     size_t number = 0, line = 0;
     NotedPlaces never;
@@ -122,7 +123,7 @@ class ObjReader {
     } else if (isName(keyword)) {
       unknown_.add([&] { return here() + ", " + shown(keyword); });
     } else {
-      return fail(shown(keyword) + " begins no line of an OBJ file");
+      return fail(shown(keyword) + " is not a keyword of an OBJ file");
     }
     return true;
   }
@@ -145,7 +146,7 @@ class ObjReader {
            !(word[0] >= '0' && word[0] <= '9');
   }
 
-  /// `least` numbers of the line at least, and at most `most`.
+  /// Reads at least `least` and at most `most` numbers of the line.
   bool numbers(double* out, size_t least, size_t most, std::string_view keyword) {
     for (size_t i = 0; i < most; ++i) {
       const std::string_view word = text_.word();
@@ -154,7 +155,7 @@ class ObjReader {
         return fail("a `" + std::string(keyword) + "` has fewer than " + std::to_string(least) + " numbers");
       }
       const std::optional<double> value = numberIn(word);
-      if (!value) return fail(shown(word) + " is no number");
+      if (!value) return fail(shown(word) + " is not a number");
       out[i] = *value;
     }
     return true;
@@ -196,7 +197,7 @@ class ObjReader {
   }
 
   bool face() {
-    // Most are triangles.
+    // The common case: a triangle.
     std::array<Corner, 3> first;
     std::string_view word;
     const auto more = [&] {
@@ -226,7 +227,7 @@ class ObjReader {
     return bool(cut);
   }
 
-  /// `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; behind a slash there may be nothing.
+  /// `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; the part after a slash may be empty.
   [[gnu::always_inline]] bool corner(std::string_view word, Corner& out) {
     out = {};
     const char *at = word.data(), *const end = at + word.size();
@@ -241,13 +242,13 @@ class ObjReader {
       }
     }
     if (good && at == end) return true;
-    return fail(shown(word) + " is no corner of a face");
+    return fail(shown(word) + " is not a corner of a face");
   }
 
-  /// A number from 1, or from -1 backwards from what is `there` so far. False if there are no digits; kNoValue of a
-  /// number that can name nothing.
+  /// An index from 1, or from -1 backwards from the `there` elements so far. Returns false if there are no digits; out
+  /// is kNoValue if the index is invalid.
   [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
-    // By hand: half of a file is such numbers. Longer ones than any that fits in 32 bits end as too large.
+    // Parsed by hand, because half of a file is such numbers. Numbers too long for 32 bits end up as too large.
     const bool backwards = at < end && *at == '-';
     if (backwards) ++at;
     const char* const digits = at;
@@ -281,7 +282,7 @@ class ObjReader {
     return true;
   }
 
-  /// Nothing is kept before the first face that has any.
+  /// The list stays empty until the first face with such values.
   [[gnu::always_inline]] void addCorners(std::vector<Corners>& list, const Corners& corners) {
     constexpr Corners kNoCorners{kNoValue, kNoValue, kNoValue};
     if (list.empty() && corners == kNoCorners) return;
@@ -289,7 +290,7 @@ class ObjReader {
     list.push_back(corners);
   }
 
-  /// Corners that name values which the file does not have are left without.
+  /// Corners with indices of values that the file lacks get none.
   template <class Value>
   void dropMissing(CornerValues<Value>& of, const Reach& reach, std::string_view what) {
     const size_t there = of.values.size();
@@ -309,7 +310,7 @@ class ObjReader {
                               .append(what)
                               .append(" that the file does not have, such as ")
                               .append(missing.first)
-                              .append(": read without"));
+                              .append(": read without them"));
   }
 
   TextReader text_;

@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ to triangles. The file is untrusted: all that it says is checked, and what it may ask for is capped.
+// Reads triangles from Wavefront OBJ. The file is untrusted: all its values are checked, and its demands are limited.
 
 #include <cstddef>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace sgm::asset {
 
-/// The file's faces with the names that `usemtl` gives, polygons cut into triangles; points are those of `v`, in their
-/// order, whether a face uses them or not. Objects, groups and what `mtllib` names are left out. Notes tell of lines,
-/// points and curves that are left out, of polygons that cross themselves, and of corners that name normals or texture
-/// coordinates which the file does not have. Errors: bad_input, with the line in the message and beside it; limit.
+/// The file's faces, cut into triangles, with the names that `usemtl` gives; the points are those of `v`, in their
+/// order, even if no face uses them. Objects, groups and `mtllib` files are ignored. Notes report lines, points and
+/// curves that are left out, polygons that cross themselves, and corners that refer to missing normals or texture
+/// coordinates. Errors: bad_input, with the line in the message and in Error::line; limit.
 Result<TriangleMesh> readObj(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -28,7 +28,7 @@ class PlyHeaderReader {
   explicit PlyHeaderReader(std::string_view file) : file_(file), text_(file) {}
 
   Result<PlyHeader> run() {
-    if (text_.rest() != "ply") return wrongAtLine("it is no PLY file: it does not begin with `ply`", 1);
+    if (text_.rest() != "ply") return wrongAtLine("it is not a PLY file: it does not begin with `ply`", 1);
     bool formatted = false;
     for (;;) {
       if (!text_.nextLine()) return wrong("it ends within its header");
@@ -38,7 +38,7 @@ class PlyHeaderReader {
       Result<void> read = keyword == "format"     ? format()
                           : keyword == "element"  ? element()
                           : keyword == "property" ? property()
-                                                  : wrong(shown(keyword) + " begins no line of a PLY header");
+                                                  : wrong(shown(keyword) + " is not a keyword of a PLY header");
       if (!read) return read.error();
       formatted = formatted || keyword == "format";
     }
@@ -61,7 +61,7 @@ class PlyHeaderReader {
       return {};
     }
     return wrong("it has the format " + shown(word) + " of version " + shown(version) +
-                 ", and of 1.0 there are `ascii`, `binary_little_endian` and `binary_big_endian`");
+                 "; the formats of version 1.0 are `ascii`, `binary_little_endian` and `binary_big_endian`");
   }
 
   Result<void> element() {
@@ -70,7 +70,7 @@ class PlyHeaderReader {
     const std::string_view count = text_.word();
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc() || stop != count.data() + count.size() || count.empty())
-      return wrong(shown(count) + " is no number of elements");
+      return wrong(shown(count) + " is not a number of elements");
     const bool known = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
     for (const PlyElement& other : header_.elements)
       if (known && other.name == element.name) return wrong("it has two elements " + shown(element.name));
@@ -86,11 +86,11 @@ class PlyHeaderReader {
       word = text_.word();
       property.count = typeOf(word);
       if (!property.count || *property.count >= PlyType::float32)
-        return wrong(shown(word) + " is no type of a list's length");
+        return wrong(shown(word) + " is not a type of a list's length");
       word = text_.word();
     }
     const std::optional<PlyType> type = typeOf(word);
-    if (!type) return wrong(shown(word) + " is no type of a property");
+    if (!type) return wrong(shown(word) + " is not a type of a property");
     property.type = *type;
     property.name = cleanName(text_.word());
     if (property.name.empty()) return wrong("a property has no name");
@@ -98,7 +98,8 @@ class PlyHeaderReader {
     return {};
   }
 
-  /// Behind the header's last line, which ends as its first one does: a binary number may begin with a line's end.
+  /// The offset after the header's last line, which ends as its first one does: a binary number may begin with a line
+  /// end.
   size_t numbersBegin(size_t at) const {
     const std::string_view end = file_.substr(at, 2);
     if (end == "\r\n" && file_.find('\n') == file_.find('\r') + 1) return at + 2;

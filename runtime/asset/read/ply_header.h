@@ -1,5 +1,5 @@
 #pragma once
-// What a PLY file says of itself before its numbers begin.
+// The header of a PLY file.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,22 +23,22 @@ constexpr size_t sizeOf(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type{};
-  std::optional<PlyType> count;  ///< of a list: what tells its length; nothing: one number
+  std::optional<PlyType> count;  ///< type of a list's length; nullopt: a single number
 };
 
 struct PlyElement {
   std::string name;
-  size_t count = 0;  ///< as the file says; nothing vouches for it
+  size_t count = 0;  ///< as the file declares, unchecked
   std::vector<PlyProperty> properties;
 
-  /// The number of a property; as many as there are where it is none of them.
+  /// The index of a property; the number of properties if it is missing.
   size_t find(std::string_view property) const;
 };
 
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  size_t bytes = 0;  ///< where the numbers begin
+  size_t bytes = 0;  ///< offset of the first number
   size_t lines = 0;
 };
 

@@ -85,7 +85,7 @@ class PlyBinaryValues {
   Result<void> end(bool whole, std::vector<std::string>& notes) {
     if (whole && at_ < bytes_.size())
       notes.push_back(
-          counted(bytes_.size() - at_, "byte behind its last element is", "bytes behind its last element are") +
+          counted(bytes_.size() - at_, "byte after its last element is", "bytes after its last element are") +
           " left out, at " + byteText(at_));
     return {};
   }
@@ -113,7 +113,7 @@ class PlyBodyReader {
     if (!strips && named("face") == header_.elements.end())
       return Error{Code::bad_input, "it has no element `face`", 0, 0};
     vertex_count_ = std::min(vertices->count, limits_.mostPoints());
-    size_t due = 0;  // elements up to the last one that holds points or triangles
+    size_t due = 0;  // elements up to the last one that has points or triangles
     for (size_t i = 0; i < header_.elements.size(); ++i)
       if (isRead(header_.elements[i])) due = i + 1;
     size_t next = 0;
@@ -137,12 +137,12 @@ class PlyBodyReader {
   Result<void> elements(const PlyElement& element) {
     values_.beginRecord();
     if (!element.properties.empty() && element.count > values_.most(element))
-      return values_.wrong("it says that it has " + std::to_string(element.count) + " of the element " +
-                           shown(element.name) + ", and has bytes for " + std::to_string(values_.most(element)) +
+      return values_.wrong("its header declares " + std::to_string(element.count) + " of the element " +
+                           shown(element.name) + ", and it has bytes for " + std::to_string(values_.most(element)) +
                            " at most");
     if (element.name == "vertex") return vertices(element);
     if (isRead(element)) return faces(element);
-    // Without properties they are nothing, however many.
+    // Elements without properties take no bytes, however many there are.
     for (size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       values_.beginRecord();
       for (const PlyProperty& p : element.properties)
@@ -153,12 +153,12 @@ class PlyBodyReader {
   }
 
   Error endsWithin(const PlyElement& element, size_t i) const {
-    return values_.wrong((bad_length_ ? "it has a list of no length" : values_.problem()) + " within " +
+    return values_.wrong((bad_length_ ? "it has a list without a length" : values_.problem()) + " within " +
                          std::to_string(i) + " of " + std::to_string(element.count) + " of the element " +
                          shown(element.name) + ", counted from 0" + perhapsVertices(element));
   }
 
-  /// Behind the vertices, of a text: where a line makes no sense it may be another vertex.
+  /// For a text, after the vertices: an invalid line may be another vertex.
   std::string perhapsVertices(const PlyElement& element) const {
     if (element.name == "vertex" || !values_.hasSpareLines()) return {};
     return ": the file has more lines than the header declares, perhaps more vertices";
@@ -179,7 +179,7 @@ class PlyBodyReader {
   }
 
   static constexpr size_t kNowhere = 8;
-  /// Where each property goes: x y z, nx ny nz, u v, or nowhere.
+  /// The target of each property: x y z, nx ny nz, u v, or none.
   std::vector<size_t> roles(const PlyElement& element) {
     std::vector<size_t> out(element.properties.size(), kNowhere);
     const auto give = [&](std::initializer_list<std::string_view> names, size_t first) {
@@ -228,7 +228,7 @@ class PlyBodyReader {
     return {};
   }
 
-  /// Of `face` or of `tristrips`.
+  /// Reads `face` or `tristrips`.
   Result<void> faces(const PlyElement& element) {
     if (element.count == 0) return {};
     const size_t count = element.properties.size();
@@ -251,7 +251,7 @@ class PlyBodyReader {
     return {};
   }
 
-  /// Of a list of strips the end of one is -1.
+  /// In a list of strips, -1 ends a strip.
   Result<void> face(const PlyElement& element, size_t i, const PlyProperty& list, bool strips) {
     double length = 0;
     if (!takeLength(list, length)) return endsWithin(element, i);
@@ -262,8 +262,8 @@ class PlyBodyReader {
       const bool ends = strips && value == -1;
       if (!ends && (!(value >= 0 && value < static_cast<double>(vertex_count_)) || value != std::floor(value)))
         return values_.wrong((strips ? "strip " : "face ") + std::to_string(i) +
-                             " has a corner that is none of the file's " + std::to_string(vertex_count_) + " vertices" +
-                             perhapsVertices(element));
+                             " has a corner that is not one of the file's " + std::to_string(vertex_count_) +
+                             " vertices" + perhapsVertices(element));
       corners_.push_back(ends ? kStripEnd : static_cast<uint32_t>(value));
     }
     if (strips) return strip();
@@ -287,7 +287,7 @@ class PlyBodyReader {
     return corners_.size() == 3 ? Result<void>() : cutter_.add(corners_.size(), values_.place());
   }
 
-  /// Every other triangle of a strip is turned round; those that only lead on to the next one have a corner twice.
+  /// Every other triangle of a strip is reversed; those that only connect strips have a repeated corner.
   Result<void> strip() {
     size_t begin = 0;
     for (size_t k = 0; k < corners_.size(); ++k) {

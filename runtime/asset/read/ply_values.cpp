@@ -20,7 +20,7 @@ bool PlyTextValues::hasSpareLines() const {
   return all.lines > all.records;
 }
 
-/// Counts the lines, once a line has more or fewer values than its record.
+/// Counts the lines when a line first has more or fewer values than its record.
 void PlyTextValues::findLayout() {
   if (layout_ != Layout::unknown) return;
   const auto [records, lines] = counts();
@@ -39,7 +39,7 @@ bool PlyTextValues::passSurplus() {
   findLayout();
   if (layout_ == Layout::words) return true;
   if (wrapped_) {
-    problem_ = "a line has more values than the header declares, behind one with fewer";
+    problem_ = "a line has more values than the header declares, after one with fewer";
     return false;
   }
   surplus_.add([&] { return lineText(header_.lines + text_.line()); });
@@ -52,7 +52,7 @@ Result<void> PlyTextValues::end(bool whole, std::vector<std::string>& notes) {
   if (more && layout_ == Layout::words) return wrong("it has more values than the header declares");
   addNote(notes, surplus_, "line has more values than the header declares",
           "lines have more values than the header declares", ": left out");
-  if (more) notes.push_back("text behind its last element is left out, at " + lineText(header_.lines + text_.line()));
+  if (more) notes.push_back("text after its last element is left out, at " + lineText(header_.lines + text_.line()));
   return {};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a PLY file's body that is text, one after another.
+// The numbers in the body of a PLY text file, one after another.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace sgm::asset {
 
-/// The numbers of a text. A line is a record, as most programs write it: values on it that the header does not declare
-/// are passed over. If there are fewer lines than records, values follow each other whatever the lines.
+/// The numbers of a text. A line is a record, as most programs write it, and undeclared values on it are skipped. If
+/// there are fewer lines than records, line ends have no meaning.
 class PlyTextValues {
  public:
   static constexpr std::string_view kUnit = "line";
@@ -44,19 +44,19 @@ class PlyTextValues {
     out = value.value_or(0);
     return value.has_value();
   }
-  /// False if the line goes on where it cannot be told what its values are.
+  /// False if the line continues and the meaning of its values is ambiguous.
   bool endRecord() { return text_.isLineDone() || passSurplus(); }
-  /// Each number takes a digit and a blank.
+  /// An upper bound of the number of records: each number takes a digit and a blank.
   size_t most(const PlyElement& element) const { return (text_.bytesLeft() + 1) / (2 * element.properties.size()); }
   const std::string& problem() const { return problem_; }
   Error wrong(std::string_view what) const { return wrongAtLine(what, header_.lines + text_.line()); }
   /// The line on which the record began.
   size_t place() const { return place_; }
-  /// Whether only the count of all values shows that they are as declared.
+  /// True if only the total number of values shows that they match the header.
   bool mustReadAll() const { return layout_ == Layout::words; }
-  /// Whether the file has more lines than the header declares records.
+  /// True if the file has more lines than the header declares records.
   bool hasSpareLines() const;
-  /// Adds notes. whole: all elements have been read. Error: bad_input, if values are left that may be anyone's.
+  /// Adds notes. whole: all elements have been read. Error: bad_input if ambiguous values are left.
   Result<void> end(bool whole, std::vector<std::string>& notes);
 
  private:
@@ -74,7 +74,7 @@ class PlyTextValues {
   const TextReader all_;
   const PlyHeader& header_;
   Layout layout_ = Layout::unknown;
-  bool line_a_record_ = false;  ///< as many lines as records
+  bool line_a_record_ = false;  ///< there are as many lines as records
   bool begun_ = false, wrapped_ = false;
   size_t place_ = 0;
   std::string problem_;

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the edges of a polygon cross each other.
+// Checks whether the edges of a polygon cross each other.
 
 #include <span>
 
@@ -7,9 +7,9 @@
 
 namespace sgm::asset {
 
-/// Of a polygon in the plane across the axis `drop` (0..2): whether two edges cross, or a corner on an edge leads from
-/// one of its sides to the other. Corners and edges that touch, or lie on each other, do not cross. A sweep along the
-/// plane (Shamos and Hoey, "Geometric Intersection Problems", FOCS 1976): n log n steps, by exact signs.
+/// For a polygon projected along the axis `drop` (0..2): true if two edges cross, or the polygon passes through an edge
+/// at one of its corners. Corners and edges that only touch or overlap do not cross. A plane sweep (Shamos and Hoey,
+/// "Geometric Intersection Problems", FOCS 1976): n log n steps, with exact signs.
 bool crossesItself(std::span<const Point> polygon, int drop);
 
 }  // namespace sgm::asset

@@ -24,8 +24,8 @@ Result<void> PolygonCutter::addOther(size_t first, size_t corners, size_t place)
   return cut({first, corners, place});
 }
 
-/// Whether all triangles of the fan look the same way and go round its first corner once at most, with so much to spare
-/// that rounding plays no part.
+/// True if all triangles of the fan face the same way and go around its first corner at most once, with a margin larger
+/// than the rounding.
 bool PolygonCutter::isPlainFan(const Polygon& polygon) const {
   const Point first = corners_[0];
   Point normal;

@@ -1,5 +1,5 @@
 #pragma once
-// The polygons of a file, which its reader has put into a mesh as fans: those whose fan is wrong are cut anew.
+// Triangulates again the polygons of a file whose fan, as added by the reader, is wrong.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace sgm::asset {
 
-/// A corner that stands twice in a row is one, unless fewer than three would be left.
+/// Merges consecutive equal corners, unless fewer than three would be left.
 template <class Corner, class Same>
 void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   size_t different = corners.empty() || same(corners.front(), corners.back()) ? 0 : 1;
@@ -25,22 +25,21 @@ void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   if (same(corners.front(), corners.back())) corners.pop_back();
 }
 
-/// Triangles stay in their place in the mesh, as many as a fan has; corners of normals and texture coordinates go
-/// along.
+/// The triangles keep their place and number in the mesh; the corners of normals and texture coordinates follow.
 class PolygonCutter {
  public:
   /// unit: of places, such as "line".
   PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t most_steps = EarClipping::kMostSteps)
       : mesh_(mesh), unit_(unit), clipping_(most_steps) {}
 
-  /// The mesh's last triangles are the fan of a polygon with this many corners, at least four. One whose points are not
-  /// all there yet is kept for finish(). Error: limit, where polygons are too intricate.
+  /// The mesh's last triangles must be the fan of a polygon with this many corners, at least four. A polygon with
+  /// points not read yet is kept for finish(). Error: limit if the polygons are too intricate.
   Result<void> add(size_t corners, size_t place) {
     const size_t first = mesh_.triangles.size() - (corners - 2);
     if (corners == 4 && isPlainQuad(first)) return {};
     return addOther(first, corners, place);
   }
-  /// Cuts what was kept, and notes the polygons that cross themselves. Once, when all points are there.
+  /// Cuts the kept polygons, and notes those that cross themselves. Call once, after all points have been read.
   Result<void> finish();
 
  private:
@@ -48,7 +47,7 @@ class PolygonCutter {
     size_t first, corners, place;
   };
 
-  /// The two triangles of a quadrangle look the same way, as most do: for those no more than this is spent.
+  /// True if the two triangles of a quadrangle face the same way, the common case, which this makes cheap.
   bool isPlainQuad(size_t first) const {
     const auto& [a, b, c] = mesh_.triangles[first];
     const uint32_t d = mesh_.triangles[first + 1][2];

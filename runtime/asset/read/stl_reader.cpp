@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kCountAt = 80, kFacetsAt = 84, kFacetBytes = 50, kNormalBytes = 12;
 
 uint32_t facetCount(std::span<const std::byte> bytes) {
-  uint32_t count = 0;  // little-endian, as the machines are that we build for
+  uint32_t count = 0;  // little-endian, like all supported machines
   std::memcpy(&count, bytes.data() + kCountAt, sizeof count);
   return count;
 }
@@ -64,7 +64,7 @@ Result<TriangleMesh> readBinary(std::span<const std::byte> bytes, const MeshLimi
     addFacet(mesh, corners);
   }
   if (const size_t more = bytes.size() - sizeWith(count); more > 0)
-    mesh.notes.push_back(counted(more, "byte behind its last triangle is", "bytes behind its last triangle are") +
+    mesh.notes.push_back(counted(more, "byte after its last triangle is", "bytes after its last triangle are") +
                          " left out, at " + byteText(sizeWith(count)));
   return mesh;
 }
@@ -76,16 +76,16 @@ class StlTextReader {
   Result<TriangleMesh> run() {
     for (std::string_view word = text_.wordOfAnyLine(); !word.empty(); word = text_.wordOfAnyLine()) {
       if (!isWord(word, "solid")) {
-        // What has no more facets is left out, such as a padding; what has some is damaged.
+        // A rest without facets, such as padding, is ignored; a rest with facets means a damaged file.
         const size_t line = text_.line();
         const bool begun = !mesh_.triangles.empty();
         for (std::string_view more = word; begun && !isWord(more, "facet") && !isWord(more, "vertex");) {
           more = text_.wordOfAnyLine();
           if (!more.empty()) continue;
-          mesh_.notes.push_back("text behind its last `endsolid` is left out, at " + lineText(line));
+          mesh_.notes.push_back("text after its last `endsolid` is left out, at " + lineText(line));
           return std::move(mesh_);
         }
-        return wrongAtLine(shown(word) + " stands where `solid` is due", line);
+        return wrongAtLine(shown(word) + " stands where `solid` is expected", line);
       }
       text_.rest();  // its name
       if (Result<void> read = solid(); !read) return read.error();
@@ -96,7 +96,7 @@ class StlTextReader {
  private:
   Error failed(std::string_view due, std::string_view word) const {
     const std::string what = word.empty() ? "it ends" : shown(word) + " stands";
-    return wrongAtLine(what + " where `" + std::string(due) + "` is due", text_.line());
+    return wrongAtLine(what + " where `" + std::string(due) + "` is expected", text_.line());
   }
 
   Result<void> solid() {
@@ -119,7 +119,7 @@ class StlTextReader {
   Result<void> facet() {
     if (mesh_.triangles.size() >= mostFacets(limits_)) return overLimit(mostFacets(limits_), "triangles");
     if (auto error = words({"normal"})) return *error;
-    // Flat triangles have normals such as "nan nan nan"; nobody needs them.
+    // Flat triangles have normals such as "nan nan nan"; normals are not used.
     for (int i = 0; i < 3; ++i) text_.wordOfAnyLine();
     if (auto error = words({"outer", "loop"})) return *error;
     Point corners[3];
@@ -129,7 +129,8 @@ class StlTextReader {
         const std::string_view word = text_.wordOfAnyLine();
         const std::optional<double> value = numberIn(word);
         if (!value)
-          return wrongAtLine(word.empty() ? "it ends within a triangle" : shown(word) + " is no number", text_.line());
+          return wrongAtLine(word.empty() ? "it ends within a triangle" : shown(word) + " is not a number",
+                             text_.line());
         p[axis] = *value;
       }
       if (!limits_.isPlace(p.x, p.y, p.z))
@@ -145,8 +146,8 @@ class StlTextReader {
   TriangleMesh mesh_;
 };
 
-/// Whether the triangles that the header counts are there, and behind them no more than a program may add of its own:
-/// other files that happen to have a number there are no STL.
+/// True if the triangles counted in the header are present, and followed by no more bytes than programs may append:
+/// other files whose bytes happen to match the count are not STL.
 bool hasLittleBehind(std::span<const std::byte> bytes) {
   constexpr uint64_t kMostOwn = 4096;
   if (bytes.size() < kFacetsAt || facetCount(bytes) == 0) return false;
@@ -158,9 +159,9 @@ Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimi
   if (isBinaryStl(bytes)) return readBinary(bytes, limits);
   if (isTextStl(bytes)) return StlTextReader(textOf(bytes), limits).run();
   if (hasLittleBehind(bytes)) return readBinary(bytes, limits);
-  if (bytes.size() < kFacetsAt) return wrongAtByte("it is no STL file: it ends within its header", bytes.size());
-  return wrongAtByte("it says that it has " + std::to_string(facetCount(bytes)) + " triangles, which take " +
-                         std::to_string(sizeWith(facetCount(bytes))) + " bytes, and has " +
+  if (bytes.size() < kFacetsAt) return wrongAtByte("it is not an STL file: it ends within its header", bytes.size());
+  return wrongAtByte("its header declares " + std::to_string(facetCount(bytes)) + " triangles, which take " +
+                         std::to_string(sizeWith(facetCount(bytes))) + " bytes, and the file has " +
                          std::to_string(bytes.size()) + " bytes",
                      kCountAt);
 }
@@ -168,7 +169,7 @@ Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimi
 }  // namespace
 
 bool isTextStl(std::span<const std::byte> bytes) {
-  // A zero byte is in every binary header and count, and in no text.
+  // Every binary header and count contains a zero byte, and no text does.
   const std::string_view start = textOf(bytes.first(std::min<size_t>(bytes.size(), 512)));
   return isWord(TextReader(start).wordOfAnyLine(), "solid") && start.find('\0') == std::string_view::npos;
 }

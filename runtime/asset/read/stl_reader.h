@@ -1,6 +1,6 @@
 #pragma once
-// STL to triangles, binary and text. The file is untrusted: all that it says is checked, and what it may ask for is
-// capped.
+// Reads triangles from STL, binary and text. The file is untrusted: all its values are checked, and its demands are
+// limited.
 
 #include <cstddef>
 #include <span>
@@ -10,16 +10,16 @@
 
 namespace sgm::asset {
 
-/// Whether the bytes are binary STL by their number, which says more than their beginning: many binary files begin with
-/// "solid", as text does.
+/// True if the number of bytes fits binary STL. That is more reliable than the first bytes: many binary files begin
+/// with "solid", as text does.
 bool isBinaryStl(std::span<const std::byte> bytes);
 
-/// Whether the bytes begin as STL does as text.
+/// True if the bytes begin as text STL does.
 bool isTextStl(std::span<const std::byte> bytes);
 
-/// The file's triangles, each with three points of its own: that corners meet is for the caller to find out. Facets'
-/// normals, colours and names are left out. Notes tell of what stands behind the end. Errors: bad_input, with the line
-/// or the byte in the message; limit.
+/// The file's triangles, each with three points of its own: the caller must merge equal points. Facets' normals,
+/// colours and names are ignored. Notes report bytes after the end. Errors: bad_input, with the line or the byte in the
+/// message; limit.
 Result<TriangleMesh> readStl(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -10,13 +10,13 @@ namespace sgm::asset {
 
 namespace {
 
-/// How many bytes a unit takes, and in which order; width 1: bytes as they are, behind `mark` bytes.
+/// The width of a unit in bytes, and its byte order; width 1: unchanged bytes after `mark` bytes.
 struct Encoding {
   size_t width = 1, mark = 0;
   bool big_endian = false;
 };
 
-/// Without a mark: letters, blanks and line ends alone have zero bytes beside them, at the same places all along.
+/// Without a mark: ASCII letters, blanks and line ends have zero bytes beside them, always at the same positions.
 Encoding encodingWithoutMark(std::string_view text) {
   constexpr size_t kLooked = 64, kLeast = 8;
   const std::string_view start = text.substr(0, std::min(text.size() / 4 * 4, kLooked));

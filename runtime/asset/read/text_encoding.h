@@ -1,5 +1,5 @@
 #pragma once
-// The text of a file, whatever encoding it came in.
+// The text of a file in any encoding.
 
 #include <cstddef>
 #include <span>
@@ -8,7 +8,7 @@
 namespace sgm::asset {
 
 /// The bytes of a text file in UTF-8: a byte order mark is dropped, and UTF-16 and UTF-32 of either byte order are
-/// translated, without a mark if the zero bytes of plain letters tell them. Other bytes stay as they are. Borrows from
+/// converted, without a mark if the zero bytes of ASCII letters reveal them. Other bytes stay unchanged. Borrows from
 /// `bytes` or from itself.
 class DecodedText {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Words and numbers of a text from outside, line by line. Lines end in \n, \r\n or \r; the locale plays no part.
+// Words and numbers of a text from outside, line by line. Lines end in \n, \r\n or \r; the locale has no effect.
 
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@ namespace sgm::asset {
 
 class TextReader {
  public:
-  /// continued: a line that ends in a backslash goes on in the next one.
+  /// continued: a line that ends in a backslash continues on the next one.
   explicit TextReader(std::string_view text, bool continued = false)
       : first_(text.data()), at_(first_), end_(first_ + text.size()), continued_(continued) {}
 
@@ -33,17 +33,18 @@ class TextReader {
   /// The rest of the line, without blanks around it.
   std::string_view rest();
 
-  /// Whether no more words stand on the line.
+  /// True if the line has no more words.
   bool isLineDone() {
     skipBlanks();
     return at_ == end_ || isLineEnd(*at_);
   }
 
-  /// To the beginning of the next line; false where there is none. plain: without regard to a backslash.
+  /// Moves to the beginning of the next line; false if there is none. plain: ignores a backslash at the end of the
+  /// line.
   bool nextLine(bool plain = false);
 
   size_t line() const { return line_; }                              ///< from 1
-  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< of what comes next
+  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< of the next character
   size_t bytesLeft() const { return static_cast<size_t>(end_ - at_); }
 
  private:
@@ -71,14 +72,14 @@ class TextReader {
   size_t line_ = 1;
 };
 
-/// A decimal number, with or without a sign and an exponent; also "nan" and "inf". Infinite where it is too large for a
-/// double. Nothing where the word is something else.
+/// A decimal number, with or without a sign and an exponent; also "nan" and "inf". Infinite if it is too large for a
+/// double; nullopt if the word is not a number.
 std::optional<double> numberIn(std::string_view word);
 
-/// A word of a file as a message shows it: in quotes, cut off where it is long, without what a terminal would obey.
+/// A word of a file for a message: in quotes, cut off if it is long, without control characters for a terminal.
 std::string shown(std::string_view word);
 
-/// A name from a file: what is not UTF-8, and control characters, become '?'.
+/// A name from a file: invalid UTF-8 and control characters become '?'.
 std::string cleanName(std::string_view name);
 
 }  // namespace sgm::asset

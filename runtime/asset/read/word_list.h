@@ -1,5 +1,5 @@
 #pragma once
-// Lists of words that file formats know.
+// Lists of words of file formats.
 
 #include <algorithm>
 #include <cstddef>

@@ -12,7 +12,7 @@ namespace sgm {
 
 namespace {
 
-// Scratch goes from job to job: a chunk allocates nothing but its mesh once every thread has had one.
+// Scratch is reused from job to job: once every thread has one, a chunk allocates only its mesh.
 class ScratchPool {
  public:
   explicit ScratchPool(std::pmr::memory_resource* memory) : memory_(memory) {}
@@ -34,7 +34,7 @@ class ScratchPool {
   std::vector<std::unique_ptr<ChunkScratch>> free_;
 };
 
-// Shared by the batch and the jobs that it has submitted: the last of them ends it.
+// Shared by the batch and its submitted jobs; the last owner destroys it.
 struct BatchState {
   BatchState(const ChunkKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
              AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in,
@@ -50,8 +50,8 @@ struct BatchState {
     for (size_t i = 0; i < count; ++i) meshes.emplace_back(memory_in);
   }
 
-  // Takes jobs until none is left. A thread that comes when enough are at work leaves again: those go on until nothing
-  // is left for it either.
+  // Takes jobs until none is left. A thread that arrives when enough are working returns at once: the others finish its
+  // jobs, too.
   void run() {
     if (working.fetch_add(1) < workers) {
       for (size_t i; (i = next.fetch_add(1)) < count;) {
@@ -69,7 +69,7 @@ struct BatchState {
     working.fetch_sub(1);
   }
 
-  // Lets no exception out: it would leave through the caller's job system, which may be written in C.
+  // Must not throw: the exception would pass through the caller's job system, which may be written in C.
   void mesh(size_t i) noexcept {
     try {
       std::unique_ptr<ChunkScratch> scratch = pool->take();
@@ -78,7 +78,7 @@ struct BatchState {
         meshChunk(kernels, jobs[i], *scratch, meshes[i]);
       }
       pool->give(std::move(scratch));
-      // Here, and not by one thread for all of them in the end.
+      // Release here, rather than by one thread for all of them at the end.
       jobs[i].field.reset();
       jobs[i].coarse.reset();
       if (after_chunk && !after_chunk()) cancelled.store(true);
@@ -116,7 +116,7 @@ class CpuBatch final : public ChunkBatch {
   ~CpuBatch() override {
     cancel();
     wait();
-    // A share that the job system runs later still holds the state, but finds nothing to do: its memory goes now.
+    // A job that the job system runs later still owns the state, but finds nothing to do: free its memory now.
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
@@ -170,7 +170,7 @@ class CpuBackend final : public Backend {
         share.release();
       }
     } catch (const std::bad_alloc&) {
-      // Fewer threads then: the one that waits does what is left.
+      // Continue with fewer threads: the waiting one does the rest.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
@@ -194,8 +194,8 @@ Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set
     for (const InstructionSet& set : instructionSets()) {
       if (set.runs_here) known += (known.empty() ? "" : ", ") + std::string(set.kernels->name);
     }
-    return Error{Code::unsupported,
-                 "the CPU backend has no instruction set '" + std::string(instruction_set) + "' here; it has " + known};
+    return Error{Code::unsupported, "the CPU backend does not support the instruction set '" +
+                                        std::string(instruction_set) + "' on this machine; it supports " + known};
   }
   return std::unique_ptr<Backend>(
       std::make_unique<CpuBackend>(ChunkKernels{*kernels, *findMeshKernels(kernels->name)}, jobs, memory, profiler));

@@ -1,5 +1,5 @@
 #pragma once
-// Chunks on the job system's threads, one job a chunk.
+// Meshes chunks on the job system's threads, one job a chunk.
 
 #include <string_view>
 
@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// unsupported: no such instruction set in this build, or this processor does not run it.
+/// unsupported: this build has no such instruction set, or this processor does not support it.
 Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set, JobSystem& jobs,
                                                 std::pmr::memory_resource* memory, const Profiler& profiler);
 

@@ -1,4 +1,4 @@
-// The evaluators for every vector instruction set that this compiler can make, from one source (Highway includes this
+// The evaluators for every vector instruction set that this compiler supports, from one source (Highway includes this
 // file once for each).
 
 #include <cstring>
@@ -8,7 +8,7 @@
 #include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/instruction_sets.h"
 
-// Between those that are offered below; without one of its own a processor takes the next lower.
+// These lie between the supported sets; such processors use the next lower one.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"
@@ -44,7 +44,7 @@ constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAt
 #endif
 #if HWY_TARGETS & HWY_AVX3
 constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
-// Evaluates alike; what it lists, it lists by other instructions (extract/list_vbmi2.h).
+// Evaluates like AVX-512, but lists with other instructions (extract/list_vbmi2.h).
 constexpr FieldKernels kVbmi2{"avx512-vbmi2", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
 #endif
 

@@ -12,7 +12,7 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 const FieldKernels& bestKernels() {
-  // Asking the processor costs more than a small evaluation, and its answer does not change.
+  // Querying the processor costs more than a small evaluation, and the answer is constant.
   static const FieldKernels& best = []() -> const FieldKernels& {
     const FieldKernels* widest = &scalarKernels();
     for (const InstructionSet& set : instructionSets()) {

@@ -1,5 +1,5 @@
 #pragma once
-// The instruction sets that this build holds evaluators for, and which of them this processor runs.
+// The instruction sets with evaluators in this build, and those that this processor supports.
 
 #include <string_view>
 #include <vector>
@@ -16,10 +16,10 @@ struct InstructionSet {
 /// Scalar first, then the vector sets from narrow to wide.
 std::vector<InstructionSet> instructionSets();
 
-/// The widest that runs here; all give the same bits.
+/// The widest that this processor supports; all give the same bits.
 const FieldKernels& bestKernels();
 
-/// By name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null where it is not built or does not run here.
+/// By name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null if it is not built or not supported here.
 const FieldKernels* findKernels(std::string_view name);
 
 /// Without scalar; empty in a scalar build.

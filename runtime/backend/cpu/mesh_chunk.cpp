@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// Normals and labels at scratch.mesh's points first..last - 1, into the same places.
+/// Evaluates normals and labels at scratch.mesh's points first..last - 1, into the same indices.
 void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, size_t first, size_t last,
                         ChunkScratch& scratch) {
   if (first == last) return;
@@ -26,8 +26,7 @@ void growAttributes(MeshScratch& s, size_t count) {
   s.label.grow(0, count);
 }
 
-// A vertex lies on an edge that begins at a sample of its brick, so the brick's own program holds all that matters
-// there.
+// A vertex lies on an edge that begins at a sample of its brick, so the brick's program is sufficient there.
 void fillBody(const ChunkKernels& kernels, ChunkScratch& s, MeshPart& body) {
   std::array<uint32_t, kBrickCount + 1> start;
   kernels.mesh.sort(s.mesh, body.vertices.size(), start);
@@ -68,7 +67,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   for (int a = 0; a < 3; ++a) plane.hi[a] += kChunkCells * job.grid.cell;
   (faceIsHigh(face) ? plane.lo : plane.hi)[axis] = (faceIsHigh(face) ? plane.hi : plane.lo)[axis];
 
-  // s.whole and s.octant hold nothing that is still wanted: the body is done.
+  // The body is done, so s.whole and s.octant are free.
   prune(job.coarse->view(), plane, s.pruning, s.octant);
   const bool coarse_uniform = s.octant.solid() || s.octant.empty();
   CoarseFace coarse;
@@ -80,8 +79,8 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   polygonizeSeam(face, s.samples, coarse, job.grid, job.coarser, seam);
   if (seam.vertices.empty() || job.sums_only) return;
 
-  // Each vertex by the field of its own level. All lie in the face's plane, lateral ones as well, so what pruning to it
-  // keeps is all that they need; of a plane proven uniform it keeps nothing, and then a lateral one takes the whole.
+  // Evaluate each vertex with the field of its own level. All lie in the face's plane, even lateral ones, so a program
+  // pruned to the plane suffices. A plane proven uniform leaves no program; then a lateral vertex takes the whole one.
   auto attributesOf = [&](bool own_level, const FieldProgram& field, PrunedProgram& pruned, bool pruned_already) {
     MeshScratch& m = s.mesh;
     const size_t most = seam.vertices.size();
@@ -109,7 +108,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   kernels.mesh.hash(seam);
 }
 
-/// All of a chunk but its seams.
+/// Fills a chunk without its seams.
 void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
   mesh.solid_samples = kernels.mesh.count(s.samples);

@@ -1,5 +1,5 @@
 #pragma once
-// One chunk, from its field programs to packed meshes, in cache: bound, sample, polygonize, attribute, hash.
+// Meshes one chunk in cache, from its field programs to packed meshes: bound, sample, polygonize, attribute, hash.
 
 #include <array>
 
@@ -11,13 +11,13 @@
 
 namespace sgm {
 
-/// What a chunk is made with: both of one instruction set, or not, since all give the same bits.
+/// The kernels for a chunk. Their instruction sets may differ, since all give the same bits.
 struct ChunkKernels {
   const FieldKernels& field;
   const MeshKernels& mesh;
 };
 
-/// Of the widest set that runs here.
+/// Of the widest set that this processor supports.
 inline ChunkKernels bestChunkKernels() { return {bestKernels(), bestMeshKernels()}; }
 
 /// Working memory of one thread; grows once, then is reused from chunk to chunk.
@@ -31,15 +31,15 @@ struct ChunkScratch {
   EvalScratch evaluation;
   PruneScratch pruning;
   PrunedProgram whole, octant;
-  std::vector<PrunedProgram> bricks;  ///< x fastest; what their samples and vertices are evaluated with
+  std::vector<PrunedProgram> bricks;  ///< x fastest; programs for the bricks' samples and vertices
   MeshScratch mesh;
 };
 
-/// Pure but for scratch. Throws std::bad_alloc only.
+/// Pure except for scratch. Throws only std::bad_alloc.
 void meshChunk(const ChunkKernels& kernels, const ChunkJob& job, ChunkScratch& scratch, ChunkMesh& mesh);
 
-/// The samples of a chunk alone; false where the chunk is proven uniform (only the signs are filled). Where `faces`
-/// names some, bit (1 << Face), only the samples in those faces are sure to be there.
+/// Computes only the samples of a chunk. Returns false if the chunk is proven uniform (then only the signs are filled).
+/// If `faces`, bit (1 << Face), is not 0, only the samples in these faces are guaranteed.
 bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
                  uint8_t faces = 0);
 

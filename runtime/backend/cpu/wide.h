@@ -1,5 +1,6 @@
-// The types of shaders/common over Highway vectors. Included by evaluate_wide.cpp once for each instruction set, inside
-// that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used (rule 2).
+// The types of shaders/common over Highway vectors. evaluate_wide.cpp includes this file once for each instruction set,
+// inside that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used (rule
+// 2).
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -17,7 +18,7 @@ FN float uniformFloat(uint u) {
   return f;
 }
 
-// A mask in the width of float lanes, whatever was compared.
+// A mask with the width of float lanes, for comparisons of any type.
 struct Bool {
   hn::Mask<RealTag> m;
 };
@@ -78,7 +79,8 @@ FN Real bitsToReal(Uint u) { return hn::BitCast(RealTag(), u.v); }
 FN Uint realToBits(Real r) { return hn::BitCast(UintTag(), r.v); }
 FN Real gatherReal(Params P, Int i) { return hn::BitCast(RealTag(), hn::GatherIndex(UintTag(), P, i.v)); }
 FN Real toReal(Int i) { return hn::ConvertTo(RealTag(), i.v); }
-// For |r| < 2^31, as its callers see to: Highway's own says what comes of others, which takes four instructions more.
+// For |r| < 2^31, which callers guarantee: Highway's version also defines other results, which takes four more
+// instructions.
 FN Int toInt(Real r) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Vec<IntTag>{_mm512_cvttps_epi32(r.v.raw)};
@@ -92,7 +94,7 @@ FN Int toInt(Real r) {
 }
 FN Int toIntBits(Uint u) { return hn::BitCast(IntTag(), u.v); }
 FN Uint toUintBits(Int i) { return hn::BitCast(UintTag(), i.v); }
-// As real.h has them, where they are said in comparisons: x86's minimum of (a, b) is a where a < b, else b.
+// Same results as real.h, which uses comparisons: x86's minimum of (a, b) is a if a < b, else b.
 #define SGM_VECTOR_FORMS
 FN Real minReal(Real a, Real b) { return hn::Min(a.v, b.v); }
 FN Real maxReal(Real a, Real b) { return hn::Max(a.v, b.v); }
@@ -113,17 +115,17 @@ FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(Uin
 FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
-// Of each lane the entry of `table` that its index names, from 0 to kLanes - 1.
+// For each lane the entry of `table` at its index, 0 to kLanes - 1.
 FN Real lookUp(Real table, Int index) { return hn::TableLookupLanes(table.v, hn::IndicesFromVec(RealTag(), index.v)); }
 #if HWY_TARGET == HWY_AVX3
 #define SGM_LANE_TABLES
-// Of each lane the entry of a table of 16 that the index's lowest four bits name.
+// For each lane the entry of a table of 16 at the lowest four bits of its index.
 FN Real lookUp16(const float* table, Uint index) {
   return hn::Vec<RealTag>{_mm512_permutexvar_ps(index.v.raw, _mm512_loadu_ps(table))};
 }
 #endif
 #define SGM_ROWS
-// Rows of 8 lanes: the first, and where there are 16 lanes the second after it.
+// Rows of 8 lanes: the first; with 16 lanes, the second after it.
 FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
 #if HWY_TARGET == HWY_AVX3
   const hn::Half<UintTag> half;
@@ -146,7 +148,7 @@ FN uint64_t maskOf(Bool b) {
   return bits;
 #endif
 }
-// Bit i: whether the i-th of `count` integers is negative. Reads whole vectors.
+// Bit i: whether integer i of `count` is negative. Reads whole vectors.
 FN uint64_t signMask(const uint32_t* p, size_t count) {
   uint64_t mask = 0;
   for (size_t i = 0; i < count; i += kLanes)

@@ -1,4 +1,4 @@
-// Takes back what wide.h and shaders/common have defined, before the next instruction set's turn. No guard, as wide.h.
+// Undefines the macros of wide.h and shaders/common for the next instruction set. No guard, as in wide.h.
 
 #undef FN
 #undef PRECISE

@@ -15,7 +15,7 @@ namespace sgm {
 namespace {
 
 #ifdef SGM_VULKAN
-/// software: also where it is the CPU that computes.
+/// software: also accept a device that the CPU emulates.
 Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool software, JobSystem& jobs,
                                             std::pmr::memory_resource* memory, const Profiler& profiler) {
   Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
@@ -58,7 +58,7 @@ Result<std::shared_ptr<MeshStore>> openStore(const vulkan::BorrowedDevice&) {
 Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSystem& jobs,
                                           std::pmr::memory_resource* memory, const Profiler& profiler) {
   if (cuda::kernelImage().empty()) {
-    return Error{Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
+    return Error{Code::unsupported, "this build has no CUDA kernels: build it with nvcc installed and SGM_CUDA=ON"};
   }
   const Result<cuda::DriverTable> driver = cuda::openDriver();
   if (!driver) return driver.error();
@@ -77,7 +77,7 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   options.open = [table = *driver, lent = request.lent_context, index = device,
                   opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
     if (!lent) return cuda::openDevice(table, cuda::kernelImage(), index);
-    // As the Vulkan device: meshes that are on it would be lost and there at once.
+    // Do not reopen: as with the Vulkan device, meshes on it would be lost, yet count as present.
     if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's CUDA context was lost"};
     return cuda::borrowDevice(table, cuda::kernelImage(), *lent);
   };
@@ -93,9 +93,9 @@ Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobS
   if (request.automatic) {
     Result<std::unique_ptr<Backend>> cuda = makeCuda(request, jobs, memory, profiler);
     if (cuda) return cuda;
-    // Whoever has a GPU of NVIDIA's would wonder.
+    // Users with an NVIDIA GPU expect a reason.
     if (request.inform && !cuda::kernelImage().empty() && cuda::haveDriver()) {
-      request.inform("auto passes over CUDA: " + cuda.error().message);
+      request.inform("backend auto skips CUDA: " + cuda.error().message);
     }
     if (Result<std::unique_ptr<Backend>> hardware = makeVulkan(request, false, jobs, memory, profiler)) return hardware;
     return makeCpuBackend(request.instruction_set, jobs, memory, profiler);

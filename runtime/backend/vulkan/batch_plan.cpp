@@ -12,20 +12,20 @@ constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(b
                    kJobWords = sizeof(batch::PruneJob) / 4, kHeadWords = sizeof(batch::Head) / 4,
                    kPartWords = sizeof(batch::Part) / 4;
 constexpr uint32_t kJobsOfChunk = 3;  // bricks, planes, and planes of the coarser level
-// A shader reads records and headers in whole vectors, beyond the last one too.
+// A shader reads records and headers as whole vectors, also past the last one.
 constexpr uint32_t kBeyond = 256;
-// What 65,535 workgroups can do, of units, and what 20 bits can number, of items.
+// The limits: 65,535 workgroups for units, and 20 bits for the indices of items.
 constexpr size_t kMostChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
-/// The domain alone, the same on both sides of every seam.
+/// The job sees only the domain, the same on both sides of every seam.
 bool isUniform(const ChunkJob& job) {
   const auto bare = [](const FieldProgram& program) { return program.groups.empty(); };
   return bare(*job.field) && (seamsOf(job) == 0 || (bare(*job.coarse) && job.coarse->initial == job.field->initial));
 }
 
-/// Hands out places in scratch, multiples of four.
+/// Allocates offsets in scratch, multiples of four.
 class Places {
  public:
   uint32_t take(uint64_t words) {
@@ -44,7 +44,7 @@ void put(std::pmr::vector<uint32_t>& words, size_t at, const Record& record) {
   std::memcpy(words.data() + at, &record, sizeof record);
 }
 
-/// One batch in the making.
+/// Builds the plan of one batch.
 class Planner {
  public:
   Planner(std::span<const ChunkJob> jobs, const BatchRoom& room, BatchPlan& plan)
@@ -65,7 +65,7 @@ class Planner {
     plan.meshes = plan.sums = false;
   }
 
-  /// Takes up job i; false, and nothing has changed, where scratch would not hold it as well.
+  /// Adds job i; returns false and changes nothing if scratch is too small for it.
   bool add(uint32_t i, uint32_t most_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
@@ -115,7 +115,7 @@ class Planner {
   }
 
  private:
-  /// The program, or where that is too much for a shader what is left of it in the chunk.
+  /// Appends the program or, if it exceeds a shader's limits, its part pruned to the chunk.
   bool append(const FieldProgram& program, const ChunkJob& job, Tape& tape) {
     if (appendTape(program.view(), plan_.tape_scratch, plan_.words, tape)) return true;
     IntBox box{job.grid.origin, job.grid.origin};
@@ -125,7 +125,7 @@ class Planner {
     if (!solid && !plan_.pruned.empty()) {
       return appendTape(plan_.pruned.view(), plan_.tape_scratch, plan_.words, tape);
     }
-    // Of what is uniform nothing is left; what a seam's vertices there look like, only the whole program can tell.
+    // Pruning a uniform chunk leaves no program; but a seam's vertices there need the whole program.
     if (seamsOf(job) > 0) return false;
     ProgramView uniform;
     uniform.initial = solid ? -kFar : kFar;
@@ -133,7 +133,7 @@ class Planner {
     return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
   }
 
-  /// No unit but an item's last has fewer vertices than a subgroup has invocations.
+  /// Each unit except an item's last has at least as many vertices as a subgroup has invocations.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {

@@ -8,7 +8,7 @@ namespace {
 using namespace case_layout;
 
 constexpr size_t kCubeCount = 256, kSeamCount = 8192;
-static_assert(kCubeCases % 4 == 0, "read by fours");
+static_assert(kCubeCases % 4 == 0, "the shaders read four cases at a time");
 static_assert(kSeamCases == kCubeCases + 4 * kCubeCount);
 static_assert(kSeamFaces == kSeamCases + kSeamCount);
 static_assert(kSeamBytes == kSeamFaces + kSeamEdges);

@@ -33,7 +33,7 @@ Scope scopeOf(uint32_t uses) {
 struct Commands::Slot {
   enum State { idle, recording, submitted };
   State state = idle;
-  uint64_t value = 0;  // of the queue, where submitted
+  uint64_t value = 0;  // of the queue, if submitted
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkDescriptorPool sets = VK_NULL_HANDLE;
@@ -133,7 +133,7 @@ void Commands::acquire(std::span<const BufferRange> ranges) {
     barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
     barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_EXTERNAL;
-    // Of what several families share none is the owner.
+    // Buffers shared by several families have no owner.
     barrier.dstQueueFamilyIndex = device.sharesBuffers() ? VK_QUEUE_FAMILY_IGNORED : device.family();
     barrier.buffer = range.handle;
     barrier.offset = range.offset;
@@ -181,7 +181,7 @@ Result<void> CommandRing::fill(Commands::Slot& slot, const CommandRingOptions& o
     sets.pPoolSizes = &size;
     result = calls.vkCreateDescriptorPool(device.handle(), &sets, nullptr, &slot.sets);
   }
-  if (result != VK_SUCCESS) return errorOf(result, "a ring of command buffers");
+  if (result != VK_SUCCESS) return errorOf(result, "creating command buffers");
   return {};
 }
 
@@ -210,13 +210,13 @@ Result<Commands::Slot*> CommandRing::findSlot(uint64_t nanoseconds) {
       }
     }
     if (oldest == UINT64_MAX) {
-      if (!awaitRecorded(nanoseconds)) return Error{Code::limit, "too many recordings of commands at one time"};
+      if (!awaitRecorded(nanoseconds)) return Error{Code::limit, "too many command buffers in flight"};
       continue;
     }
-    // Another thread may have been quicker to take the one that was waited for; then there is a next one.
+    // Another thread may have taken the slot first; then wait for the next one.
     const auto ended = queue_.wait(oldest, nanoseconds);
     if (!ended) return ended.error();
-    if (!*ended) return Error{Code::limit, "the GPU has not ended its earlier work in time"};
+    if (!*ended) return Error{Code::limit, "the GPU has not finished its earlier work in time"};
   }
 }
 
@@ -245,7 +245,7 @@ Result<Commands> CommandRing::begin(uint64_t nanoseconds) {
   VkResult result = calls.vkResetCommandPool(device.handle(), (*slot)->pool, 0);
   if (result == VK_SUCCESS) result = calls.vkResetDescriptorPool(device.handle(), (*slot)->sets, 0);
   if (result == VK_SUCCESS) result = calls.vkBeginCommandBuffer((*slot)->commands, &info);
-  if (result != VK_SUCCESS) return errorOf(result, "beginning commands for " + device.info().name);
+  if (result != VK_SUCCESS) return errorOf(result, "starting to record commands for " + device.info().name);
   return commands;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Recording work for the device: a ring of command buffers, each with the descriptor sets that it needs.
+// Records work for the device: a ring of command buffers, each with its descriptor sets.
 
 #include <condition_variable>
 #include <cstddef>
@@ -27,7 +27,7 @@ struct BufferRange {
       : handle(buffer.handle()), offset(buffer.offset() + begin), size(bytes) {}
 };
 
-/// Who touches memory, a bit each.
+/// Kinds of memory access, a bit each.
 enum Uses : uint32_t {
   kCompute = 1,   ///< a shader's storage buffers
   kIndirect = 2,  ///< the workgroup counts of dispatchIndirect
@@ -37,31 +37,31 @@ enum Uses : uint32_t {
 
 class CommandRing;
 
-/// Commands being recorded; without CommandRing::submit they are never run. One thread at a time.
+/// A recording of commands; they run only if passed to CommandRing::submit. One thread at a time.
 class Commands {
  public:
   Commands(Commands&& other) noexcept;
   Commands& operator=(Commands&&) = delete;
   ~Commands();
 
-  /// The shader, its buffers in the order of their bindings and its push constants for the dispatches that follow: as
-  /// many of each as the pipeline was made for. Errors: invalid_argument, out_of_memory (the sets of this recording are
-  /// used up, too).
+  /// Sets the shader, its buffers in the order of their bindings, and its push constants for the following dispatches:
+  /// as many of each as the pipeline was made for. Errors: invalid_argument, out_of_memory (also if this recording's
+  /// sets are used up).
   Result<void> bind(const Pipeline& pipeline, std::span<const BufferRange> buffers, std::span<const std::byte> push);
-  /// Workgroups; none of the counts is above maxComputeWorkGroupCount.
+  /// Workgroup counts; each is at most maxComputeWorkGroupCount.
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
-  /// Their three counts are read from the device's memory; offset a multiple of 4.
+  /// Reads the three counts from device memory; offset a multiple of 4.
   void dispatchIndirect(const BufferRange& counts);
   /// offset and size: multiples of 4.
   void fill(const BufferRange& range, uint32_t word);
-  /// As many bytes as `from` has; the two do not overlap.
+  /// Copies as many bytes as `from` has; the two must not overlap.
   void copy(const BufferRange& from, const BufferRange& to);
-  /// As many bytes as the range has, which are at most 65,536; its offset and size are multiples of 4.
+  /// Writes as many bytes as the range has, at most 65,536; its offset and size are multiples of 4.
   void write(const BufferRange& range, std::span<const std::byte> bytes);
-  /// What `before` wrote, and has read, is done before `after` reads or writes. What the host wrote before submit()
-  /// needs none.
+  /// The accesses of `before` finish before `after` reads or writes. Data written by the host before submit() needs no
+  /// barrier.
   void barrier(uint32_t before, uint32_t after);
-  /// Takes over what another API has written in the ranges (MemoryOptions::shared), for whatever comes after. Throws
+  /// Acquires ranges that another API has written (MemoryOptions::shared), for all later commands. Throws
   /// std::bad_alloc.
   void acquire(std::span<const BufferRange> ranges);
 
@@ -77,25 +77,25 @@ class Commands {
 };
 
 struct CommandRingOptions {
-  uint32_t recordings = 4;         ///< at one time, being recorded or run
-  uint32_t binds = 256;            ///< of one recording
+  uint32_t recordings = 4;         ///< concurrent recordings, in recording or running
+  uint32_t binds = 256;            ///< per recording
   uint32_t buffers_of_a_bind = 8;  ///< on average
 };
 
-/// Any thread may use it. Takes no memory of the host's once it is made. Outlived by the queue.
+/// Thread-safe. Takes no host memory after its creation. The queue must outlive it.
 class CommandRing {
  public:
   /// Errors: out_of_memory.
   static Result<std::unique_ptr<CommandRing>> create(Queue& queue, const CommandRingOptions& options = {});
-  /// Waits for the queue. No recording is left.
+  /// Waits for the queue. Precondition: no recording is left.
   ~CommandRing();
   CommandRing(const CommandRing&) = delete;
   CommandRing& operator=(const CommandRing&) = delete;
 
-  /// Begins a recording; where none is idle, waits at most so many nanoseconds for the next to be. No thread may begin
-  /// as many at one time as there are. Errors: limit (none was in time), device_lost, out_of_memory.
+  /// Begins a recording; if none is idle, waits at most this long for one. A thread must not hold all recordings and
+  /// begin another. Errors: limit (timeout), device_lost, out_of_memory.
   Result<Commands> begin(uint64_t nanoseconds = UINT64_MAX);
-  /// Gives the work to the queue, as Queue::submit. Whatever comes of it, the recording has ended.
+  /// Submits the work as Queue::submit. The recording ends, even on error.
   Result<uint64_t> submit(Commands commands);
 
  private:
@@ -103,7 +103,7 @@ class CommandRing {
   explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
-  /// Whether one is not being recorded, after at most so long.
+  /// Waits at most this long. Returns whether a slot is not in recording.
   bool awaitRecorded(uint64_t nanoseconds);
 
   Queue& queue_;

@@ -37,14 +37,15 @@ Result<std::unique_ptr<Device>> Device::open(const OwnDevice& options) {
 Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   if (!engine.get_instance_proc_addr || !engine.instance || !engine.physical || !engine.device || !engine.queue) {
     return Error{Code::invalid_argument,
-                 "a lent Vulkan device needs vkGetInstanceProcAddr, instance, physical device, device and queue"};
+                 "an external Vulkan device needs vkGetInstanceProcAddr, instance, physical device, device and queue"};
   }
   if (!engine.lock != !engine.unlock) {
-    return Error{Code::invalid_argument, "a lent Vulkan queue has a lock and an unlock function, or neither"};
+    return Error{Code::invalid_argument,
+                 "an external Vulkan queue needs both a lock and an unlock function, or neither"};
   }
   if (engine.api_version < VK_API_VERSION_1_2) {
     return Error{Code::unsupported,
-                 "the engine's Vulkan instance was made for less than Vulkan 1.2: its apiVersion is " +
+                 "the engine's Vulkan instance was created for a version below Vulkan 1.2: its apiVersion is " +
                      std::to_string(VK_API_VERSION_MAJOR(engine.api_version)) + "." +
                      std::to_string(VK_API_VERSION_MINOR(engine.api_version))};
   }
@@ -68,7 +69,8 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
     return Error{Code::invalid_argument, device->info_.name + " has no queue family " + std::to_string(family)};
   }
   if (!(families[engine.family].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
-    return Error{Code::unsupported, "the engine's Vulkan queue does not compute: lend one of another family"};
+    return Error{Code::unsupported,
+                 "the engine's Vulkan queue does not support compute: lend a queue of another family"};
   }
   device->device_ = engine.device;
   device->queue_ = engine.queue;
@@ -83,11 +85,11 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   if (auto loaded = device->load(engine.replace_calls); !loaded) return loaded.error();
   if (engine.external_memory && !device->calls_.vkGetMemoryFdKHR) {
     return Error{Code::unsupported,
-                 "the engine's Vulkan device was made without the extension VK_KHR_external_memory_fd: enable it, or "
-                 "say nothing of external memory"};
+                 "the engine's Vulkan device was created without the extension VK_KHR_external_memory_fd: enable it, "
+                 "or set external_memory to 0"};
   }
   if (engine.external_memory && !sharedMemoryNeeds(*device)) {
-    return Error{Code::unsupported, device->info_.name + " shares no memory with other APIs"};
+    return Error{Code::unsupported, device->info_.name + " cannot share memory with other APIs"};
   }
   return device;
 }
@@ -107,11 +109,11 @@ Result<void> Device::choose(const OwnDevice& options) {
   if (!devices) return devices.error();
   if (devices->empty()) {
     return Error{Code::unsupported,
-                 "no Vulkan device here: install your GPU's driver, or mesa-vulkan-drivers for software Vulkan"};
+                 "there is no Vulkan device: install your GPU's driver, or mesa-vulkan-drivers for software Vulkan"};
   }
   const int count = static_cast<int>(devices->size());
   if (options.index >= count) {
-    return Error{Code::unsupported, "no Vulkan device " + std::to_string(options.index) + ": there are " +
+    return Error{Code::unsupported, "there is no Vulkan device " + std::to_string(options.index) + ": there are " +
                                         std::to_string(count) + ", counted from 0"};
   }
   if (options.index >= 0) {
@@ -126,7 +128,7 @@ Result<void> Device::choose(const OwnDevice& options) {
     const DeviceInfo info = describe(instance_calls_, device);
     std::string lack = lackOf(info);
     if (lack.empty() && info.software() && !options.software) {
-      lack = info.name + " runs on the CPU and was not asked for";
+      lack = info.name + " runs on the CPU and was not requested";
     }
     if (!lack.empty()) {
       lacks += "; " + lack;
@@ -135,7 +137,7 @@ Result<void> Device::choose(const OwnDevice& options) {
       chosen = device;
     }
   }
-  if (!chosen) return Error{Code::unsupported, "no usable Vulkan device here" + lacks};
+  if (!chosen) return Error{Code::unsupported, "there is no usable Vulkan device" + lacks};
   adopt(chosen);
   return {};
 }
@@ -153,7 +155,7 @@ Result<void> Device::openDevice() {
   instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-  // A family without graphics computes beside what others draw.
+  // A family without graphics computes concurrently with drawing.
   bool drawing = true;
   for (uint32_t i = 0; i < count && drawing; ++i) {
     const VkQueueFlags flags = families[i].queueFlags;

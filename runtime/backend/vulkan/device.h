@@ -1,5 +1,5 @@
 #pragma once
-// The device that the Vulkan backend computes on: one of our own, or the engine's, borrowed.
+// The device of the Vulkan backend: its own, or the engine's (external).
 
 #include <algorithm>
 #include <functional>
@@ -12,12 +12,12 @@
 
 namespace sgm::vulkan {
 
-/// May replace entries of the device's table before any of them is called; for tests that make calls fail.
+/// May replace entries of the device's table before any of them is called; tests use it to make calls fail.
 using ReplaceCalls = std::function<void(DeviceTable&)>;
 
 struct OwnDevice {
-  int index = -1;         ///< in the order of listDevices(); -1 takes the fastest kind that can be used
-  bool software = false;  ///< index -1: take a software device where there is no hardware
+  int index = -1;         ///< in the order of listDevices(); -1: the fastest usable kind
+  bool software = false;  ///< for index -1: accept a software device if there is no hardware
   Validation validation = Validation::none;
   std::shared_ptr<MessageLog> log = nullptr;  ///< as InstanceOptions::log
   std::function<void(InstanceTable&)> replace_instance_calls = nullptr;
@@ -32,30 +32,31 @@ struct BorrowedDevice {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t family = 0;            ///< the queue's
-  std::vector<uint32_t> readers;  ///< families of other queues that use meshes
-  /// Called around every use of the queue, on the thread that submits; both or neither. null: nobody but us uses it.
+  std::vector<uint32_t> readers;  ///< families of other queues that read meshes
+  /// Called around every use of the queue, on the submitting thread; set both or neither. null: only the library uses
+  /// the queue.
   void (*lock)(void* user) = nullptr;
   void (*unlock)(void* user) = nullptr;
   void* user = nullptr;
-  // What the engine enabled, which Vulkan does not tell:
+  // The features that the engine has enabled, which Vulkan does not report:
   uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;    ///< the feature timelineSemaphore
   bool memory_budget = false;          ///< the extension VK_EXT_memory_budget
   bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd
-  uint64_t resident_cap = UINT64_MAX;  ///< bytes of its memory for meshes that stay there, at most
-  /// Keeps those of ours who borrow the queue apart.
+  uint64_t resident_cap = UINT64_MAX;  ///< limit for meshes that stay in its memory, bytes
+  /// Serialises the library's own uses of the queue.
   std::shared_ptr<std::mutex> queue_mutex = std::make_shared<std::mutex>();
   ReplaceCalls replace_calls = nullptr;
 };
 
-/// A device, ready to compute, with one queue. Any thread may use it. Must outlive all that is made with it.
+/// An open device with one queue. Thread-safe. Must outlive everything created with it.
 class Device {
  public:
-  /// Errors: unsupported (no loader, no driver, no such device, or what it lacks), device_lost, out_of_memory.
+  /// Errors: unsupported (no loader, driver or device, or a missing feature), device_lost, out_of_memory.
   static Result<std::unique_ptr<Device>> open(const OwnDevice& options = {});
-  /// Errors: invalid_argument (a handle is missing, half a lock), unsupported (what the engine's device lacks).
+  /// Errors: invalid_argument (a handle is missing, or only one of lock and unlock), unsupported (a missing feature).
   static Result<std::unique_ptr<Device>> borrow(const BorrowedDevice& engine);
-  /// Of an own device: waits until it is idle. A borrowed one is left as it is.
+  /// Waits until an own device is idle; leaves an external one as it is.
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -66,7 +67,7 @@ class Device {
   const DeviceTable& calls() const { return calls_; }
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
-  VkQueue queue() const { return queue_; }  ///< to be used under a QueueLock only
+  VkQueue queue() const { return queue_; }  ///< use only under a QueueLock
   uint32_t family() const { return family_; }
   bool borrowed() const { return !instance_; }
   const std::vector<uint32_t>& readers() const { return readers_; }  ///< BorrowedDevice::readers
@@ -75,7 +76,7 @@ class Device {
   }
   bool memoryBudget() const { return memory_budget_; }      ///< VK_EXT_memory_budget is enabled
   bool externalMemory() const { return external_memory_; }  ///< BorrowedDevice::external_memory
-  /// Warnings and errors of the validation layer so far; empty without it, and on a borrowed device.
+  /// Warnings and errors of the validation layer so far; empty without it, and for an external device.
   std::vector<std::string> messages() const;
 
  private:
@@ -86,7 +87,7 @@ class Device {
   Result<void> openDevice();
   Result<void> load(const ReplaceCalls& replace);
 
-  std::unique_ptr<Instance> instance_;  // null: borrowed
+  std::unique_ptr<Instance> instance_;  // null: external
   InstanceTable instance_calls_;
   DeviceTable calls_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -104,7 +105,7 @@ class Device {
   void* user_ = nullptr;
 };
 
-/// Keeps others of ours, and the engine, from the device's queue for as long as it lives.
+/// Locks the device's queue against other uses by the library and the engine.
 class QueueLock {
  public:
   explicit QueueLock(Device& device) : device_(device), ours_(*device.queue_mutex_) {

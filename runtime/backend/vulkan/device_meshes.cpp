@@ -6,10 +6,10 @@
 namespace sgm::vulkan {
 namespace {
 
-/// A draw command, padded so that vertices behind it begin at a multiple of their size.
+/// Size of a draw command, padded so that the following vertices begin at a multiple of their size.
 constexpr VkDeviceSize kDrawBytes = 2 * sizeof(Vertex);
 static_assert(sizeof(VkDrawIndexedIndirectCommand) <= kDrawBytes);
-// Buffers begin at multiples of 256 bytes, and lie in blocks that no draw command is too short to address.
+// Buffers begin at multiples of 256 bytes, and a draw command can address every vertex of a block.
 static_assert(256 % sizeof(Vertex) == 0);
 static_assert(MemoryOptions{}.largest_block / sizeof(Vertex) <= INT32_MAX);
 
@@ -35,7 +35,7 @@ PartSizes sizesOf(const PartSources& sources) {
   return sizes;
 }
 
-/// Bytes at an offset of VulkanPart's.
+/// Bytes at an offset of VulkanPart.
 BufferRange within(const VulkanPart& part, VkDeviceSize offset, VkDeviceSize bytes) {
   const Buffer& buffer = part.memory().buffer();
   return {buffer, offset - buffer.offset(), bytes};
@@ -119,7 +119,7 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
   PlacedParts placed = place(owner, sizes);
   KeptParts kept{std::move(placed.chunks)};
   if (placed.parts.empty()) return kept;
-  // Others wait for a recording: none is held any longer than it takes.
+  // Other threads wait for a recording: each is held only briefly.
   Result<Commands> commands = ring_.begin();
   if (!commands) return commands.error();
   // Shaders wrote the sources.
@@ -178,7 +178,7 @@ void DeviceMeshes::giveBack() noexcept {
 }
 
 uint64_t DeviceMeshes::reached() const noexcept {
-  // Of a lost device nothing is in use any more.
+  // A lost device no longer uses any memory.
   const Result<uint64_t> now = queue_.reached();
   return now ? *now : queue_.lost() ? UINT64_MAX : 0;
 }
@@ -196,7 +196,7 @@ DeviceMeshes::Retired DeviceMeshes::takeEnded() noexcept {
 
 void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   Buffer retired = std::move(buffer);
-  // Another API may write to it, whatever becomes of this queue.
+  // Another API may still write to it, whatever happened to this queue.
   if (value == DeviceMemory::kNever) return retired.forget();
   giveBack();
   if (value <= reached()) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes that stay on the device: parts copied out of a batch's buffers, or brought from the host, to memory of their
-// own, where the engine that lent the device draws them.
+// Meshes that stay on the device: parts are copied from a batch's buffers, or uploaded from the host, to memory of
+// their own, where the engine that owns the device draws them.
 
 #include <array>
 #include <list>
@@ -18,8 +18,8 @@ namespace sgm::vulkan {
 
 class DeviceMeshes;
 
-/// The memory of parts that were copied together. Its end may come before that of the copying; not before that of what
-/// the engine has the device do with it.
+/// The memory of parts that were copied together. It may be destroyed before the copying ends, but not before the
+/// engine's own commands that use it have ended.
 class DeviceMemory {
  public:
   DeviceMemory(std::shared_ptr<const void> owner, DeviceMeshes& meshes, Buffer&& buffer)
@@ -30,20 +30,20 @@ class DeviceMemory {
 
   const Buffer& buffer() const { return buffer_; }
   const DeviceMeshes& meshes() const { return meshes_; }
-  uint64_t value() const { return value_; }  ///< of the queue: from it on the content is there
-  /// Whether it will be. Where not, nobody could bring it.
+  uint64_t value() const { return value_; }  ///< of the queue: at this value the content is complete
+  /// Whether the content is there or will be; false if the copy failed.
   bool there() const { return value_ != 0 && value_ != kNever; }
 
  private:
   friend class DeviceMeshes;
-  std::shared_ptr<const void> owner_;  // what the memory is outlived by
+  std::shared_ptr<const void> owner_;  // kept alive, since it owns the memory
   DeviceMeshes& meshes_;
   Buffer buffer_;
   static constexpr uint64_t kNever = UINT64_MAX;
   uint64_t value_ = 0;
 };
 
-/// A part as draw commands address it. Immutable.
+/// A part with the data for draw commands. Immutable.
 class VulkanPart final : public DevicePart {
  public:
   VulkanPart(std::shared_ptr<const DeviceMemory> memory, VkDeviceSize draw, uint32_t vertices, uint32_t indices);
@@ -52,12 +52,12 @@ class VulkanPart final : public DevicePart {
 
   VkBuffer buffer() const { return memory_->buffer().handle(); }
   // Bytes from the beginning of buffer().
-  VkDeviceSize drawOffset() const { return draw_; }  ///< of draw(), likewise in the device's memory
+  VkDeviceSize drawOffset() const { return draw_; }  ///< of draw(), which is in device memory, too
   VkDeviceSize vertexOffset() const;                 ///< a multiple of sizeof(Vertex)
   VkDeviceSize indexOffset() const;                  ///< a multiple of 4
   uint32_t vertexCount() const { return vertices_; }
   uint32_t indexCount() const { return indices_; }
-  /// With the buffer bound whole, as vertices and as 32-bit indices.
+  /// For binding the whole buffer, as vertices and as 32-bit indices.
   VkDrawIndexedIndirectCommand draw() const;
   const DeviceMemory& memory() const { return *memory_; }
 
@@ -67,19 +67,19 @@ class VulkanPart final : public DevicePart {
   uint32_t vertices_, indices_;
 };
 
-/// Where a part lies before it is copied; nothing where it has no indices.
+/// The source of a copied part; empty without indices.
 struct PartSource {
   BufferRange vertices, indices;
 };
 using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
 
-/// Parts that have a place, and no content yet.
+/// Parts with a place but no content yet.
 struct PlacedParts {
   struct Part {
     size_t chunk, part;
     std::shared_ptr<const VulkanPart> placed;
   };
-  std::vector<DeviceParts> chunks;  ///< null throughout a chunk that no memory is left for
+  std::vector<DeviceParts> chunks;  ///< all null for a chunk without memory
   std::vector<Part> parts;
   std::vector<std::shared_ptr<DeviceMemory>> memories;
 };
@@ -87,44 +87,45 @@ struct PlacedParts {
 /// Parts that are being copied.
 struct KeptParts {
   std::vector<DeviceParts> chunks;
-  uint64_t value = 0;  ///< of the queue: from it on the sources are not read any more
+  uint64_t value = 0;  ///< of the queue: at this value the sources are no longer read
 };
 
-/// Any thread may use it. Outlived by the queue, memory and ring that it is given, and by its parts.
+/// Thread-safe. The queue, memories and ring must outlive it and its parts.
 class DeviceMeshes {
  public:
-  /// memory: of the parts; staging: of what comes from the host.
+  /// memory: for the parts; staging: for uploads.
   DeviceMeshes(Queue& queue, Memory& memory, Memory& staging, CommandRing& ring)
       : queue_(queue), memory_(memory), staging_(staging), ring_(ring) {}
 
-  /// Memory for parts. Throws std::bad_alloc.
+  /// Allocates memory for parts. Throws std::bad_alloc.
   PlacedParts place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks);
-  /// What another API has written to placed parts, and nobody writes to any more, is there from a value of the queue
-  /// on. Errors: as CommandRing::submit. Throws std::bad_alloc.
+  /// Makes content that another API has finished writing to placed parts visible, from a value of the queue on. Errors:
+  /// as CommandRing::submit. Throws std::bad_alloc.
   Result<void> acquire(const PlacedParts& placed);
-  /// What may be written to still, for all that anybody knows, is kept from others until the end.
+  /// Never reuses this memory, since writes to it may still be running.
   static void abandon(const PlacedParts& placed) noexcept;
 
-  /// Copies parts, in the device's own time: one DeviceParts a chunk, null where there is no source, and throughout a
-  /// chunk that no memory is left for. Later submissions may write to the sources, the host may not before their end.
-  /// owner keeps alive what this is outlived by. Errors: as CommandRing::submit. Throws std::bad_alloc.
+  /// Copies parts asynchronously. Returns one DeviceParts for each chunk: null for parts without a source, all null for
+  /// a chunk without memory. Later submissions may write to the sources, but the host must not before their end. owner
+  /// is kept alive and must own this object. Errors: as CommandRing::submit. Throws std::bad_alloc.
   Result<KeptParts> keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks);
-  /// Brings parts from the host, as Backend::upload; returns when they are there. Errors: also those of Memory::buffer.
+  /// Uploads parts from the host, as Backend::upload; blocks until they are there. Errors: also those of
+  /// Memory::buffer.
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(const std::shared_ptr<const void>& owner,
                                                                 std::span<const MeshPart* const> parts);
 
-  /// Of parts that have not ended, as the memory counts them.
+  /// Bytes of living parts, as counted by the memory.
   uint64_t bytes();
   const Queue& queue() const { return queue_; }
 
  private:
   friend class DeviceMemory;
-  /// Gives the buffer back once the queue has reached the value.
+  /// Frees the buffer once the queue has reached the value.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
   using Retired = std::list<std::pair<uint64_t, Buffer>>;
-  /// Of the queue, for what is to be given back.
+  /// The queue's value for freeing buffers.
   uint64_t reached() const noexcept;
-  /// What may be given back, to be ended when the mutex is not held any more. Precondition: it is.
+  /// Takes the buffers to free, to be destroyed after the mutex is released. Precondition: the mutex is held.
   Retired takeEnded() noexcept;
   void giveBack() noexcept;
 

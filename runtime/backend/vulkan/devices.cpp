@@ -5,7 +5,7 @@
 namespace sgm::vulkan {
 namespace {
 
-// What the mesher's shaders are written for.
+// The requirements of the mesher's shaders.
 constexpr uint64_t kLeastStorageRange = uint64_t{128} << 20;
 constexpr uint32_t kLeastSharedBytes = 32 << 10;
 constexpr uint32_t kLeastInvocations = 256;
@@ -46,13 +46,13 @@ int rankOf(VkPhysicalDeviceType type) {
 std::string lackOf(const DeviceInfo& info) {
   const auto lacks = [&](const std::string& what) { return info.name + " lacks " + what; };
   const auto below = [&](const char* limit, uint64_t has, uint64_t needed) {
-    return info.name + " has a " + limit + " of " + std::to_string(has) + ", and " + std::to_string(needed) +
+    return info.name + " has a " + limit + " of " + std::to_string(has) + ", but at least " + std::to_string(needed) +
            " are needed";
   };
   if (info.api_version < VK_API_VERSION_1_2) {
-    return info.name + " has Vulkan " + versionText(info.api_version) + ", and 1.2 is needed: update its driver";
+    return info.name + " supports Vulkan " + versionText(info.api_version) + ", but 1.2 is needed: update its driver";
   }
-  if (!info.computes) return lacks("a queue that computes");
+  if (!info.computes) return lacks("a compute queue");
   if (!info.timeline_semaphores) return lacks("the feature timelineSemaphore");
   if (!info.subgroups_compute) return lacks("subgroup operations in compute shaders");
   const struct {
@@ -68,7 +68,7 @@ std::string lackOf(const DeviceInfo& info) {
       return lacks(std::string("the subgroup operations ") + operation.name);
   }
   if (info.subgroup_size < kLeastSubgroup || info.subgroup_size > kLargestSubgroup) {
-    return info.name + " has a subgroupSize of " + std::to_string(info.subgroup_size) + ", and 8 to 64 are needed";
+    return info.name + " has a subgroupSize of " + std::to_string(info.subgroup_size) + ", but 8 to 64 are needed";
   }
   if (info.max_storage_range < kLeastStorageRange) {
     return below("maxStorageBufferRange", info.max_storage_range, kLeastStorageRange);

@@ -66,7 +66,8 @@ Result<void> Instance::open(const InstanceOptions& options) {
   }
   VkResult result = global->vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_LAYER_NOT_PRESENT) {
-    return Error{Code::unsupported, "no Vulkan validation layer here: install the package vulkan-validationlayers"};
+    return Error{Code::unsupported,
+                 "the Vulkan validation layer is missing: install the package vulkan-validationlayers"};
   }
   if (result != VK_SUCCESS) return errorOf(result, "creating a Vulkan instance");
   if (!loadInstance(resolver_, instance_, calls_)) {
@@ -75,7 +76,7 @@ Result<void> Instance::open(const InstanceOptions& options) {
   if (options.replace_calls) options.replace_calls(calls_);
   if (watched) {
     result = calls_.vkCreateDebugUtilsMessengerEXT(instance_, &debug, nullptr, &messenger_);
-    if (result != VK_SUCCESS) return errorOf(result, "listening to the validation layer");
+    if (result != VK_SUCCESS) return errorOf(result, "registering for messages of the validation layer");
   }
   return {};
 }
@@ -91,7 +92,7 @@ Result<std::vector<VkPhysicalDevice>> Instance::devices() const {
   std::vector<VkPhysicalDevice> devices(count);
   if (result == VK_SUCCESS && count) result = calls_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
   if (result < 0) return errorOf(result, "listing Vulkan devices");
-  devices.resize(count);  // one may have gone in between
+  devices.resize(count);  // one may have disappeared in between
   return devices;
 }
 

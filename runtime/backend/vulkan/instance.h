@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan instance of our own, and what the validation layer says of its use.
+// The library's own Vulkan instance, and the messages of the validation layer.
 
 #include <cstdint>
 #include <functional>
@@ -12,15 +12,15 @@
 
 namespace sgm::vulkan {
 
-/// How closely VK_LAYER_KHRONOS_validation watches; each level includes those before it.
+/// The depth of VK_LAYER_KHRONOS_validation; each level includes the previous ones.
 enum class Validation : uint8_t {
   none,
   core,             ///< the arguments and states of every call
   synchronization,  ///< missing barriers
-  gpu_assisted,     ///< shaders that reach beyond their buffers; slow
+  gpu_assisted,     ///< shader accesses outside of their buffers; slow
 };
 
-/// Warnings and errors of the validation layer. Any thread.
+/// Warnings and errors of the validation layer. Thread-safe.
 class MessageLog {
  public:
   void add(const char* text) {
@@ -39,23 +39,23 @@ class MessageLog {
 
 struct InstanceOptions {
   Validation validation = Validation::none;
-  /// Gets the messages, those about what the instance's end leaves behind too; null: one of the instance's own.
+  /// Receives the messages, including those about objects left at the instance's end; null: the instance makes its own.
   std::shared_ptr<MessageLog> log = nullptr;
-  /// May replace entries of the table before anything but vkCreateInstance is called; for tests.
+  /// May replace entries of the table before any call except vkCreateInstance; for tests.
   std::function<void(InstanceTable&)> replace_calls = nullptr;
 };
 
-/// Any thread may use it. Must outlive the devices made from it.
+/// Thread-safe. Must outlive the devices made from it.
 class Instance {
  public:
-  /// Of Vulkan 1.2. Errors: unsupported (no loader, no driver, no validation layer), with what to install;
-  /// out_of_memory.
+  /// Creates an instance of Vulkan 1.2. Errors: unsupported (no loader, driver or validation layer; the message says
+  /// what to install); out_of_memory.
   static Result<std::unique_ptr<Instance>> create(const InstanceOptions& options = {});
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  /// In the loader's order, unusable ones too. Errors: as create.
+  /// In the loader's order, including unusable ones. Errors: as create.
   Result<std::vector<VkPhysicalDevice>> devices() const;
   /// Warnings and errors of the validation layer so far; empty without it.
   std::vector<std::string> messages() const { return log_->texts(); }

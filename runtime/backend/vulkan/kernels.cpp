@@ -29,10 +29,10 @@ namespace sgm::vulkan {
 
 namespace {
 
-// One subgroup a workgroup where lanes are a processor's: what a workgroup shares it would load once for each subgroup.
+// In software a workgroup is one subgroup: data shared by a workgroup would be loaded once for each subgroup.
 constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
 constexpr uint64_t kAllKinds = ~uint64_t{0};
-// Below, nobody has noticed that pipelines were missing.
+// Shorter times are not reported.
 constexpr double kNoticedSeconds = 1;
 
 bool interprets(Kernel kernel) {
@@ -127,7 +127,7 @@ Result<std::shared_ptr<const Pipeline>> Kernels::makePipeline(Kernel kernel, uin
   return std::make_shared<const Pipeline>(std::move(*made));
 }
 
-/// What is wanted may grow meanwhile; then that is made at once, and nothing of the less.
+/// If more kinds are wanted meanwhile, restarts with these at once.
 Result<void> Kernels::make(bool aside) {
   const ProfileScope scope(profiler_, zone::kShaders);
   for (;;) {
@@ -139,7 +139,7 @@ Result<void> Kernels::make(bool aside) {
     static_cast<void>(grown());
     size_t k = 0;
     for (; k < kernels; ++k) {
-      if (aside && stop_.load()) return Error{Code::cancelled, "making pipelines was cancelled"};
+      if (aside && stop_.load()) return Error{Code::cancelled, "the creation of pipelines was cancelled"};
       const auto kernel = static_cast<Kernel>(k);
       if (made_[k].pipeline && (made_[k].kinds == kinds || !interprets(kernel))) continue;
       Result<std::shared_ptr<const Pipeline>> pipeline = makePipeline(kernel, kinds);
@@ -164,25 +164,25 @@ void Kernels::makeAside() noexcept {
     if (made) {
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
       if (news_.inform && took.count() > kNoticedSeconds) {
-        news_.inform("the shaders for " + device_.info().name + " were made ready in " +
-                     std::to_string(static_cast<int>(took.count() + 0.5)) + " s; until then the CPU meshed");
+        news_.inform("the shaders for " + device_.info().name + " were compiled in " +
+                     std::to_string(static_cast<int>(took.count() + 0.5)) + " s; until then the CPU meshed the chunks");
       }
       keep();
     } else if (made.error().code != Code::cancelled && news_.warn && !std::exchange(warned_, true)) {
-      news_.warn("the CPU goes on meshing for " + device_.info().name + ": " + made.error().message);
+      news_.warn("the CPU continues to mesh in place of " + device_.info().name + ": " + made.error().message);
     }
   } catch (const std::bad_alloc&) {
-    // As any other failure: the CPU goes on, and the next who asks has them made again.
+    // As with any other failure: the CPU continues, and the next request makes them again.
   }
   making_.store(false);
 }
 
-/// At once: whoever ends the process later would lose them.
+/// Saves at once: a process that is killed later would lose them.
 void Kernels::keep() {
   if (cache_ == nullptr) return;
   const Result<void> saved = cache_->save();
   if (saved || !news_.warn || std::exchange(warned_, true)) return;
-  news_.warn("compiled pipelines are not kept: " + saved.error().message);
+  news_.warn("compiled pipelines are not cached: " + saved.error().message);
 }
 
 }  // namespace sgm::vulkan

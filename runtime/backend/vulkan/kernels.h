@@ -1,5 +1,5 @@
 #pragma once
-// The shaders of shaders/mesher/, made ready to run: at once for who waits, aside for who rather goes on without.
+// The shaders of shaders/mesher/ as pipelines, created synchronously or in the background.
 
 #include <array>
 #include <atomic>
@@ -35,38 +35,38 @@ enum Kernel : uint8_t {
   kernels
 };
 
-inline constexpr uint32_t kKernelBuffers = 6;  ///< that each of them binds
+inline constexpr uint32_t kKernelBuffers = 6;  ///< bound by each kernel
 
 using Pipelines = std::array<std::shared_ptr<const Pipeline>, kernels>;
 
-/// Who hears of the making; each may be null, and is called on any thread.
+/// Receives messages about pipeline creation; each may be null, and is called on any thread.
 struct KernelNews {
-  std::function<void(const std::string&)> inform;  ///< that pipelines were made aside, and how long it took
-  std::function<void(const std::string&)> warn;    ///< that they cannot be made, or not be kept
+  std::function<void(const std::string&)> inform;  ///< pipelines were made in the background, and the time it took
+  std::function<void(const std::string&)> warn;    ///< pipelines cannot be made, or not be cached
 };
 
-/// The pipelines of all kernels on one device. Software runs every branch of an interpreter; so there the interpreting
-/// ones know the kinds of instruction that were asked for so far, and are made anew when there are more. Any thread may
-/// use it.
+/// The pipelines of all kernels on one device. A software device executes every branch of an interpreter; so there the
+/// interpreting pipelines are specialised to the kinds of instructions requested so far, and remade when there are
+/// more. Thread-safe.
 class Kernels {
  public:
-  /// device and cache must outlive it; cache: null for none.
+  /// device and cache must outlive it; cache may be null.
   Kernels(Device& device, PipelineCache* cache, const Profiler& profiler, KernelNews news);
-  /// Waits for the one pipeline that is being made aside, if any.
+  /// Waits for a pipeline that is being made in the background.
   ~Kernels();
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
-  /// Those that know these kinds (Tape::kinds); makes what is missing, which may take seconds. Errors: as
+  /// Returns pipelines that support these kinds (Tape::kinds); makes missing ones, which may take seconds. Errors: as
   /// Pipeline::create. Throws std::bad_alloc.
   Result<Pipelines> get(uint64_t kinds);
-  /// Whether get() would give them at once. Where not, a thread of its own makes them. Where there is no thread to be
-  /// had it is true too: somebody has to wait then. Does not wait itself.
+  /// Whether get() would return at once. If not, a background thread makes them; if no thread can be started, returns
+  /// true, so that the caller waits in get(). Never waits itself.
   bool ready(uint64_t kinds) noexcept;
-  /// Whether that thread is at work.
+  /// Whether that thread is running.
   bool making() const { return making_.load(); }
 
-  uint32_t width() const;  ///< invocations of a workgroup, of the kernels that leave it open
+  uint32_t width() const;  ///< invocations in a workgroup, for kernels without a fixed number
 
  private:
   struct Made {
@@ -88,12 +88,12 @@ class Kernels {
   const KernelNews news_;
 
   std::mutex making_mutex_;         ///< held while pipelines are made; taken before mutex_
-  std::array<Made, kernels> made_;  ///< maybe not all of the same kinds yet
-  bool warned_ = false;             ///< once is enough
+  std::array<Made, kernels> made_;  ///< possibly not all for the same kinds yet
+  bool warned_ = false;             ///< warn only once
 
   std::mutex mutex_;
-  uint64_t kinds_ = 0;   ///< what the pipelines know
-  uint64_t wanted_ = 0;  ///< what they are to know
+  uint64_t kinds_ = 0;   ///< kinds that the pipelines support
+  uint64_t wanted_ = 0;  ///< kinds that they are to support
   Pipelines pipelines_;  ///< all or none
   std::thread maker_;
   std::atomic<bool> making_{false}, stop_{false};

@@ -7,7 +7,7 @@
 namespace sgm::vulkan {
 namespace {
 
-constexpr uint64_t kGranule = 256;  // no device demands more of a storage buffer's offset
+constexpr uint64_t kGranule = 256;  // no device requires a larger alignment of a storage buffer's offset
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -20,12 +20,12 @@ constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
 constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
-// -1: not for this kind.
+// -1: not usable for this kind.
 int scoreOf(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
-  // Protected, lazily allocated and vendors' kinds of memory have rules of their own.
+  // Protected, lazily allocated and vendor-specific memory has special rules.
   if (flags & ~(kNear | kVisible | kCoherent | kCached)) return -1;
   const auto has = [&](VkMemoryPropertyFlags bits) { return (flags & bits) == bits ? 1 : 0; };
-  // Between two memories, the window onto the device's is small and others want it.
+  // Between separate memories, the window to device memory is small, and other programs need it.
   const int fits = has(kNear) == (unified ? 1 : 0) ? 1 : 0;
   switch (kind) {
     case MemoryKind::device:
@@ -99,7 +99,7 @@ class ExportedBlock final : public SharedBlock {
 struct Memory::Block {
   Ranges ranges;
   MemoryKind kind;
-  bool whole;  // for one buffer
+  bool whole;  // for a single buffer
   uint64_t size = 0;
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -125,8 +125,9 @@ Memory::~Memory() {
 }
 
 Result<Buffer> Memory::buffer(MemoryKind kind, VkDeviceSize bytes) {
-  if (bytes == 0) return Error{Code::invalid_argument, "a GPU buffer has no bytes"};
-  if (bytes > UINT64_MAX / 4) return errorOf(VK_ERROR_OUT_OF_DEVICE_MEMORY, "a GPU buffer without bounds");
+  if (bytes == 0) return Error{Code::invalid_argument, "a GPU buffer must have at least one byte"};
+  if (bytes > UINT64_MAX / 4)
+    return errorOf(VK_ERROR_OUT_OF_DEVICE_MEMORY, "allocating a GPU buffer of more than 2^62 bytes");
   const std::scoped_lock lock(mutex_);
   auto& blocks = blocks_[static_cast<size_t>(kind)];
   uint64_t shared = 0;
@@ -139,7 +140,7 @@ Result<Buffer> Memory::buffer(MemoryKind kind, VkDeviceSize bytes) {
   const uint64_t usual =
       std::min(options_.first_block << std::min<uint64_t>(shared, 16), options_.largest_block) / granule_ * granule_;
   const bool whole = needed > usual;
-  // Where there is no room for a large block a smaller one may do.
+  // If there is no room for a large block, a smaller one may fit.
   for (uint64_t size = std::max(needed, usual);; size = std::max(needed, size / 2 / granule_ * granule_)) {
     auto block = addBlock(kind, size, whole);
     if (block) return take(**block, *(*block)->ranges.take(bytes), bytes);
@@ -163,7 +164,7 @@ Buffer Memory::take(Block& block, uint64_t offset, VkDeviceSize bytes) {
 
 Result<Memory::Block*> Memory::addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole) {
   if (bytes > options_.cap || statistics_.reserved > options_.cap - bytes) {
-    return Error{Code::limit, "a GPU buffer would take more than the " + std::to_string(options_.cap) +
+    return Error{Code::limit, "a GPU buffer would exceed the " + std::to_string(options_.cap) +
                                   " bytes of GPU memory that are allowed"};
   }
   auto& blocks = blocks_[static_cast<size_t>(kind)];
@@ -185,7 +186,7 @@ Result<Memory::Block*> Memory::addBlock(MemoryKind kind, VkDeviceSize bytes, boo
 }
 
 Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
-  const std::string what = "a block of " + std::to_string(bytes) + " bytes of GPU memory";
+  const std::string what = "allocating " + std::to_string(bytes) + " bytes of GPU memory";
   const DeviceTable& calls = device_.calls();
   if (bytes > device_.info().max_allocation) return errorOf(VK_ERROR_OUT_OF_DEVICE_MEMORY, what);
   VkExternalMemoryBufferCreateInfo exported_buffer{};
@@ -224,7 +225,8 @@ Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
   std::unique_ptr<ExportedBlock> shared_block;
   if (options_.shared) {
     const std::optional<SharedMemoryNeeds> shared = sharedMemoryNeeds(device_);
-    if (!shared) return Error{Code::unsupported, what + ": " + device_.info().name + " shares none with other APIs"};
+    if (!shared)
+      return Error{Code::unsupported, what + ": " + device_.info().name + " cannot share it with other APIs"};
     if (shared->dedicated) exported.pNext = &dedicated;
     allocate.pNext = &exported;
     shared_block = std::make_unique<ExportedBlock>(device_, needs.size, shared->dedicated);
@@ -258,7 +260,7 @@ Result<void> Memory::checkBudget(uint32_t type, VkDeviceSize bytes) const {
   const uint32_t heap = properties_.memoryTypes[type].heapIndex;
   const uint64_t used = std::min(budget.heapUsage[heap], budget.heapBudget[heap]);
   if (bytes <= budget.heapBudget[heap] - used) return {};
-  return Error{Code::out_of_memory, "a block of " + std::to_string(bytes) + " bytes of GPU memory: of the " +
+  return Error{Code::out_of_memory, "allocating " + std::to_string(bytes) + " bytes of GPU memory: of the " +
                                         std::to_string(budget.heapBudget[heap]) + " bytes that the driver allows, " +
                                         std::to_string(used) + " are in use"};
 }
@@ -271,7 +273,7 @@ void Memory::destroy(Block& block) noexcept {
 }
 
 void Memory::give(Buffer& buffer) noexcept {
-  // To end what another API has imported may take long.
+  // Destroying a block that another API has imported may take long.
   std::unique_ptr<Block> dead;
   {
     const std::scoped_lock lock(mutex_);

@@ -1,8 +1,8 @@
 #pragma once
-// The device's memory: buffers that are ranges of few large blocks.
+// Device memory: buffers are ranges of a few large blocks.
 //
-// Drivers allow some thousand allocations in all, and each takes long; a block is one allocation and one VkBuffer over
-// the whole of it, so that taking a buffer is a look at a list.
+// Drivers allow only some thousand allocations, and each is slow. A block is one allocation with one VkBuffer over all
+// of it, so that taking a buffer is a list lookup.
 
 #include <array>
 #include <cstddef>
@@ -20,27 +20,28 @@
 namespace sgm::vulkan {
 
 enum class MemoryKind : uint8_t {
-  device,    ///< the fastest for shaders; the host sees it where it is the host's own memory
-  upload,    ///< the host writes, in order and without reading
-  readback,  ///< the host reads, from its cache where there is such memory
+  device,    ///< fastest for shaders; visible to the host if it is the host's memory
+  upload,    ///< the host writes, sequentially, without reading
+  readback,  ///< the host reads, from cached memory if available
 };
 inline constexpr size_t kMemoryKinds = 3;
 
-/// The best of the memory types in `allowed` (a bit each), -1 where none will do. unified: host and device share their
-/// memory, so that what is near to the one is near to the other. Pure.
+/// The best of the memory types in `allowed` (a bit each), -1 if none is suitable. unified: host and device share their
+/// memory, so that it is near to both. Pure.
 int chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind, bool unified);
 
 struct MemoryOptions {
-  uint64_t first_block = uint64_t{64} << 20;     ///< bytes; each further one of a kind is twice as large as the last
-  uint64_t largest_block = uint64_t{512} << 20;  ///< what needs more has a block of its own
-  uint64_t cap = UINT64_MAX;                     ///< bytes of all blocks together
-  bool apart = false;   ///< takes host and device to share no memory, even where they do: to test what is copied then
-  bool shared = false;  ///< another API imports the blocks; of a device with externalMemory()
-  std::vector<uint32_t> families;  ///< beside the device's own: whose queues use the buffers, too
+  uint64_t first_block = uint64_t{64} << 20;     ///< bytes; each further block of a kind is twice as large as the
+                                                 ///< previous one
+  uint64_t largest_block = uint64_t{512} << 20;  ///< larger buffers get their own block
+  uint64_t cap = UINT64_MAX;                     ///< limit for all blocks together, bytes
+  bool apart = false;   ///< treats host and device memory as separate even if they are unified: for tests of copies
+  bool shared = false;  ///< another API imports the blocks; needs a device with externalMemory()
+  std::vector<uint32_t> families;  ///< further families whose queues use the buffers
 };
 
 struct MemoryStatistics {
-  uint64_t used = 0;      ///< bytes asked for and not given back
+  uint64_t used = 0;      ///< bytes of living buffers
   uint64_t reserved = 0;  ///< bytes of all blocks
   uint32_t buffers = 0;
   uint32_t blocks = 0;
@@ -48,8 +49,8 @@ struct MemoryStatistics {
 
 class Memory;
 
-/// A range of a VkBuffer, for any use as storage, in transfers and of indirect commands, and as vertices and indices.
-/// Gives its bytes back at its end, which must come after the last command that uses them. Outlived by its Memory.
+/// A range of a VkBuffer, usable as storage, for transfers and indirect commands, and as vertices and indices. Its
+/// destructor frees the bytes, and must run after the last command that uses them. The Memory must outlive it.
 class Buffer {
  public:
   Buffer() = default;
@@ -60,11 +61,11 @@ class Buffer {
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   VkBuffer handle() const { return handle_; }
   VkDeviceSize offset() const { return offset_; }  ///< in handle(); a multiple of 256
-  VkDeviceSize size() const { return size_; }      ///< as asked for
-  std::byte* data() const { return data_; }        ///< null where the host does not see it
-  void forget() noexcept { memory_ = nullptr; }    ///< gives nothing back: its bytes are nobody's to the memory's end
-  SharedBlock* block() const;                      ///< what it lies in, where MemoryOptions::shared; null: it is not
-  /// After the device wrote and before the host reads data(). Nothing to do for memory that the host sees coherently.
+  VkDeviceSize size() const { return size_; }      ///< as requested
+  std::byte* data() const { return data_; }        ///< null if not visible to the host
+  void forget() noexcept { memory_ = nullptr; }    ///< never frees: the bytes stay reserved until the memory's end
+  SharedBlock* block() const;                      ///< its block, with MemoryOptions::shared; else null
+  /// Call after the device wrote and before the host reads data(). A no-op for memory that is coherent for the host.
   /// Error: out_of_memory.
   Result<void> beforeRead() const;
 
@@ -77,23 +78,23 @@ class Buffer {
   std::byte* data_ = nullptr;
 };
 
-/// Whether another API can import blocks of the device's memory, and how; nothing where not.
+/// How another API can import blocks of the device's memory; nullopt if it cannot.
 struct SharedMemoryNeeds {
-  bool dedicated = false;  ///< of one buffer alone, and imported as such
+  bool dedicated = false;  ///< one allocation for one buffer, imported as such
 };
 std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 
-/// Any thread may use it. Outlived by its device. The content of a new buffer is undefined.
+/// Thread-safe. The device must outlive it. The content of a new buffer is undefined.
 class Memory {
  public:
   explicit Memory(Device& device, const MemoryOptions& options = {});
-  /// All buffers have gone, and nothing uses them.
+  /// Precondition: no buffer is left or in use.
   ~Memory();
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
-  /// Errors: out_of_memory (the device's, or its budget where VK_EXT_memory_budget tells it), limit (the cap),
-  /// invalid_argument (no bytes). Nothing has changed then, and smaller buffers may still be had. Throws
+  /// Errors: out_of_memory (of the device, or of its budget if VK_EXT_memory_budget reports it), limit (the cap),
+  /// invalid_argument (0 bytes). On error nothing has changed, and smaller buffers may still succeed. Throws
   /// std::bad_alloc.
   Result<Buffer> buffer(MemoryKind kind, VkDeviceSize bytes);
 
@@ -103,7 +104,7 @@ class Memory {
   friend class Buffer;
   struct Block;
   void give(Buffer& buffer) noexcept;
-  /// The block, where it is not needed any more: to be destroyed. Precondition: the mutex is held.
+  /// Returns the block, to be destroyed, if it is no longer needed. Precondition: the mutex is held.
   std::unique_ptr<Block> giveRange(const Buffer& buffer) noexcept;
   Result<Block*> addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole);
   Result<void> fill(Block& block, MemoryKind kind, VkDeviceSize bytes);

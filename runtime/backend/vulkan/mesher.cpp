@@ -11,9 +11,9 @@ namespace sgm::vulkan {
 namespace {
 
 constexpr uint32_t kHeadSize = sizeof(batch::Head);
-constexpr uint32_t kSumSlices = 4;  // workgroups that share a part's triangles
+constexpr uint32_t kSumSlices = 4;  // workgroups for the triangles of a part
 
-/// A buffer of at least so many bytes, the old one where it has them.
+/// Keeps the buffer if it has at least this many bytes, else replaces it.
 Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
   bytes = std::max<uint64_t>(bytes, 256);
   if (buffer && buffer.size() >= bytes) return {};
@@ -28,7 +28,8 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 uint32_t Mesher::mostScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
-  return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);  // a buffer is a quarter larger than was asked for
+  return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);  // grow() makes buffers a quarter larger than
+                                                                   // requested
 }
 
 Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels) {
@@ -89,8 +90,8 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   const std::array<BufferRange, kKernelBuffers> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
   batch::Sizes sizes = plan.sizes;
   Result<void> bound;
-  // One after the other, even where two could overlap: each has work for the whole device, and what is between them is
-  // plain to see for who reads it and for the validation layer.
+  // Sequentially, even where two could overlap: each one fills the whole device, and the dependencies stay clear to
+  // readers and to the validation layer.
   const auto run = [&](Kernel kernel, const auto& dispatch) {
     if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
     if (!bound) return;
@@ -200,11 +201,11 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
   return out;
 }
 
-/// What did not come with the batch.
+/// Downloads the data that did not come with the batch.
 Result<void> Mesher::bringLater(const batch::Head& head, BatchBuffers& b) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
   const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this one had: batches that come after one another lie side by side.
+  // A quarter more than this batch: successive batches are neighbours in the world.
   usual_vertices_.store((vertices + vertices / 4) / 256 * 256);
   usual_indices_.store((indices + indices / 4) / 256 * 256);
   if (vertices <= b.brought_vertices && indices <= b.brought_indices) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The shaders of shaders/mesher/ on one device: a planned batch in, its parts out.
+// Runs the shaders of shaders/mesher/ on one device: a planned batch in, its parts out.
 
 #include <array>
 #include <atomic>
@@ -11,40 +11,39 @@
 
 namespace sgm::vulkan {
 
-/// The buffers of a batch in flight; reused from batch to batch, and grown where one needs more.
+/// The buffers of a batch in flight; reused from batch to batch, and grown if needed.
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
-  /// Where the host does not see the device's: what is brought back. The buffers of the batches that are at work in
-  /// turn are the ring that results come back through. How many vertices and indices there will be only the device
-  /// knows; as many as batches of late have had come back with the batch itself, and only where it has more they come
-  /// after it.
+  /// Copies for the host, if it cannot read the device's buffers. The buffers of running batches form the ring for
+  /// downloads. Only the device knows the numbers of vertices and indices. So as many as recent batches had are
+  /// downloaded with the batch itself; if it has more, the rest follows.
   Buffer parts_back, signs_back, vertices_back, indices_back;
-  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes that come with the batch
-  uint64_t reading = 0;  ///< of the queue: vertices and indices are brought to the host until then
+  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes downloaded with the batch
+  uint64_t reading = 0;  ///< of the queue: until this value vertices and indices are being downloaded
 };
 
-/// Any thread may use it. Outlived by all that it is given.
+/// Thread-safe. All constructor arguments must outlive it.
 class Mesher {
  public:
   /// Errors: as Memory::buffer.
   static Result<std::unique_ptr<Mesher>> create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels);
 
-  /// Submits the batch; the value of the queue that it ends with. The plan and the buffers must stay as they are until
-  /// then. Waits for pipelines that are not made yet (Kernels::get). Errors: device_lost,
-  /// out_of_memory, limit, unsupported. Throws std::bad_alloc.
+  /// Submits the batch. Returns the queue's value at its end; until then the plan and the buffers must not change.
+  /// Waits for missing pipelines (Kernels::get). Errors: device_lost, out_of_memory, limit, unsupported. Throws
+  /// std::bad_alloc.
   Result<uint64_t> submit(const BatchPlan& plan, BatchBuffers& buffers);
 
-  /// After the end of what was submitted with these two: what the host reads, valid until the next submission. Where
-  /// vertices and indices must be brought to the host first it waits for that; where no chunk wants them there are
-  /// none. Errors: as submit.
+  /// Call after the end of the submission with these two: returns the output for the host, valid until the next
+  /// submission. Waits for the download of vertices and indices if needed; they are null if no chunk wants them.
+  /// Errors: as submit.
   struct Output {
     const batch::Head* head = nullptr;
     const batch::Part* parts = nullptr;
-    const batch::Sums* sums = nullptr;  ///< of the parts of chunks that ask for them
+    const batch::Sums* sums = nullptr;  ///< for the parts of chunks that request them
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
-    const uint32_t* signs = nullptr;  ///< of the plan's chunks behind each other, batch::kSignWords each
-    bool signs_in_place = false;      ///< signs is scratch, where each chunk's own place counts
+    const uint32_t* signs = nullptr;  ///< of the plan's chunks, one after the other, batch::kSignWords each
+    bool signs_in_place = false;      ///< signs points to scratch: use each chunk's own offset
   };
   Result<Output> read(const BatchPlan& plan, BatchBuffers& buffers);
 
@@ -63,7 +62,7 @@ class Mesher {
   CommandRing& ring_;
   Kernels& kernels_;
   Buffer tables_;
-  /// Bytes that the last batch had, and some more.
+  /// The sizes of the last batch, with a margin.
   std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };
 

@@ -12,7 +12,7 @@
 namespace sgm::vulkan {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "files are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "files have the byte order of memory");
 
 struct FileHeader {
   std::array<char, 4> magic{'S', 'G', 'M', 'P'};
@@ -96,7 +96,7 @@ Result<std::unique_ptr<PipelineCache>> PipelineCache::create(Device& device, con
     }
   }
   const VkResult result = device.calls().vkCreatePipelineCache(device.handle(), &info, nullptr, &cache->cache_);
-  if (result != VK_SUCCESS) return errorOf(result, "a pipeline cache");
+  if (result != VK_SUCCESS) return errorOf(result, "creating a pipeline cache");
   return cache;
 }
 

@@ -19,10 +19,11 @@ Result<void> checkDesc(const Device& device, const PipelineDesc& desc) {
   const uint32_t most = std::min(kMaxBuffers, device.info().max_storage_buffers);
   if (desc.spirv.empty()) return refused("is empty");
   if (desc.buffers > most) {
-    return refused("takes " + std::to_string(desc.buffers) + " buffers, and there is room for " + std::to_string(most));
+    return refused("takes " + std::to_string(desc.buffers) + " buffers, but the limit is " + std::to_string(most));
   }
   if (desc.push_bytes > kMaxPushBytes || desc.push_bytes % 4) {
-    return refused("has " + std::to_string(desc.push_bytes) + " bytes of push constants: at most 128, in fours");
+    return refused("has " + std::to_string(desc.push_bytes) +
+                   " bytes of push constants: use a multiple of 4, at most 128");
   }
   return {};
 }
@@ -36,7 +37,8 @@ Result<Pipeline> Pipeline::create(Device& device, const PipelineDesc& desc, cons
   pipeline.push_bytes_ = desc.push_bytes;
   VkResult result = pipeline.makeLayouts();
   if (result == VK_SUCCESS) result = pipeline.makePipeline(desc, cache ? cache->handle() : VK_NULL_HANDLE);
-  if (result != VK_SUCCESS) return errorOf(result, std::string("making the shader ") + desc.name + " ready");
+  if (result != VK_SUCCESS)
+    return errorOf(result, std::string("compiling the shader ") + desc.name + " for the device");
   return pipeline;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Compute shaders made ready to run.
+// Creates compute pipelines.
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +13,7 @@ namespace sgm::vulkan {
 class PipelineCache;
 
 struct PipelineDesc {
-  const char* name = "";  ///< for errors
+  const char* name = "";  ///< for error messages
   std::span<const uint32_t> spirv;
   uint32_t buffers = 0;                 ///< storage buffers of set 0, bound at 0, 1, 2...; at most kMaxBuffers
   uint32_t push_bytes = 0;              ///< a multiple of 4, at most 128
@@ -22,11 +22,12 @@ struct PipelineDesc {
 
 inline constexpr uint32_t kMaxBuffers = 16;
 
-/// A shader's entry "main" with its layouts. Outlived by its device; must outlive the commands that run it.
+/// The entry point "main" of a shader, with its layouts. The device must outlive it; it must outlive commands that run
+/// it.
 class Pipeline {
  public:
-  /// May take seconds for a large shader. cache: null for none. Any thread, several at once.
-  /// Errors: invalid_argument (more than the device or this layer has room for), out_of_memory, unsupported.
+  /// May take seconds for a large shader. cache may be null. Thread-safe. Errors: invalid_argument (exceeds a limit of
+  /// the device or of this layer), out_of_memory, unsupported.
   static Result<Pipeline> create(Device& device, const PipelineDesc& desc, const PipelineCache* cache = nullptr);
   Pipeline(Pipeline&& other) noexcept;
   Pipeline& operator=(Pipeline&&) = delete;

@@ -11,7 +11,7 @@ Result<std::unique_ptr<Queue>> Queue::create(Device& device) {
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
   info.pNext = &type;
   const VkResult result = device.calls().vkCreateSemaphore(device.handle(), &info, nullptr, &queue->semaphore_);
-  if (result != VK_SUCCESS) return errorOf(result, "a timeline semaphore");
+  if (result != VK_SUCCESS) return errorOf(result, "creating a timeline semaphore");
   return queue;
 }
 
@@ -47,7 +47,7 @@ Result<uint64_t> Queue::submit(VkCommandBuffer commands) {
 }
 
 Result<bool> Queue::wait(uint64_t value, uint64_t nanoseconds) const {
-  if (value > submitted()) return Error{Code::invalid_argument, "nothing was submitted that could be waited for"};
+  if (value > submitted()) return Error{Code::invalid_argument, "the work to wait for was not submitted"};
   if (lost()) return failed(VK_ERROR_DEVICE_LOST, "waiting for ");
   VkSemaphoreWaitInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
@@ -61,10 +61,10 @@ Result<bool> Queue::wait(uint64_t value, uint64_t nanoseconds) const {
 }
 
 Result<uint64_t> Queue::reached() const {
-  if (lost()) return failed(VK_ERROR_DEVICE_LOST, "asking ");
+  if (lost()) return failed(VK_ERROR_DEVICE_LOST, "querying ");
   uint64_t value = 0;
   const VkResult result = device_.calls().vkGetSemaphoreCounterValue(device_.handle(), semaphore_, &value);
-  if (result != VK_SUCCESS) return failed(result, "asking ");
+  if (result != VK_SUCCESS) return failed(result, "querying ");
   return value;
 }
 
@@ -76,7 +76,7 @@ void Queue::drain() const {
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore_;
   info.pValues = &last;
-  // Not wait(), which asks nobody once the device is lost; and twice, because the driver may have been out of memory.
+  // Not wait(), which returns at once if the device is lost; and twice, since the driver may have been out of memory.
   const auto ended = [&] {
     return device_.calls().vkWaitSemaphores(device_.handle(), &info, UINT64_MAX) == VK_SUCCESS;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// Work for the device's queue, and when it ends: a timeline semaphore counts what was submitted.
+// Submits work to the device's queue and tracks its end: a timeline semaphore counts submissions.
 
 #include <atomic>
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace sgm::vulkan {
 
-/// Submissions have the values 1, 2, 3... and end in this order. Any thread may use it. Outlived by its device.
+/// Submissions have the values 1, 2, 3... and end in this order. Thread-safe. The device must outlive it.
 ///
-/// Once any call has said device_lost, all later ones do: what was submitted may never end, and its results are lost.
+/// Once a call has returned device_lost, all later ones do: submitted work may never end, and its results are lost.
 class Queue {
  public:
   /// Errors: out_of_memory.
@@ -21,12 +21,12 @@ class Queue {
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
 
-  /// Its value, which is reached when the commands have ended and what they wrote is there. The command buffer must
-  /// stay as it is until then. Errors: out_of_memory, where nothing was submitted; device_lost.
+  /// Returns the submission's value, which is reached when the commands have ended and their writes are visible. The
+  /// command buffer must not change until then. Errors: out_of_memory (nothing was submitted); device_lost.
   Result<uint64_t> submit(VkCommandBuffer commands);
 
-  /// Whether the value was reached, after at most so many nanoseconds; 0 only asks. Errors: device_lost, out_of_memory,
-  /// invalid_argument (a value that was not submitted).
+  /// Waits at most this long. Returns whether the value is reached; 0 ns only queries. Errors: device_lost,
+  /// out_of_memory, invalid_argument (a value that was not submitted).
   Result<bool> wait(uint64_t value, uint64_t nanoseconds = UINT64_MAX) const;
 
   /// The value reached so far. Never blocks. Error: device_lost, out_of_memory.
@@ -34,11 +34,11 @@ class Queue {
 
   /// The value of the last submission; 0: none.
   uint64_t submitted() const { return submitted_.load(); }
-  /// Waits for all that was submitted; a lost device does not make us wait. After it nothing of ours is in use.
+  /// Waits for all submissions, but not for a lost device. Afterwards the queue uses none of our objects.
   void drain() const;
   bool lost() const { return lost_.load(); }
 
-  /// For an engine that waits on its own queue for what ours made.
+  /// For an engine that waits on its own queue for our results.
   VkSemaphore semaphore() const { return semaphore_; }
   Device& device() const { return device_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a batch left on the device, as meshes.
+// Converts a batch's results to meshes.
 
 #include <span>
 
@@ -8,11 +8,11 @@
 
 namespace sgm::vulkan {
 
-/// Fills the mesh of one chunk of the plan. false: some part had no room, and the mesh is as it was. Throws
+/// Fills the mesh of one chunk of the plan. Returns false and keeps the mesh if a part had no room. Throws
 /// std::bad_alloc.
 bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const ChunkJob& job, ChunkMesh& mesh);
 
-/// Where the parts of a chunk lie that readMesh has read.
+/// The locations of a chunk's parts after readMesh.
 PartSources sourcesOf(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const BatchBuffers& buffers);
 
 }  // namespace sgm::vulkan

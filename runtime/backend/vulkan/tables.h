@@ -1,10 +1,10 @@
 #pragma once
-// The Vulkan functions we call, in tables that belong to their instance and device.
+// The Vulkan functions that the library calls, in tables that belong to their instance and device.
 //
-// volk keeps the loader, the instance and (through volkLoadDeviceTable) the device resolver in process globals, which a
-// program that embeds us may use for its own instance. These tables need none: every pointer is reached through the
-// object that it was loaded for, so that ours never meet an engine's, and two instances of ours can live side by side
-// on two threads. Tables are values: a test may replace a pointer in one.
+// volk keeps the loader, the instance and (through volkLoadDeviceTable) the device functions in process globals, which
+// a host program may use for its own instance. These tables need no globals: each pointer belongs to the object for
+// which it was loaded. So they never mix with an engine's, and two instances of the library can coexist on two threads.
+// Tables are values: a test may replace a pointer in one.
 
 #define VK_NO_PROTOTYPES
 #include <vulkan/vulkan.h>
@@ -91,14 +91,14 @@ struct GlobalTable {
   SGM_VK_GLOBAL(SGM_VK_MEMBER)
 };
 
-/// The debug functions are null where the instance was made without VK_EXT_debug_utils.
+/// The debug functions are null if the instance was created without VK_EXT_debug_utils.
 struct InstanceTable {
   SGM_VK_INSTANCE(SGM_VK_MEMBER)
   SGM_VK_INSTANCE_DEBUG(SGM_VK_MEMBER)
 };
 
-/// What computing needs. Who draws, too, has a table of its own that begins with this one. The functions of extensions
-/// are null where the device was made without them.
+/// The functions for computing. Drawing code has a table of its own that begins with this one. The functions of
+/// extensions are null if the device was created without them.
 struct DeviceTable {
   SGM_VK_DEVICE(SGM_VK_MEMBER)
   SGM_VK_DEVICE_EXTENSIONS(SGM_VK_MEMBER)

@@ -19,7 +19,7 @@ using uint = uint32_t;
 
 }  // namespace record_header
 
-/// What a header says of its record.
+/// The header bits that describe a record.
 uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   using namespace record_header;
   const uint32_t operands = n.c >= 0 ? 3 : n.b >= 0 ? 2 : n.a >= 0 ? 1 : 0;
@@ -53,12 +53,12 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   }
 }
 
-/// Words of parameters of its own, at most.
+/// The largest number of its own parameter words.
 uint32_t wordsOf(const TapeScratch::Node& n, const uint32_t* params) {
   return parameterWords(n.weighs ? Op::kernel : static_cast<Op>(n.kind), params);
 }
 
-/// How a mix or a morph goes, and what a sum adds; 0 of others.
+/// The variant of a mix or a morph, and the operand of a sum; 0 for others.
 uint32_t howOf(const TapeScratch::Node& n) {
   using namespace record_header;
   return (n.by_constant ? kHowByConstant : 0) | (n.morphs ? kHowMorphs : 0) | (n.weighs ? kHowWeighs : 0);
@@ -67,17 +67,17 @@ uint32_t howOf(const TapeScratch::Node& n) {
 /// The bits of Tape::kinds.
 uint64_t kindsOf(const TapeScratch::Node& n) {
   using namespace record_header;
-  static_assert(static_cast<uint32_t>(TapeOp::count) <= 61, "the last three bits are others");
+  static_assert(static_cast<uint32_t>(TapeOp::count) <= 61, "the last three bits have other meanings");
   const bool joins = n.is(Op::mix) || n.is(Op::morph);
   const uint32_t others =
       (joins && !n.by_constant ? kSomeReadsThird : 0) | (n.morphs ? kSomeMorphs : 0) | (n.weighs ? kSomeWeighs : 0);
-  // What pruning may make of it.
+  // Pruning may turn it into a copy.
   const bool may_copy = n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1;
   return uint64_t{1} << n.kind | uint64_t{others} << 32 |
          (may_copy ? uint64_t{1} << static_cast<uint32_t>(Op::copy) : 0);
 }
 
-/// Writes one record, 32 words and more, and returns how many times 32 words it has.
+/// Writes one record of at least 32 words. Returns its length in units of 32 words.
 uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, const TapeScratch::Node& n,
                      std::pmr::vector<uint32_t>& words) {
   const size_t at = words.size();
@@ -124,8 +124,8 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   return pieces;
 }
 
-/// The samples of a lattice behind each other; the place of what word 10 would be goes into its record. Their range,
-/// which a device bounds the op by, too.
+/// Writes the samples of a lattice contiguously; the offset of its word 10 goes into the record. Also writes their
+/// range, with which a device bounds the op.
 void writeLattice(const ProgramView& program, uint32_t params, size_t record, std::pmr::vector<uint32_t>& words) {
   const uint32_t* p = program.params.data() + params;
   const size_t points = size_t{p[5]} * p[6] * p[7], at = words.size();

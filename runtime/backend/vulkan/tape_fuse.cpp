@@ -37,12 +37,12 @@ class Fuser {
     }
   }
 
-  /// The node of this op that makes the value; null where another does.
+  /// The node that makes the value, if it has this op; else null.
   Node* makerOf(int32_t v, Op op) {
     const int32_t maker = v < 0 ? -1 : values_[static_cast<size_t>(v)].maker;
     return maker >= 0 && nodes_[static_cast<size_t>(maker)].is(op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
   }
-  bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // made once, too
+  bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // and made once
 
   void takeConstant(Node& n) {
     if (!n.is(Op::mix) && !n.is(Op::morph)) return;
@@ -55,7 +55,8 @@ class Fuser {
     n.c = -1;
   }
 
-  /// What a sum adds is the weight of a distance as a rule, and that a morph of two shapes in grammars that morph.
+  /// A sum usually adds the weight of a distance, and in grammars that morph this is the distance of a morph of two
+  /// shapes.
   void takeOperand(Node& n) {
     Node* const kernel = makerOf(n.a, Op::kernel);
     if (kernel == nullptr || !readOnce(n.a)) return;
@@ -64,7 +65,7 @@ class Fuser {
     n.a = kernel->a;
     kernel->gone = true;
     Node* const morph = makerOf(n.a, Op::morph);
-    // At either end pruning leaves one of the two shapes out, which is worth more.
+    // At either end of the morph pruning removes one of the two shapes, which saves more.
     if (morph == nullptr || !readOnce(n.a) || !morph->by_constant || !(morph->by > 0 && morph->by < 1)) return;
     n.morphs = true;
     n.by = morph->by;
@@ -73,15 +74,15 @@ class Fuser {
     morph->gone = true;
   }
 
-  /// Reads a position and nothing else, in a form that takes a minimum with its operand.
+  /// Whether the op reads only a position, in a form that takes the minimum with its operand.
   static bool isShape(uint32_t kind) {
     if (kind >= static_cast<uint32_t>(Op::count) || kind == static_cast<uint32_t>(Op::noise)) return false;
     const OpShape shape = shapeOf(static_cast<Op>(kind));
     return shape.position && shape.operands == 0;
   }
 
-  /// A minimum of what shapes before have come to and of the shape just before it goes into that shape, unless others
-  /// want one of the two, or the shape would have to wait for another sweep.
+  /// Merges a minimum into the shape just before it, as the shape's operand, unless other nodes read one of the two, or
+  /// the shape would have to wait for another sweep.
   void uniteShapes() {
     int32_t values = 0;
     size_t kept = 0;

@@ -1,12 +1,12 @@
 #pragma once
-// Instructions of a tape that become part of others, so that their results need no slots: what a shader pays for a slot
-// is more than most instructions cost (shaders/mesher/tape.glsl).
+// Merges instructions of a tape into others, so that their results need no slots: a slot costs a shader more than most
+// instructions (shaders/mesher/tape.glsl).
 
 #include "backend/vulkan/tape.h"
 
 namespace sgm {
 
-/// scratch: nodes in the program's order, their values by number. Leaves no more of either, numbered anew.
+/// scratch: nodes in the program's order, values by index. Removes merged nodes and values, and renumbers the rest.
 void fuseNodes(const ProgramView& program, TapeScratch& scratch);
 
 }  // namespace sgm

@@ -11,9 +11,9 @@ namespace sgm {
 
 namespace {
 
-// Their words are read as those of a record's beginning (shaders/mesher/tape.glsl).
+// Their words must be in the first part of a record (shaders/mesher/tape.glsl).
 constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
-// A record that never fits into a shader's window would be waited for without an end.
+// A shader would wait for ever for a record larger than its window.
 constexpr uint32_t kMostWords = 100 * kTapeRecordWords;
 
 class Scheduler {
@@ -24,7 +24,7 @@ class Scheduler {
     values_.clear();
   }
 
-  /// false: too much for a shader.
+  /// Returns false if the program exceeds a shader's limits.
   bool run() {
     readNodes();
     fuseNodes(program_, scratch_);
@@ -59,7 +59,7 @@ class Scheduler {
         end.ends_layer = true;
         end.group = k;
         end.layer = layers_++;
-        // The cuts of a layer stand behind its adds.
+        // The cuts of a layer follow its adds.
         end.layer_cuts = g.cut;
         add(end);
       }
@@ -112,7 +112,7 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
-  /// Blocks are as long as their values surely find slots; a place is made once in a block and not read before.
+  /// Chooses blocks so short that their values surely get slots; a place is made once in a block, and not read before.
   void sortBlocks() {
     for (const Node& n : nodes_) TapeScratch::forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
     for (size_t first = 0; first < nodes_.size();) {
@@ -137,7 +137,7 @@ class Scheduler {
       v.in_block = false;
       v.stage = v.rank = 0;
     }
-    // What was made before and is read in or after this block.
+    // Values made earlier that are read in or after this block.
     for (size_t v = 0; v < made_; ++v) values += values_[v].last >= begin ? size_t{1} : size_t{0};
     std::bitset<kMaxPlaces> touched;
     size_t i = first;
@@ -180,7 +180,7 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
-      // Among those of one turn, which are all ops that join values, the kinds stand together in the same way.
+      // Among kinds of one turn, that is, all ops that join values, group equal kinds in the same way.
       n.step = 0;
       TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];
@@ -207,7 +207,8 @@ class Scheduler {
     uint64_t free = ~uint64_t{0};
     for (uint32_t i = 0; i < nodes_.size(); ++i) {
       const Node& n = nodes_[i];
-      // A result takes its first operand's slot where that is over: pruned to this operand alone it then costs nothing.
+      // A result takes its first operand's slot if that value is not needed later: pruned to this operand alone, it is
+      // free.
       for (const int32_t v : {n.a, n.b, n.c}) {
         if (v >= 0 && values_[static_cast<size_t>(v)].last == i) free |= bitOf(v);
       }

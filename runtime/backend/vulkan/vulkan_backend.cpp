@@ -10,14 +10,14 @@ namespace sgm {
 namespace vulkan {
 namespace {
 
-/// What the many invocations of a device take; where they run on few threads, each batch only takes longer.
+/// Batches must fill a device's many invocations; on a few CPU threads larger batches only take longer.
 constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
 
 struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   BatchPlan plan;
   BatchBuffers buffers;
-  uint64_t value = 0;  ///< of the queue: the device is at work in it until then
+  uint64_t value = 0;  ///< of the queue: until this value the device works in it
 };
 
 class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
@@ -62,7 +62,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Result<void> submit(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
-    // What was given up to wait for, when the driver was out of memory.
+    // Repeat a wait that was given up because the driver ran out of memory.
     if (Result<void> brought = reach(slot.buffers.reading); !brought) {
       slot.stuck = true;
       return brought;
@@ -97,7 +97,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       if (!done(job)) return false;
     }
     if (staying.empty()) return false;
-    // What cannot be copied to a place of its own is uploaded by whoever wants it there.
+    // Parts that cannot be copied here are uploaded later by the caller, if it wants them there.
     Result<KeptParts> kept = kept_->keep(shared_from_this(), sources);
     if (!kept) return kept.error();
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move(kept->chunks[i]);
@@ -123,11 +123,11 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (!ring) return ring.error();
     ring_ = std::move(*ring);
     if (!options.pipeline_folder.empty()) {
-      // Without it pipelines are made anew, and nothing else.
+      // Without a cache, pipelines are made anew, and everything else works.
       if (auto cache = PipelineCache::create(*device_, options.pipeline_folder)) {
         cache_ = std::move(*cache);
       } else if (options.warn) {
-        options.warn("compiled pipelines are not kept: " + cache.error().message);
+        options.warn("compiled pipelines are not cached: " + cache.error().message);
       }
     }
     kernels_ = std::make_unique<Kernels>(*device_, cache_.get(), profiler, KernelNews{options.inform, options.warn});
@@ -143,7 +143,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return {};
   }
 
-  /// Waits until the queue has reached the value; a second time where the driver may have been out of memory.
+  /// Waits until the queue has reached the value; tries twice, since the driver may have been out of memory.
   Result<void> reach(uint64_t value) const {
     if (queue_->wait(value)) return {};
     const Result<bool> reached = queue_->wait(value);
@@ -157,11 +157,11 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::unique_ptr<Queue> queue_;
   std::unique_ptr<Memory> memory_;
   std::unique_ptr<CommandRing> ring_;
-  std::unique_ptr<PipelineCache> cache_;  // null: pipelines are not kept
+  std::unique_ptr<PipelineCache> cache_;  // null: pipelines are not cached
   std::unique_ptr<Kernels> kernels_;
   std::unique_ptr<Mesher> mesher_;
-  std::unique_ptr<Memory> kept_memory_;  // of meshes that stay; null where nobody could draw them
-  std::unique_ptr<DeviceMeshes> kept_;   // likewise
+  std::unique_ptr<Memory> kept_memory_;  // for meshes that stay; null if the device is not the engine's
+  std::unique_ptr<DeviceMeshes> kept_;   // same as above
   IdleSlots slots_;
 };
 

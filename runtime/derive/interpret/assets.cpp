@@ -1,4 +1,4 @@
-// Assets in scopes: the statement fit. Its scope's box lies about its origin.
+// Assets in scopes: the statement fit. The box of its scope is centred on its origin.
 
 #include <bit>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// The convex pieces of an asset in one size, or why there are none.
+/// The convex pieces of an asset in one size, or the reason why there are none.
 struct FittedAsset {
   std::vector<asset::ConvexPiece> pieces;
   std::string trouble;
@@ -20,9 +20,9 @@ struct FittedAsset {
 
 namespace {
 
-/// Of an asset's triangles: what it takes to fit it, against the cell's steps.
+/// The cost of fitting a triangle of an asset, in steps of the cell.
 constexpr uint64_t kStepsATriangle = 64;
-/// Units that the box around an asset is larger by: its faces make the surface, never the box's.
+/// Units by which the box around an asset is larger: its faces must make the surface, never the box's.
 constexpr double kBoxMargin = 2;
 constexpr double kUnitsOfMetre = kUnitsPerMetre;
 
@@ -38,7 +38,8 @@ FittedAsset cover(const asset::Polyhedron& body) {
   return out;
 }
 
-/// At the foot of `from` on the plane, y out of it; x runs level and z down where the plane stands, for textures.
+/// At the foot of `from` on the plane, y pointing out of it; if the plane is vertical, x is horizontal and z points
+/// down, for textures.
 Placement onPlane(const Placement& scope, const asset::Plane& plane, Vec3 from) {
   const Vec3 out = vecOf(plane.normal);
   const double away = dot(out, from) - plane.offset;
@@ -52,8 +53,7 @@ Placement onPlane(const Placement& scope, const asset::Plane& plane, Vec3 from) 
   return place;
 }
 
-/// The frame of a half-space there. Its origin is a whole number of units: of those near it, the one nearest to the
-/// plane.
+/// The frame of a half-space there. Its origin has integer units: among the nearby ones, the one nearest to the plane.
 Frame frameOn(const Placement& place) {
   Frame frame = place.frame();
   const Vec3 out = place.direction({0, 1, 0}), cell = place.toCell({});
@@ -69,7 +69,7 @@ Frame frameOn(const Placement& place) {
         const Vec3 off{from_base.x - kUnitsOfMetre * cell.x, from_base.y - kUnitsOfMetre * cell.y,
                        from_base.z - kUnitsOfMetre * cell.z};
         const double away = std::fabs(dot(off, out));
-        // What is no nearer by rounding alone does not count.
+        // Points that are nearer only because of rounding do not count.
         if (away >= least - 1e-6) continue;
         least = away;
         frame.origin = candidate;
@@ -121,7 +121,7 @@ void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
   if (!body.trouble.empty()) return note(body.trouble + "; it is left out", s.span, env.activation);
   const Asset& from = program_.assets[node.asset];
   const Vec3 corner = -0.5 * env.scope;
-  // Pieces that lie behind one face share its half-space, and with it the texture.
+  // Pieces that lie behind one face share its half-space, and therefore the texture.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
   ShapeList pieces;
   for (const asset::ConvexPiece& piece : body.pieces) {
@@ -142,7 +142,7 @@ void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
                                         : addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, planes));
     if (failed()) return;
   }
-  // Planes that lie askew have no bounds of their own.
+  // Inclined planes have no bounds of their own.
   Shape box = shapeIn(env, ShapeKind::box);
   box.frame = env.place.frame();
   double inner = kInfinity;

@@ -16,7 +16,7 @@ namespace {
 
 std::string metresText(int64_t units) { return fixedText(static_cast<double>(units) / kUnitsPerMetre, 2); }
 
-/// By how much `box` passes `limit`, in units.
+/// The amount by which `box` exceeds `limit`, in units.
 int64_t excess(const IntBox& box, const IntBox& limit) {
   int64_t most = 0;
   for (int a = 0; a < 3; ++a) {
@@ -25,8 +25,8 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
-/// By how much the bounds of shapes of this size may pass what is proven of them: ShapeBounds::level() has room for the
-/// rounding of floats.
+/// The amount by which the bounds of shapes of this size may exceed their proven bounds: ShapeBounds::level() includes
+/// a margin for the rounding of floats.
 int64_t roundingOf(const IntBox& bound) {
   const IntBox all = IntBox::everything();
   int64_t longest = 0;
@@ -95,7 +95,7 @@ IntBox shapeLimit(const Program& program, uint32_t layer_index, Int3 cell) {
 
 namespace {
 
-/// Whether a box without a bound has none only where a cell at the end of the world has no more room.
+/// True if a box is unbounded only because the cell is at the end of the world, without space beyond.
 bool endsWithWorld(const Layer& layer, const IntBox& limit, IntBox box) {
   const IntBox all = IntBox::everything();
   for (int a = 0; a < 3; ++a) {
@@ -210,7 +210,7 @@ void Interpreter::noteBeyond(uint32_t shape, const IntBox& box) {
 void Interpreter::addGroup(Group group, GrammarChunk& out) {
   const IntBox proven = shapeLimit(program_, layer_index_, cell_);
   if (!proven.contains(group.bounds)) {
-    // Each warp rounds places to units, for which its bounds have room.
+    // Each warp rounds positions to units; its bounds include a margin for that.
     const std::pmr::vector<Shape>& shapes = draft_.chunk().shapes;
     const auto warps =
         std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
@@ -222,7 +222,7 @@ void Interpreter::addGroup(Group group, GrammarChunk& out) {
                " m and ends there: a bug in the library, please report it",
            origin.span, origin.activation);
     }
-    // Whoever gathers the cells of a chunk goes by the proven bound: what lies beyond it would show in some alone.
+    // Gathering the cells of a chunk relies on the proven bound: parts beyond it would show in only some chunks.
     group.bounds = group.bounds.clipped(proven);
   }
   if (!group.bounds.empty()) out.groups.push_back(group);
@@ -302,9 +302,10 @@ Result<GrammarChunk> Interpreter::derived(std::vector<uint32_t>* from, std::pmr:
   if (from != nullptr) from->assign(copier.copied().begin(), copier.copied().end());
   out.anchors.assign(anchors_.begin(), anchors_.end());
   if (dropped_notes_ > 0) {
-    // It has no place of its own: that of the cell's start is the nearest.
+    // It has no place of its own: the start of the layer is the nearest.
     const Span& span = program_.expr(layer_.start).span;
-    const std::string_view what = dropped_notes_ == 1 ? " more note on this cell" : " more notes on this cell";
+    const std::string_view what =
+        dropped_notes_ == 1 ? " more note on this cell is left out" : " more notes on this cell are left out";
     notes_.push_back({std::to_string(dropped_notes_).append(what), pathText(0), span.line, span.column});
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
@@ -313,7 +314,7 @@ Result<GrammarChunk> Interpreter::derived(std::vector<uint32_t>* from, std::pmr:
 
 Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) { return derived(nullptr, memory); }
 
-/// The use of a rule that a path can name: what the blocks of overrides derive has none that overrides take.
+/// The activation of a rule that a path can name: activations within the blocks of overrides cannot be overridden.
 uint32_t Interpreter::outsideOfEdits(uint32_t activation) const {
   uint32_t outside = activation;
   for (uint32_t i = activation; i != kNone; i = activations_[i].parent)
@@ -338,7 +339,7 @@ Result<TracedCell> Interpreter::runTraced(std::pmr::memory_resource* memory) {
 }
 
 Result<GrammarChunk> Interpreter::runCoarse(int32_t cell_edge, std::pmr::memory_resource* memory) {
-  // An override's path counts the uses of a rule, also those in what would be left out.
+  // An override's path counts all activations of a rule, including those in shapes that would be left out.
   if (path_overrides_.empty()) coarse_edge_ = cell_edge;
   const Result<GrammarChunk> chunk = run(std::pmr::get_default_resource());
   if (!chunk) return chunk.error();
@@ -354,11 +355,12 @@ Result<void> checkArguments(const Program& program, const ParameterValues& param
     return Error{Code::invalid_argument, "the grammar has no layer " + std::to_string(layer) + "; it has " +
                                              std::to_string(program.layers.size())};
   if (parameters.values.size() != program.params.size()) {
-    return Error{Code::invalid_argument, "the parameter values belong to another grammar; take its defaults"};
+    return Error{Code::invalid_argument,
+                 "the parameter values belong to another grammar; use the defaults of this one"};
   }
   const Layer& info = program.layers[layer];
   if (isWhole(info) && cell != Int3{}) {
-    return Error{Code::invalid_argument, "a grammar without layers has the cell 0 0 0 alone"};
+    return Error{Code::invalid_argument, "a grammar without layers has only the cell 0 0 0"};
   }
   for (int a = 0; a < 3; ++a) {
     const int64_t low = int64_t{cell[a]} * info.cell[a], high = low + info.cell[a];

@@ -175,7 +175,7 @@ Value Interpreter::sampleCoordinates(const Env& env, bool local) {
     const Num z = draft_.coordinate({}, {0, 0, 1});
     return Value::vector(x, y, z);
   }
-  // The anchor is the scope's origin rounded to units; what rounding took away is added back.
+  // The anchor is the scope's origin rounded to units; the rounding error is added back.
   const Placement& at = env.place;
   const Int3 anchor = at.snap({});
   const Int3 from_base = saturatingSub(anchor, at.base);
@@ -191,7 +191,7 @@ Value Interpreter::sampleCoordinates(const Env& env, bool local) {
 
 Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
   const Value v = evaluate(program_.idAt(node.children, 0), env);
-  // What has failed has given another kind of value.
+  // An expression that has failed may have returned another kind of value.
   const auto segmentOf = [&](const Value& of) {
     return of.kind == ValueKind::segment ? segments_[of.first] : Segment{};
   };
@@ -232,7 +232,7 @@ Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
   return {};
 }
 
-/// A whole domain is one cell, which lies about the origin of its scope and not beside it.
+/// A whole domain is one cell, which is centred on the origin of its scope instead of beginning there.
 Vec3 Interpreter::cellOrigin() const {
   if (!isWhole(layer_)) return {};
   const Int3 low = program_.domain.box.lo;
@@ -260,7 +260,7 @@ Value Interpreter::evaluateCall(const ExprNode& node, const Env& env) {
 Value Interpreter::evaluateLet(const ExprNode& node, const Env& env) {
   const Let& let = program_.lets[node.id];
   std::vector<Value> slots(std::max(let.slot_count, let.formals.count));
-  // Draws inside follow the path and the arguments, so that two uses with different arguments draw apart.
+  // Draws inside depend on the path and the arguments, so that two uses with different arguments draw independently.
   uint64_t given = 0;
   for (uint32_t i = 0; i < let.formals.count; ++i) {
     slots[i] = evaluate(boundAt(node, i), env);
@@ -296,7 +296,7 @@ PathKey Interpreter::keyOf(const Value& v) const {
   if (v.kind == ValueKind::segment) return segments_[v.first].key;
   PathKey key{seed_};
   for (size_t i = 0; i < partsOf(v); ++i) {
-    // -0 and 0 are one number.
+    // -0 and 0 are the same number.
     key = {hashCombine(key.value, std::bit_cast<uint64_t>(v.n[i].value + 0.0))};
   }
   return key;

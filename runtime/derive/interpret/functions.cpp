@@ -15,7 +15,7 @@ bool isMethod(Builtin id) {
   return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
 }
 
-/// Whether sine and cosine know it; the proof of reach counts on a number between -1 and 1 of any.
+/// True if sine and cosine support the angle; the proof of reach relies on results between -1 and 1 for any number.
 bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace
@@ -55,7 +55,7 @@ Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
 Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
   const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
   const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
-  // One after another: the order in which a compiler evaluates a call's arguments must not reach the chunk.
+  // In sequence: the order in which a compiler evaluates a call's arguments must not affect the chunk.
   const auto all = [&](uint32_t count) {
     std::array<Num, 3> values;
     for (uint32_t i = 0; i < count; ++i) values[i] = num(i);

@@ -33,7 +33,7 @@ class PartSearch {
   }
 
  private:
-  /// The group as a level shows it.
+  /// The group as shown at a level.
   struct Shown {
     GrammarChunk chunk;
     std::vector<bool> shows;
@@ -48,7 +48,7 @@ class PartSearch {
 
   IntBox bounds(const Shown& at) const { return at.shows[root_] ? levelBounds(at.chunk, root_, 0) : IntBox{}; }
 
-  /// Of the levels from that one on, the coarsest at which the group passes the limit: finer ones show more.
+  /// Among the levels from `from` on, the coarsest at which the group exceeds the limit: finer ones show more.
   size_t firstBeyond(size_t from) {
     size_t end = levels_.size();
     while (from < end && !refused_) {
@@ -61,8 +61,8 @@ class PartSearch {
     return end;
   }
 
-  /// What shows from that level on goes: those that pass the limit by themselves, or else all. False where the group as
-  /// a whole shows no sooner.
+  /// Removes the parts that first show at that level: those that exceed the limit by themselves, or else all. Returns
+  /// false if the whole group first shows there.
   bool takeOut(size_t level) {
     if (level == 0) return false;
     const std::vector<bool> sooner = shown(level - 1).shows;

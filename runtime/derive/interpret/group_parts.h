@@ -1,5 +1,5 @@
 #pragma once
-// What is left of a group that passes its reach, where levels may leave parts of it out.
+// The remainder of a group that exceeds its reach, if levels may leave parts of it out.
 
 #include <functional>
 #include <optional>
@@ -9,26 +9,27 @@
 
 namespace sgm {
 
-/// Part of a group that is left out, and how far what it is in, or it alone, would extend.
+/// A part of a group that is left out, and the extent that it, or the shape that contains it, would have.
 struct LeftOutPart {
   uint32_t shape = 0;
   IntBox bounds;
 };
 
 struct GroupParts {
-  bool any = false;  ///< otherwise all of it is left out
-  IntBox bounds;     ///< of what is left
+  bool any = false;  ///< otherwise the whole group is left out
+  IntBox bounds;     ///< of the remainder
   std::vector<LeftOutPart> left_out;
 };
 
-/// Takes out parts until all that is left has bounds within `limit`. Levels with large cells derive no parts that they
-/// do not show, and must come to the same: so a part stays or goes by what shows at the coarsest level that shows it.
+/// Removes parts until the remainder has bounds within `limit`. Levels with large cells do not derive parts that they
+/// do not show, and must produce the same result: so the coarsest level that shows a part decides whether it stays.
 ///
-/// group: a chunk with that group alone. step: told of work before it is done; nothing where it refuses.
+/// group: a chunk with only that group. step: receives the amount of work before each step; nullopt if it returns
+/// false.
 std::optional<GroupParts> partsWithin(const GrammarChunk& group, const IntBox& limit,
                                       const std::function<bool(uint64_t)>& step);
 
-/// Whether bounds are those of a group that a cell with this limit may own.
+/// True if a cell with this limit may own a group with these bounds.
 bool isWithin(const IntBox& bounds, const IntBox& limit);
 
 }  // namespace sgm

@@ -1,4 +1,4 @@
-// The uses of one rule in a cell, each alone.
+// The activations of one rule in a cell, each by itself.
 
 #include "derive/interpret/interpreter.h"
 
@@ -35,7 +35,7 @@ Result<std::vector<RuleInstance>> Interpreter::runInstances(uint32_t rule, std::
     if (instance.bounded) copier.copy(groups, instance.chunk);
     instance.chunk.anchors.assign(anchors_.begin() + static_cast<std::ptrdiff_t>(call.first_anchor),
                                   anchors_.begin() + static_cast<std::ptrdiff_t>(call.end_anchor));
-    // Uses within uses repeat what is below them.
+    // Nested activations repeat the shapes below them.
     shapes += instance.chunk.shapes.size();
     if (shapes > limits_.shapes) {
       return Error{Code::limit, "the uses of `" + std::string(program_.text(program_.rules[rule].name)) +

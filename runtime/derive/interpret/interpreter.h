@@ -3,9 +3,9 @@
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
-// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. assets.cpp: what
-// is fitted into scopes. rooms.cpp: floors in rooms. tiles.cpp: lattices of tiles. overrides.cpp: blocks in the place
-// of others. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
+// primitives.cpp: leaves. voxels.cpp: leaves of cellular automata. profiles.cpp: footprints and roofs. assets.cpp:
+// assets fitted into scopes. rooms.cpp: floors in rooms. tiles.cpp: lattices of tiles. overrides.cpp: replaced blocks.
+// derive.cpp: the cell as a whole. instances.cpp: the activations of one rule in it.
 
 #include <array>
 #include <map>
@@ -27,7 +27,7 @@
 namespace sgm {
 
 /// A value of the language. Numbers, vectors and pairs use n; a cell uses `cell`, a face also `axis`; a range uses n[0]
-/// and n[1]; a segment uses `first`, a list of them and a plan also `count`.
+/// and n[1]; a segment uses `first`; a list of segments and a plan also use `count`.
 struct Value {
   ValueKind kind = ValueKind::number;
   std::array<Num, 3> n{};
@@ -95,68 +95,68 @@ struct Value {
   FaceId face() const { return {cell, axis}; }
 };
 
-/// A stretch of those by path that may hold in the cell, in the order of Program::path_overrides.
+/// A range of the overrides by path that may apply in the cell, in the order of Program::path_overrides.
 struct PathRange {
   uint32_t first = 0, end = 0;
 };
 
-/// One use of a rule, or the block of an override there.
+/// One activation of a rule, or of an override's block.
 struct Activation {
   uint32_t rule = 0;
-  uint32_t edit = kNone;     ///< Program::overrides: its block, below the use that it takes the place of
-  NameId qualifier = kNoId;  ///< of the rule where it is called: `cave` of cave.Hall
+  uint32_t edit = kNone;     ///< index in Program::overrides if a block: below the activation that it replaces
+  NameId qualifier = kNoId;  ///< of the rule in its call: `cave` of cave.Hall
   uint32_t parent = kNone;
-  uint32_t index = 0;                  ///< among the parent's uses of the same rule, for the path that a person reads
-  Placement start;                     ///< the scope that the rule starts with
-  std::vector<PathRange> leads;        ///< the overrides by path whose first steps are those that lead here
-  uint32_t steps = 0;                  ///< how many of them
-  std::vector<uint32_t> child_counts;  ///< pairs: rule, uses
+  uint32_t index = 0;                  ///< among the parent's activations of the same rule, for the readable path
+  Placement start;                     ///< the initial scope of the rule
+  std::vector<PathRange> leads;        ///< the overrides by path whose first steps lead here
+  uint32_t steps = 0;                  ///< the number of these steps
+  std::vector<uint32_t> child_counts;  ///< pairs: rule, activations
 };
 
 struct Env;
 struct FittedAsset;
 struct StandingTiles;
 
-/// Planes that the lines of splits below snap to: across `normal`, every `distance` metres of the cell from `first`.
+/// Planes to which the lines of nested splits snap: across `normal`, every `distance` metres of the cell from `first`.
 struct SnapPlanes {
   Vec3 normal;
   double first = 0, distance = 1;
   const SnapPlanes* outer = nullptr;
 };
 
-/// By which overrides by tag a statement is put there: those in whose own block it stands.
+/// The overrides by tag whose own block contains the current statement.
 struct OwnBlock {
   uint32_t edit = 0;
   const OwnBlock* outer = nullptr;
 };
 
-/// What overrides take the place of, and of an override's block what its `inner` derives.
+/// The target of overrides; for an override's block, the content that its `inner` derives.
 struct UnderEdit {
-  const Rule* rule = nullptr;  ///< a use of it, with these arguments
+  const Rule* rule = nullptr;  ///< an activation of it, with these arguments
   std::vector<Value>* arguments = nullptr;
   const StmtNode* statement = nullptr;  ///< or a block with a tag
-  const std::vector<uint32_t>& edits;   ///< that hold, as in Program::overrides
-  size_t at = 0;                        ///< whose block it is, into `edits`
-  const Env* env = nullptr;             ///< what that stands in
+  const std::vector<uint32_t>& edits;   ///< that apply, as in Program::overrides
+  size_t at = 0;                        ///< the current override, an index into `edits`
+  const Env* env = nullptr;             ///< the environment of the target
   PathKey own_key;                      ///< of the block
-  bool room = false;                    ///< the block is that of a room, which it adds to and cuts from
+  bool room = false;                    ///< the block belongs to a room, to which it adds and from which it cuts
 };
 
-/// What a statement or an expression is evaluated in.
+/// The environment of a statement or an expression.
 struct Env {
   Placement place;
   Vec3 scope;  ///< edges of the scope's box, metres
   PathKey key;
   uint32_t activation = 0;
   uint16_t material = 0, tag = 0;
-  uint32_t sweep = kNone;  ///< the polyline that `u` runs along
-  int32_t cut_detail = 0;  ///< of a `detail` that stands directly before a cut
+  uint32_t sweep = kNone;  ///< the polyline that is the domain of `u`
+  int32_t cut_detail = 0;  ///< of a `detail` directly before a cut
   bool anchors = true;
-  bool whole = false;  ///< no part may be left out: what stands around makes one shape of all of them
-  bool top = false;    ///< the layer's own use of its start rule, in which a cut takes from the domain
+  bool whole = false;  ///< no part may be left out: an enclosing statement makes one shape of all of them
+  bool top = false;    ///< the layer's own activation of its start rule, in which a cut removes from the domain
   std::vector<Value>* slots = nullptr;
-  uint16_t forced_material = 0, forced_tag = 0;    ///< of an override around `inner`: hold over what a block says
-  uint16_t written_material = 0, written_tag = 0;  ///< said by a block since the override's began
+  uint16_t forced_material = 0, forced_tag = 0;    ///< of an override around `inner`: take precedence over a block's
+  uint16_t written_material = 0, written_tag = 0;  ///< set by a block since the override's began
   const OwnBlock* within = nullptr;
   const UnderEdit* under = nullptr;
   const SnapPlanes* snaps = nullptr;
@@ -164,7 +164,7 @@ struct Env {
 
 using ShapeList = std::vector<uint32_t>;
 
-/// What one call of the watched rule has put out.
+/// The output of one call of the watched rule.
 struct WatchedCall {
   uint32_t activation = 0;
   ShapeList shapes, layer_cuts;
@@ -181,15 +181,15 @@ class Interpreter {
 
   Result<GrammarChunk> run(std::pmr::memory_resource* memory);
 
-  /// run(), and whence its shapes come.
+  /// Same as run(), with the origins of the shapes.
   Result<TracedCell> runTraced(std::pmr::memory_resource* memory);
 
-  /// run(), but without what deriveCoarseCell() leaves out.
+  /// Same as run(), but without the shapes that deriveCoarseCell() leaves out.
   Result<GrammarChunk> runCoarse(int32_t cell_edge, std::pmr::memory_resource* memory);
   Result<std::vector<RuleInstance>> runInstances(uint32_t rule, std::pmr::memory_resource* memory);
 
  private:
-  /// Counts one more level of recursion for as long as it lives.
+  /// Counts one more level of recursion during its lifetime.
   class Nested {
    public:
     explicit Nested(uint32_t& depth) : depth_(depth) { ++depth_; }
@@ -201,7 +201,7 @@ class Interpreter {
     uint32_t& depth_;
   };
 
-  // Expressions. After a cap is reached they give zeros and failed() is true.
+  // Expressions. After a limit is reached, they return zeros and failed() is true.
   Value evaluate(ExprId id, const Env& env);
   Value evaluateBinary(const ExprNode& node, const Env& env);
   Value evaluateName(const ExprNode& node, const Env& env);
@@ -224,10 +224,10 @@ class Interpreter {
   PathKey keyOf(const Value& key) const;
   double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
 
-  // Statements. They append to `out` what they add to the block they stand in.
+  // Statements. They append the shapes that they add to their block to `out`.
   void statement(StmtId id, const Env& env, ShapeList& out);
   void block(const StmtNode& s, const Env& env, ShapeList& out);
-  /// The statements of a block as if they stood in that of `out`.
+  /// The statements of a block, evaluated as if they were in the block of `out`.
   void contents(const StmtNode& s, const Env& env, ShapeList& out);
   void label(const StmtNode& block, Env& env) const;
   void call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out);
@@ -258,12 +258,12 @@ class Interpreter {
                       const Span& span, const Env& env);
   double floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env);
   void planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env, ShapeList& out);
-  /// index: of the part that says what stands there, or kNone.
+  /// index: of the part that describes the room, or kNone.
   void roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, const Env& env,
               ShapeList& out);
   void facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env, ShapeList& out);
   void wave(const StmtNode& s, const Env& env, ShapeList& out);
-  /// False, with a note, where there is nothing to fill, or nothing to fill it with.
+  /// False, with a note, if there is nothing to fill, or no tile to fill it with.
   bool waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice);
   bool waveTiles(const StmtNode& s, const Env& env, StandingTiles& tiles);
   void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
@@ -279,7 +279,8 @@ class Interpreter {
   void detail(const StmtNode& s, const Env& env, ShapeList& out);
   void transform(IdRange xforms, Env& env);
   void limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail);
-  /// Whether no level that this derivation is for shows what has this `detail`, and nothing else depends on it.
+  /// True if this derivation is for levels that do not show shapes with this `detail`, and nothing else depends on
+  /// them.
   bool skips(int32_t detail, const Env& env) const { return !env.whole && detail > 0 && coarse_edge_ > detail; }
 
   // Rules.
@@ -295,7 +296,7 @@ class Interpreter {
   bool isAt(uint32_t activation, const Override& edit, uint32_t count) const;
   std::vector<uint32_t> enterPaths(uint32_t activation);
   std::vector<uint32_t> overridesOf(uint16_t tag, const Env& env) const;
-  /// What the first `below` of the overrides make of it.
+  /// Applies the first `below` overrides.
   void use(const UnderEdit& what, size_t below, Env& env, ShapeList& out);
   void overridden(const UnderEdit& what, size_t at, const Env& env, ShapeList& out);
   void inner(const StmtNode& s, const Env& env, ShapeList& out);
@@ -310,7 +311,7 @@ class Interpreter {
   void boxLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void prismLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
-  /// What stands on y = 0, metres; x, z: edges of its box.
+  /// A profile that stands on y = 0, metres; x, z: edges of its box.
   struct Profile {
     std::vector<PlanCorner> corners;
     double x, z, height;
@@ -323,11 +324,11 @@ class Interpreter {
   // Nodes.
   Shape shapeIn(const Env& env, ShapeKind kind) const;
   uint32_t addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children = {});
-  /// One node for a list that is not empty: itself, or a hard union.
+  /// One node for a non-empty list: its only element, or a hard union.
   uint32_t united(const ShapeList& list, const StmtNode& s, const Env& env);
   std::optional<double> smoothRadius(const StmtNode& s, const Env& env);
 
-  // Trouble.
+  // Errors and notes.
   bool step(uint64_t count, const Span& span, uint32_t activation);
   bool withinBytes(const Span& span, uint32_t activation);
   bool withinNesting(const Span& span, uint32_t activation);
@@ -337,16 +338,16 @@ class Interpreter {
   std::string pathText(uint32_t activation) const;
   uint32_t outsideOfEdits(uint32_t activation) const;
 
-  /// from: where not null, of each shape its number in the draft.
+  /// from: if not null, receives each shape's index in the draft.
   Result<GrammarChunk> derived(std::vector<uint32_t>* from, std::pmr::memory_resource* memory);
-  /// Derives the layer's start; gives what it adds.
+  /// Derives the layer's start; returns the shapes that it adds.
   ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
-  /// Adds a group that is within the cell's limit, and holds it to what is proven of the layer.
+  /// Adds a group that is within the cell's limit, and checks it against the proven bounds of the layer.
   void addGroup(Group group, GrammarChunk& out);
-  /// Of a shape that is left out, since its box is beyond what the cell may own.
+  /// Notes a shape that is left out because its box exceeds the limit of the cell.
   void noteBeyond(uint32_t shape, const IntBox& box);
-  /// False where a shape has no bound.
+  /// Returns false if a shape is unbounded.
   bool collectAlone(const ShapeBounds& bounds, const ShapeList& list, bool cut, std::vector<Group>& out) const;
 
   const Program& program_;
@@ -360,26 +361,26 @@ class Interpreter {
   Lattice lattice_;
   Int3 base_;  ///< low corner of the cell, units
   Draft draft_;
-  /// Those by path that may hold in this cell.
+  /// The overrides by path that may apply in this cell.
   struct PathOverride {
     uint32_t index = 0;
     bool found = false;
   };
   std::vector<PathOverride> path_overrides_;
   std::vector<Activation> activations_;
-  std::vector<uint32_t> active_;  ///< for each rule: activations on the path
+  std::vector<uint32_t> active_;  ///< for each rule: number of its activations on the path
   ShapeList layer_cuts_;
   std::vector<Anchor> anchors_;
   std::vector<Segment> segments_;  ///< of all skeletons
   std::vector<PlanPiece> plans_;   ///< of all footprints
-  /// Assets in the sizes that they have been fitted into so far, by asset, size and zones.
+  /// Assets in the sizes to which they were fitted so far, by asset, size and zones.
   std::map<std::vector<uint64_t>, std::shared_ptr<const FittedAsset>> fitted_;
-  /// Some of those laid out so far, by all that they depend on.
+  /// Some of the floor plans so far, by all inputs.
   std::map<std::vector<uint64_t>, FloorPlan> floor_plans_;
-  int32_t coarse_edge_ = 0;  ///< derive for levels with cells of this edge or a larger one alone; 0: for all
+  int32_t coarse_edge_ = 0;  ///< derive only for levels with this cell edge or a larger one; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
-  /// Points of the scatter that runs: how many have been probed, and how many of them began inside.
+  /// The points of the current scatter: the number of probed ones, and of those that began inside a solid.
   struct ProbedPoints {
     uint64_t all = 0, buried = 0;
   } probed_;

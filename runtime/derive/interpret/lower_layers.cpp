@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// A box has its position nearest to the ball's centre in each coordinate by itself.
+/// The position of a box nearest to the ball's centre is found for each coordinate separately.
 bool meets(const Ball& ball, const IntBox& box) {
   uint64_t square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ Int3 middleOf(const IntBox& box) {
   return {half(box.lo.x, box.hi.x), half(box.lo.y, box.hi.y), half(box.lo.z, box.hi.z)};
 }
 
-/// The eight halves of halves, or fewer where an axis has one position left.
+/// The eight octants of a box; fewer if an axis has only one position.
 void halve(const IntBox& box, std::vector<IntBox>& out) {
   const Int3 middle = middleOf(box);
   for (int corner = 0; corner < 8; ++corner) {
@@ -57,7 +57,7 @@ BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<Box
       const BoxContent found = content(piece);
       if (found == wanted) continue;
       if (found != BoxContent::unknown) return proof;
-      // One position of another kind ends it early.
+      // A single position of another kind ends the search early.
       const IntBox middle = onePosition(middleOf(piece));
       if (meets(ball, middle) && content(middle) != wanted) return proof;
       halve(piece, halves);

@@ -7,14 +7,14 @@
 namespace sgm {
 namespace {
 
-/// A shape as a superquadric: its radii, and how square it is (0 an ellipsoid, 1 the squarest, taken for a box).
+/// A shape as a superquadric: its radii, and its squareness (0 an ellipsoid, 1 the squarest, used as a box).
 struct Squared {
   std::array<double, 3> radii{};
   double square = 0;
   bool turns = true;  ///< it has axes
 };
 
-/// Of a sphere, an ellipsoid, a box or a superquadric.
+/// For a sphere, an ellipsoid, a box or a superquadric.
 Squared squaredOf(const Shape& s) {
   Squared result;
   const bool ball = s.kind == ShapeKind::sphere;
@@ -37,7 +37,7 @@ double exponentOfSquare(double square) {
 
 void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
   const StmtId from = program_.idAt(s.children, 0), to = program_.idAt(s.children, 1);
-  // A parameter of the field may run along what is morphed (`u`), so it is evaluated after both ends.
+  // A parameter of the field may run along the morphed shapes (`u`), so it is evaluated after both ends.
   const bool sampled = program_.expr(s.expr).type.sample;
   Num t = sampled ? Num{} : evaluate(s.expr, env).n[0];
   if (!sampled && !(t.value > 0)) return statement(from, env, out);
@@ -79,7 +79,7 @@ void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
 }
 
 void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
-  // The checker has seen to it that both are leaves of the same scope: they have one centre and one set of axes.
+  // The checker ensures that both are leaves of the same scope: they have the same centre and axes.
   const Squared from = squaredOf(draft_.shape(a)), to = squaredOf(draft_.shape(b));
   const auto mixed = [](double low, double high, double at) { return low + (high - low) * at; };
   Shape node = shapeIn(env, ShapeKind::superquadric);
@@ -91,7 +91,8 @@ void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint
     out.push_back(addShape(node, s.ordinal, s.span, env));
     return;
   }
-  // The node runs from a square of 0 to 1; ends in between are two points on the way, and the radii go on linearly.
+  // The node covers squareness 0 to 1; ends in between are two points on the way, and the radii are extrapolated
+  // linearly.
   node.kind = ShapeKind::morph_power;
   const double step = to.square - from.square;
   for (size_t i = 0; i < 3; ++i) {

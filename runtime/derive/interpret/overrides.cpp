@@ -1,4 +1,5 @@
-// Overrides: whether one holds for a use of a rule or for a block with a tag, its block in their place, and `inner`.
+// Overrides: tests whether one applies to an activation of a rule or to a block with a tag, and derives its block and
+// `inner`.
 
 #include <algorithm>
 
@@ -14,20 +15,20 @@ void Interpreter::findOverrides() {
   }
 }
 
-/// Whether the activation stands where the first `count` steps of the path lead.
+/// True if the activation is where the first `count` steps of the path lead.
 bool Interpreter::isAt(uint32_t activation, const Override& edit, uint32_t count) const {
   for (uint32_t i = count; i-- > 0; activation = activations_[activation].parent) {
     if (activation == kNone) return false;
     const Activation& use = activations_[activation];
     const PathStep& step = program_.path_steps[edit.steps.first + i];
-    // What the block of an override derives is edited there.
+    // The results of an override's block are edited in that block.
     if (use.edit != kNone || use.rule != step.rule) return false;
     if (step.index != kNoId && step.index != use.index) return false;
   }
   return activation == kNone;
 }
 
-/// Follows paths into a use of a rule. Returns those that end there, as in Program::overrides.
+/// Follows paths into an activation of a rule. Returns those that end there, as in Program::overrides.
 std::vector<uint32_t> Interpreter::enterPaths(uint32_t activation) {
   Activation& use = activations_[activation];
   std::vector<PathRange> before;
@@ -107,7 +108,7 @@ void Interpreter::overridden(const UnderEdit& what, size_t at, const Env& env, S
   activations_.push_back(std::move(activation));
   const size_t first = out.size();
   what.room ? contents(program_.stmt(edit.body), own, out) : statement(edit.body, own, out);
-  // A morphic rule stands for one node.
+  // A morphic rule must produce one node.
   if (what.rule == nullptr || !what.rule->morphic || out.size() <= first + 1 || failed()) return;
   const ShapeList parts(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   out.resize(first);
@@ -117,14 +118,14 @@ void Interpreter::overridden(const UnderEdit& what, size_t at, const Env& env, S
 void Interpreter::inner(const StmtNode& s, const Env& env, ShapeList& out) {
   if (env.under == nullptr) return;
   const UnderEdit& what = *env.under;
-  // In the place, with the labels and for the levels of this statement; everything else as without the override.
+  // With the position, labels and levels of this statement; everything else as without the override.
   Env below = env;
   below.activation = what.env->activation;
   below.slots = what.env->slots;
   below.under = what.env->under;
   below.within = what.env->within;
   below.top = env.top && s.layer_level;
-  // The first keeps its key, so that it is the same to the byte; copies have keys of their own.
+  // The first copy keeps its key, so that it is identical to the byte; further copies have keys of their own.
   below.key = env.key == what.own_key && s.extra == 0 ? what.env->key : env.key.child(what.env->key.value, s.ordinal);
   if (env.forced_material == 0) below.forced_material = env.written_material;
   if (env.forced_tag == 0) below.forced_tag = env.written_tag;
@@ -136,7 +137,7 @@ void Interpreter::inner(const StmtNode& s, const Env& env, ShapeList& out) {
   activations_[below.activation].start = start;
 }
 
-/// A block, or a meet or an extrusion whose block it is, under the overrides of its tag.
+/// Derives a block, or the meet or extrusion that has the block, under the overrides of its tag.
 void Interpreter::tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out, bool room) {
   Env inner = env;
   const std::vector<uint32_t> edits = overridesOf(tag, env);
@@ -150,7 +151,7 @@ void Interpreter::untagged(const StmtNode& s, const Env& env, ShapeList& out) {
   block(s, env, out);
 }
 
-/// Where the path of an override leads nowhere in the one cell that it names: how far it does lead.
+/// If the path of an override leads nowhere in the only cell that it names, notes how far it does lead.
 void Interpreter::noteMissed() {
   for (const PathOverride& o : path_overrides_) {
     const Override& edit = program_.overrides[o.index];
@@ -159,7 +160,7 @@ void Interpreter::noteMissed() {
       ++dropped_notes_;
       continue;
     }
-    // The longest part of the path that leads somewhere: the start, at least.
+    // The longest prefix of the path that exists: at least the start.
     uint32_t known = edit.steps.count, last = kNone;
     while (last == kNone && known > 1) {
       --known;
@@ -168,7 +169,7 @@ void Interpreter::noteMissed() {
     }
     if (last == kNone) continue;
     const PathStep& step = program_.path_steps[edit.steps.first + known];
-    // Of several places to which that part leads, the one with most.
+    // Among several places with that prefix, the one with the most uses.
     std::vector<uint32_t> uses(activations_.size(), 0);
     uint32_t count = 0;
     for (const Activation& a : activations_)

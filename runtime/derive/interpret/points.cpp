@@ -44,7 +44,7 @@ void Interpreter::transform(IdRange xforms, Env& env) {
         if (whole) {
           env.scope = first.vec();
         } else {
-          // All edges are read in the scope as it was: `size(scope.z, scope.y, scope.x)` swaps two.
+          // All edges are read in the original scope: `size(scope.z, scope.y, scope.x)` swaps two.
           Vec3 edges = env.scope;
           if (x.a != kNoId) edges.x = first.real();
           if (x.b != kNoId) edges.y = part(x.b);
@@ -81,14 +81,14 @@ void Interpreter::forEach(const StmtNode& s, const Env& env, ShapeList& out) {
     return !failed() && step(1, s.span, env.activation);
   };
   if (list.kind == ValueKind::faces) {
-    // By the face's own key: a face that opens or closes moves nothing at the others.
+    // With the face's own key: a face that opens or closes changes nothing at the others.
     for (const FaceId& face : list.faces) {
       if (!body(Value::ofFace(face), lattice_.faceKey(face).value)) return;
     }
     return;
   }
   if (list.kind == ValueKind::segments) {
-    // Likewise: what stands at one segment knows nothing of the others.
+    // In the same way, shapes at one segment do not depend on the others.
     for (uint32_t i = list.first; i < list.first + list.count; ++i) {
       if (!body(Value::ofSegment(i), segments_[i].key.value)) return;
     }
@@ -108,15 +108,15 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
   probed_ = outside;
 }
 
-/// In a domain of rock most points lie in the rock, and are meant to find the caves in it. Elsewhere what is solid is
-/// the ground that somebody wants to stand things on.
+/// In a domain of rock most points are inside the rock, and are meant to find the caves. Elsewhere a solid is the
+/// ground on which the points are probably meant to be.
 void Interpreter::noteBuried(const StmtNode& s, const Env& env) {
   if (program_.domain.solid || 2 * probed_.buried < probed_.all) return;
   const ScatterNode& node = program_.ast.scatters[s.extra];
   const std::string below(program_.text(node.layer_name));
   note((probed_.buried == probed_.all ? "all points of this scatter begin inside `"
                                       : "most points of this scatter begin inside `") +
-           below + "`, and are left out: let them begin in the open, such as behind at(0m, " +
+           below + "`, and are left out: let them begin in the open, such as after at(0m, " +
            (node.probe > 0 ? "-" : "") + "50m, 0m), and probe farther",
        s.span, env.activation);
 }
@@ -132,20 +132,21 @@ void Interpreter::scatterPoints(const StmtNode& s, const Env& env, ShapeList& ou
     return !failed();
   };
   if (node.area == ScatterArea::cell) {
-    // The set is one for the whole layer: its key knows the statement, not the cell.
+    // The set is common to the whole layer: its key depends on the statement, not on the cell.
     const Activation& use = activations_[env.activation];
     const uint64_t owner = use.edit == kNone ? program_.rules[use.rule].name_hash : program_.overrides[use.edit].hash;
     const PathKey set = PathKey{lattice_.seed}.child(kSetSalt + owner, s.ordinal);
     if (!(amount > 0)) {
-      note("the distance between points must be positive; no points", s.span, env.activation);
+      note("the distance between points must be positive; there are no points", s.span, env.activation);
       return;
     }
-    // Candidates are held all at once: they count as memory before there is any.
+    // Candidates are all held at once: their memory is counted before they are allocated.
     constexpr size_t kCandidate = 64;
     const size_t most = std::min<size_t>(limits_.steps - steps_, limits_.bytes / kCandidate);
     const auto points = poissonInCell(lattice_, cell_, set, toUnits(amount), most);
     if (!points) {
-      fail("more points in one cell than can be derived (take a larger distance in poisson())", s.span, env.activation);
+      fail("one cell has more points than can be derived (take a larger distance in poisson())", s.span,
+           env.activation);
       return;
     }
     if (!step(points->size() * 27, s.span, env.activation)) return;
@@ -163,7 +164,7 @@ void Interpreter::scatterPoints(const StmtNode& s, const Env& env, ShapeList& ou
   double count = amount;
   if (node.poisson) {
     if (!(amount > 0)) {
-      note("the distance between points must be positive; no points", s.span, env.activation);
+      note("the distance between points must be positive; there are no points", s.span, env.activation);
       return;
     }
     const double cube = amount * amount * amount, square = amount * amount;
@@ -174,7 +175,7 @@ void Interpreter::scatterPoints(const StmtNode& s, const Env& env, ShapeList& ou
   count = detFloor(count + 0.5);
   if (!(count >= 1)) return;
   if (!(count < 1e6)) {
-    fail("more than a million points in one scatter (take fewer, or a larger distance)", s.span, env.activation);
+    fail("one scatter has more than a million points (take fewer, or a larger distance)", s.span, env.activation);
     return;
   }
   const size_t n = static_cast<size_t>(count);
@@ -198,7 +199,7 @@ void Interpreter::scatterPoint(const StmtNode& s, const Env& at, ShapeList& out)
   const ScatterNode& node = program_.ast.scatters[s.extra];
   if (!step(1, s.span, at.activation)) return;
   const auto wanted = [&] { return node.when == kNoId || evaluate(node.when, at).truth(); };
-  // Probes take long; only one that yields a gap decides about the point.
+  // Probes are expensive; a point depends only on a probe that yields a gap.
   const bool asks_gap = node.gap != kNoId;
   if (!asks_gap && !wanted()) return;
   Env moved = at;
@@ -246,8 +247,8 @@ void Interpreter::anchor(const StmtNode& s, const Env& env) {
     return;
   }
   if (anchors_.size() >= limits_.shapes) {
-    fail("more than " + std::to_string(limits_.shapes) +
-             " anchors in one cell (derive fewer, or make the cells smaller)",
+    fail("one cell has more than " + std::to_string(limits_.shapes) +
+             " anchors (derive fewer, or make the cells smaller)",
          s.span, env.activation);
     return;
   }

@@ -15,7 +15,7 @@ constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's 
 
 }  // namespace
 
-/// `metres` go to Shape::size after what is already there (an exponent), scaled; `inner` is the inner radius in metres.
+/// Appends `metres`, scaled, to Shape::size after the present entries (an exponent); `inner`: inner radius in metres.
 void Interpreter::addLeaf(Shape shape, std::initializer_list<double> metres, double inner, const ExprNode& node,
                           uint32_t ordinal, const Env& env, ShapeList& out) {
   if (failed()) return;
@@ -167,7 +167,7 @@ void Interpreter::sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal,
     return note("a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out", node.span,
                 env.activation);
   }
-  // By the ends alone, so that a tube and a beam between the same points bend alike.
+  // Depends on the ends alone, so that a tube and a beam between the same points bend alike.
   PathKey key = lattice_.cellKey(cell_).child(kBendSalt, 0);
   for (const Int3& end : {saturatingSub(a, base_), saturatingSub(b, base_)}) {
     for (int i = 0; i < 3; ++i) key = {hashCombine(key.value, static_cast<uint32_t>(end[i]))};

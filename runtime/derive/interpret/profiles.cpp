@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, and roofs.
+// Footprints, their extrusions, and roofs.
 
 #include <algorithm>
 #include <cmath>
@@ -138,12 +138,12 @@ void Interpreter::roof(const StmtNode& s, const Env& env, ShapeList& out) {
     if (!step(1, s.span, env.activation)) return;
     Env inner = env;
     inner.key = env.key.child(kLoopSalt + s.ordinal, i);
-    // On what was extruded from the plan, not upon its face: see kSeamOverlap.
+    // It overlaps the extrusion of the plan instead of touching its face: see kSeamOverlap.
     roofOver(plans_[plan.first + i], -kSeamOverlap, s, inner, out);
   }
 }
 
-/// The outline as high as the roof may be, under a plane for each edge that it slopes up from.
+/// The outline extruded to the maximal height of the roof, below one plane for each edge from which it slopes up.
 void Interpreter::roofOver(const PlanPiece& piece, double floor, const StmtNode& s, const Env& env, ShapeList& out) {
   const RoofNode& node = program_.ast.roofs[s.extra];
   const double measure = real(node.measure, env);
@@ -160,15 +160,15 @@ void Interpreter::roofOver(const PlanPiece& piece, double floor, const StmtNode&
   const std::vector<PlanCorner> corners = grownOutline(piece, overhang);
   if (!isConvex(piece) && !isSimple(piece, corners))
     return note(
-        "this overhang grows together in a notch of the outline; the roof is left out: a smaller overhang, or merge "
-        "rectangles",
+        "this overhang grows together in a notch of the outline; the roof is left out: use a smaller overhang, or "
+        "merge rectangles",
         s.span, env.activation);
   const auto grown = [&](double edge, double PlanCorner::*axis) {
     for (const PlanCorner& c : corners) edge = std::max(edge, 2 * std::fabs(c.*axis));
     return edge;
   };
   const double x = grown(piece.x, &PlanCorner::x), z = grown(piece.z, &PlanCorner::z);
-  // A plane that is cut off at its very peak would leave a ridge of rounding.
+  // Cutting a plane off exactly at its peak would leave a ridge because of rounding.
   const double height =
       flat ? measure : 0.5 * std::min(x, z) * detSin(measure) / detCos(measure) + 2.0 / kUnitsPerMetre;
   const Placement place = env.place.moved({piece.middle.x, floor, piece.middle.z});

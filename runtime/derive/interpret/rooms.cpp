@@ -1,4 +1,4 @@
-// Floors in rooms: the statement treemap. Its scope's box lies about its origin; y is up.
+// Floors in rooms: the statement treemap. The box of its scope is centred on its origin; y is up.
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ constexpr double kWidestFloor = 1 << 20;  ///< units
 constexpr size_t kMostPlansKept = 64;
 constexpr uint64_t kLooksOfStep = 2;
 
-/// Walls, doors and corridors are laid out in steps of four units, so that their halves are whole even numbers.
+/// Walls, doors and corridors are laid out in steps of four units, so that their halves are even integers.
 int32_t inSteps(double metres) {
   return std::max(4, 4 * static_cast<int32_t>(detFloor(metres * (kUnitsPerMetre / 4.0) + 0.5)));
 }
@@ -31,12 +31,12 @@ Vec3 edgesOf(const PlanRect& r, double y) {
 
 }  // namespace
 
-/// A number of the treemap's head or of a link; the fallback where it is not written, or outside of its range.
+/// A number in the treemap's head or of a link; the fallback if it is missing or out of range.
 double Interpreter::floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env) {
   if (id == kNoId) return fallback;
   const double value = real(id, env);
   if (range.holds(value) || failed()) return value;
-  note(std::string(range.rule).append(", ").append(range.example).append("; this one is taken as if left out"),
+  note(std::string(range.rule).append(", ").append(range.example).append("; the default is used"),
        program_.expr(id).span, env.activation);
   return fallback;
 }
@@ -52,7 +52,7 @@ void Interpreter::planBox(const PlanRect& r, double y, double height, const Stmt
   out.push_back(addShape(shape, s.ordinal, s.span, env));
 }
 
-/// What is open there, and what the part's block adds to it and cuts from it; the scope is the first of the rectangles.
+/// Derives the open space, to which the part's block adds and from which it cuts; the scope is the first rectangle.
 void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key,
                          const Env& env, ShapeList& out) {
   if (!step(1, s.span, env.activation)) return;
@@ -81,7 +81,7 @@ void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const Plan
   out.insert(out.end(), own.begin(), own.end());
 }
 
-/// Storeys of a tower are laid out alike: what is known of one is not searched for again.
+/// The storeys of a tower have the same plan: a known plan is reused.
 FloorPlan Interpreter::floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas,
                                  std::span<const RoomLink> links, const Span& span, const Env& env) {
   const auto word = [](int32_t v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
@@ -115,7 +115,7 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   sizes.x = static_cast<int32_t>(edges.x * kUnitsPerMetre);
   sizes.z = static_cast<int32_t>(edges.z * kUnitsPerMetre);
 
-  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // parts, and their place among the rooms
+  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // parts, and their indices among the rooms
   std::vector<double> areas;
   for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::room) continue;
@@ -149,15 +149,15 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   if (failed()) return;
   if (!plan.fits)
     return note(
-        "this floor has no room for these rooms between their walls; the treemap is left out: fewer rooms, "
-        "thinner walls or a larger scope",
+        "this floor has no room for these rooms between their walls; the treemap is left out: use fewer rooms, thinner "
+        "walls or a larger scope",
         s.span, env.activation);
 
   const PathKey key = env.key.child(kLoopSalt + s.ordinal, 0);
   std::vector<PathKey> keys;
   for (size_t i = 0; i < plan.rooms.size(); ++i) {
     const PartNode& part = parts[rooms[i]];
-    // By their names: what the other rooms are like changes nothing in them.
+    // By their names, so that rooms do not depend on each other.
     keys.push_back(key.child(hashText(program_.text(part.label)), 0));
     roomAt(s, rooms[i], plan.rooms[i].clear, keys[i], env, out);
     if (failed()) return;
@@ -176,20 +176,21 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   const auto nameOf = [&](size_t room) { return std::string(program_.text(parts[rooms[room]].label)); };
   for (const size_t link : plan.unmet)
     note("`" + nameOf(links[link].a) + "` and `" + nameOf(links[link].b) +
-             "` share no wall wide enough for this door, so it is left out: a narrower door, or other areas of rooms",
+             "` share no wall wide enough for this door, so it is left out: use a narrower door, or other areas of "
+             "rooms",
          parts[doors[link]].span, env.activation);
   if (plan.doors.empty() || plan.doors[0].from != PlanDoor::kOutside)
     note(
-        "no outer wall of these rooms is wide enough for the entrance, so nothing leads in: a narrower door, or a "
+        "no outer wall of these rooms is wide enough for the entrance, so nothing leads in: use a narrower door, or a "
         "larger scope",
         s.span, env.activation);
   for (const size_t room : plan.closed)
     note("no wall of `" + nameOf(room) +
-             "` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room",
+             "` is wide enough for a door, so nothing leads into it: use a narrower door, or a larger room",
          parts[rooms[room]].span, env.activation);
 }
 
-/// Like the faces of a box: x along the outer wall, y up it, z out of it, of no depth.
+/// Like the faces of a box: x along the outer wall, y up, z outwards, without depth.
 void Interpreter::facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env,
                           ShapeList& out) {
   const Vec3 edges = env.scope;

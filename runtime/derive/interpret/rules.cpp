@@ -32,7 +32,7 @@ void Interpreter::call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& o
 
 bool Interpreter::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
   if (alternative.guard != Guard::when) return true;
-  // What stands in a head knows the arguments alone: no frame is made for it.
+  // Conditions in a head depend only on the arguments: no frame is created for them.
   env.slots = &arguments;
   const bool holds = evaluate(alternative.when, env).truth();
   env.slots = nullptr;
@@ -113,7 +113,7 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   if (!step(edits.size(), node.span, env.activation)) return;
   use({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), inner, out);
   if (index != watched_rule_) return;
-  // A rule's block appends to what stands before its call and leaves that alone.
+  // A rule's block appends to the shapes before its call and does not change them.
   WatchedCall& call = watched_[watched];
   call.shapes.assign(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
   call.layer_cuts.assign(layer_cuts_.begin() + static_cast<std::ptrdiff_t>(cuts_before), layer_cuts_.end());
@@ -121,7 +121,7 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
 }
 
 void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
-  // Alternatives with `lod` stand beside those without, each set for a range of levels of its own.
+  // Alternatives with `lod` coexist with those without; each set is for its own range of levels.
   std::vector<const Alternative*> plain;
   std::vector<std::pair<int32_t, std::vector<const Alternative*>>> coarse;
   for (const Alternative& a : rule.alternatives) {
@@ -146,7 +146,7 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
     limitLevels(layer_cuts_, first_cut, coarsest, detail_edge);
   };
   run(choose(plain, env, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
-  // Gameplay points are the same at every level: only one set may give them.
+  // Gameplay points are the same at every level: only one set may emit them.
   if (!plain.empty()) env.anchors = false;
   for (size_t i = 0; i < coarse.size(); ++i) {
     const int32_t end = i + 1 < coarse.size() ? coarse[i + 1].first - 1 : 0;
@@ -157,7 +157,7 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
 
 void Interpreter::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
                          ShapeList& out) {
-  // A frame of many slots costs what filling it costs.
+  // The cost of a frame with many slots is that of filling it.
   if (!step(chosen.slot_count, chosen.span, env.activation)) return;
   std::vector<Value> slots = frameOf(chosen, arguments);
   Env inner = env;
@@ -179,7 +179,7 @@ void Interpreter::derive(const Rule& rule, const Alternative& chosen, Env& env, 
     }
   }
   const Nested active(active_[index]);
-  // A morphic rule stands for one node; others for whatever is in their block.
+  // A morphic rule must produce one node; others produce all shapes of their block.
   const size_t first = out.size();
   statement(chosen.body, inner, out);
   if (rule.morphic && out.size() > first + 1) {

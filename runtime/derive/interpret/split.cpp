@@ -1,4 +1,4 @@
-// Scopes in parts: split and comp. A scope's box lies about its origin, as box(scope) does.
+// Divides scopes into parts: split and comp. The box of a scope is centred on its origin, as in box(scope).
 
 #include "derive/layout/split_layout.h"
 
@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kMostParts = 1e6;
 
-/// A face of a box: turned so that z points out of it.
+/// A face of a box: rotated so that z points out of it.
 struct Face {
   BoxPart part;
   int turn_axis;
   double quarters;
   int width, height, depth;  ///< axes of the box that run along its x, y and z
-  double sign;               ///< of the side on which it lies
+  double sign;               ///< of the side that it is on
 };
 
 constexpr Face kFaces[] = {{BoxPart::front, 1, 0, 0, 1, 2, 1}, {BoxPart::right, 1, 1, 2, 1, 0, 1},
@@ -36,7 +36,7 @@ Placement facePlace(const Face& face, const Placement& box, Vec3 edges) {
   return box.moved(out).turned(axis, face.quarters * (kPi / 2));
 }
 
-/// The nearest plane within `reach` of a point on the axis, as how far to go along it; 0 where there is none.
+/// The signed distance along the axis to the nearest plane within `reach` of a point; 0 if there is none.
 double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis, Vec3 local, double reach) {
   constexpr double kParallel = 1 - 1e-9;
   Vec3 along;
@@ -55,7 +55,7 @@ double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis
   return best;
 }
 
-/// Moves the lines between the parts onto planes, where the parts on both sides keep a size.
+/// Moves the lines between the parts onto planes if the parts on both sides keep a positive size.
 void snapLines(std::vector<SplitPlace>& places, double length, const SnapPlanes* planes, const Placement& place,
                int axis, double reach) {
   for (size_t i = 0; i + 1 < places.size(); ++i) {
@@ -140,10 +140,10 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
          repeated->group, env.activation);
   SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
   if (layout.too_many)
-    return fail("more than a million parts in one split (give them a larger size)", s.span, env.activation);
+    return fail("one split has more than a million parts (give them a larger size)", s.span, env.activation);
   if (layout.cut_off)
-    note("the parts are longer than the scope; what does not fit is cut off: give a size that may shrink as ~2m",
-         s.span, env.activation);
+    note("the parts are longer than the scope; the rest is cut off: write a size that may shrink as ~2m", s.span,
+         env.activation);
   if (s.amount != kNoId) {
     const double reach = real(s.amount, env);
     if (kSnapReachRange.holds(reach))
@@ -156,7 +156,7 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);
     const double below = std::min(low, kSeamOverlap);
-    // A part is longer by its own seams than what its rigid parts were made for: the last one fills that.
+    // A part is longer by its own seams than the length for which its rigid parts were made: the last one fills that.
     const bool last = &place == &layout.places.back();
     const double above = !last ? std::min(rest, kSeamOverlap) : rest <= 2 * kSeamOverlap ? rest : 0;
     Vec3 at, scope = env.scope;
@@ -190,7 +190,7 @@ void Interpreter::comp(const StmtNode& s, const Env& env, ShapeList& out) {
         continue;
       }
       const Placement place = facePlace(face, env.place, edges);
-      // Keys know the face alone: what is named beside it changes nothing in it.
+      // Keys depend only on the face: the other named faces do not affect it.
       const uint64_t number = static_cast<uint64_t>(face.part);
       if (edge)
         part(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, env, out);

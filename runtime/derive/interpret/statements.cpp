@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// Statements that put no shape into their block.
+/// Statements that add no shape to their block.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
          kind == StmtKind::anchor || kind == StmtKind::footprint;
@@ -37,9 +37,9 @@ bool Interpreter::withinBytes(const Span& span, uint32_t activation) {
 
 uint32_t Interpreter::addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children) {
   if (draft_.chunk().shapes.size() >= limits_.shapes) {
-    fail(
-        "more than " + std::to_string(limits_.shapes) + " shapes in one cell (derive fewer, or make the cells smaller)",
-        span, env.activation);
+    fail("one cell has more than " + std::to_string(limits_.shapes) +
+             " shapes (derive fewer, or make the cells smaller)",
+         span, env.activation);
   } else {
     withinBytes(span, env.activation);
   }
@@ -62,7 +62,7 @@ uint32_t Interpreter::united(const ShapeList& list, const StmtNode& s, const Env
   return addShape(shapeIn(env, ShapeKind::unite), s.ordinal, s.span, env, list);
 }
 
-/// Nothing where the statement has no radius; a radius that is not positive counts as none.
+/// nullopt if the statement has no radius, or one that is not positive.
 std::optional<double> Interpreter::smoothRadius(const StmtNode& s, const Env& env) {
   if (s.amount == kNoId) return std::nullopt;
   const double units = real(s.amount, env) * env.place.scale * kUnitsPerMetre;
@@ -185,7 +185,7 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::inner:
       inner(s, env, out);
       break;
-    case StmtKind::field:  // evaluated where it is used
+    case StmtKind::field:  // evaluated when used
     case StmtKind::mat:    // the checker has put both on the block
     case StmtKind::tag:
     case StmtKind::link:  // its treemap has read it
@@ -244,7 +244,7 @@ void Interpreter::cut(const StmtNode& s, const Env& env, ShapeList& out) {
     layer_cuts_.insert(layer_cuts_.end(), body.begin(), body.end());
     return;
   }
-  if (out.empty()) return;  // nothing precedes: nothing to take away from
+  if (out.empty()) return;  // nothing precedes: there is nothing to cut
   ShapeList operands{united(out, s, env)};
   operands.insert(operands.end(), body.begin(), body.end());
   Shape node = shapeIn(env, radius ? ShapeKind::subtract_smooth : ShapeKind::subtract);
@@ -265,7 +265,7 @@ void Interpreter::meet(const StmtNode& s, const Env& env, ShapeList& out) {
   for (uint32_t i = 0; i < body.children.count && !failed(); ++i) {
     const StmtNode& child = program_.stmt(program_.idAt(body.children, i));
     if (program_.stmt(program_.innermost(program_.idAt(body.children, i))).kind == StmtKind::cut) {
-      // Takes away from what the operands before it have in common.
+      // Cuts from the intersection of the preceding operands.
       if (operands.size() > 1)
         operands = {addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
       statement(program_.idAt(body.children, i), inner, operands);
@@ -329,7 +329,7 @@ void Interpreter::displace(const StmtNode& s, const Env& env, ShapeList& out) {
   out.push_back(addShape(node, s.ordinal, s.span, env, {child}));
 }
 
-/// A vector of the field in the scope, as one of the world.
+/// Converts a vector of the field from the scope to the world.
 std::array<Num, 3> Interpreter::inWorld(const std::array<Num, 3>& local, const Placement& place) {
   std::array<Num, 3> world;
   for (size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Lattices of tiles: the statement wfc. Its scope's box lies about its origin.
+// Lattices of tiles: the statement wfc. The box of its scope is centred on its origin.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Tiles in every way that they may stand, and for each the part of the wfc and the quarters that it is turned about y.
+/// Tiles in all their orientations, and for each the part of the wfc and its rotation about y in quarter turns.
 struct StandingTiles {
   struct Stand {
     uint32_t part;
@@ -24,14 +24,14 @@ struct StandingTiles {
 
 namespace {
 
-/// Of the heaviest tile.
+/// The weight of the heaviest tile.
 constexpr double kFullWeight = 1 << 20;
-/// For each place, and for so many more: how often it may be looked at.
+/// The limit of visits is this number times (places + this number).
 constexpr uint64_t kMostVisits = 128;
-/// The share of a cell's steps that one search may look at places, and how many looks among few tiles are a step.
+/// The share of a cell's steps that one search may use, and the number of visits with few tiles that count as a step.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
-/// The part of an edge that a place has, reaching over into its neighbours like the parts of a split.
+/// The part of an edge that belongs to a place, overlapping its neighbours like the parts of a split.
 struct Stretch {
   double low, high;
 };
@@ -42,8 +42,8 @@ Stretch stretchOf(double edge, uint32_t count, uint32_t at) {
   return {at == 0 ? from : from + at * step - over, at + 1 == count ? 0.5 * edge : from + (at + 1) * step + over};
 }
 
-/// Whether a side is front, right or top. What meets what is handed to the search as labels that both have: a high side
-/// has its own kind, a low one all that it meets.
+/// True if a side is front, right or top. The search receives matches as common labels: a high side has its own kind as
+/// its label, a low side all kinds that it matches.
 constexpr bool isHigh(size_t side) { return side < 2 || side == 4; }
 
 std::span<const SideKind> sideKinds(const Program& program, const StmtNode& s) {
@@ -72,7 +72,7 @@ void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, 
   const auto& n = lattice.size;
   if (result.place == kNoPlace)
     return note("to fill the " + triple(n[0], n[1], n[2]) +
-                    " places of this scope takes too long, and it is left empty: larger tiles, or a smaller scope",
+                    " places of this scope takes too long, and it is left empty: use larger tiles, or a smaller scope",
                 s.span, env.activation);
   const WaveNode& node = program_.ast.waves[s.extra];
   const std::span<const SideKind> kinds = sideKinds(program_, s);
@@ -84,7 +84,7 @@ void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, 
       for (size_t k = 0; k < kinds.size(); ++k)
         if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
     }
-    // A side that every tile would fit to asks for nothing.
+    // A side that every tile would fit is not a constraint.
     if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
                     [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
       continue;
@@ -127,12 +127,12 @@ bool Interpreter::waveLattice(const StmtNode& s, const Env& env, WaveLattice& la
     return nothing("this scope's box has no size, so it gets no tiles: give it one, such as size(12m, 3m, 12m)");
   if (places > kMostPlaces)
     return nothing(
-        "this scope has room for more than 32768 tiles; they are left out: larger tiles, or a smaller scope");
+        "this scope has room for more than 32768 tiles; they are left out: use larger tiles, or a smaller scope");
   lattice.border.fill(~WaveLabels{0});
   const std::span<const SideKind> kinds = sideKinds(program_, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = program_.ast.parts[s.parts.first + i];
-    // It looks in from outside: beyond the front stands a back.
+    // The border is seen from outside: beyond the front is a back side.
     for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
       lattice.border[side] = sideLabels(kinds, program_.ast.tiles[part.tile].sides[side], !isHigh(side));
   }
@@ -164,7 +164,7 @@ bool Interpreter::waveTiles(const StmtNode& s, const Env& env, StandingTiles& ou
     WaveTile stand;
     stand.weight = static_cast<uint32_t>(std::max(1.0, detFloor(weights[i] / heaviest * kFullWeight + 0.5)));
     for (int quarters = 0; quarters < (tile.turns ? 4 : 1); ++quarters) {
-      // Turned by a quarter, what was in front is on the right.
+      // After a quarter turn, the front is on the right.
       for (size_t side = 0; side < kWaveSides; ++side) {
         const size_t outwards = side < 4 ? (side + static_cast<size_t>(quarters)) % 4 : side;
         stand.sides[outwards] = sideLabels(kinds, tile.sides[side], isHigh(outwards));
@@ -181,12 +181,12 @@ void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
   WaveLattice lattice;
   StandingTiles standing;
   if (!waveLattice(s, env, lattice) || !waveTiles(s, env, standing)) return;
-  // Never from the steps that are left: what else stands in the cell, at which level, must not change these tiles.
+  // This must not depend on the remaining steps: other contents of the cell, at any level, must not change these tiles.
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
   const uint64_t most = std::min(kMostVisits * (places + kMostVisits), limits_.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, limits_.bytes);
-  // Looks are cheap steps: rather no tiles in a hundred scopes than no cell at all.
+  // Visits are cheap steps: it is better to have no tiles in a hundred scopes than to lose the whole cell.
   if (!step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, env);
   uint64_t number = 0;

@@ -10,19 +10,19 @@
 namespace sgm {
 namespace {
 
-/// Rooms and the corridor along some of the walls.
+/// Rooms, and the corridor along some of the walls.
 struct Carving {
   std::vector<Rects> rooms;
   Rects corridor;
-  std::vector<size_t> part;  ///< of the corridor, for each of its rectangles: those that lead into each other have one
-  /// No room that the corridor takes from is cut in two, or narrower than a door: otherwise that one is the last here.
+  std::vector<size_t> part;  ///< of the corridor, for each rectangle: connected rectangles have the same
+  /// False if the corridor cuts a room in two, or leaves it narrower than a door: that room is then the last here.
   bool sound = true;
 };
 
 struct Access {
   std::vector<PlanDoor> doors;
   std::vector<bool> reached;
-  size_t count = 0;  ///< of rooms reached
+  size_t count = 0;  ///< number of rooms reached
 };
 
 class FloorLayout {
@@ -36,7 +36,7 @@ class FloorLayout {
     middle_ = grown(floor_, -half);
     if (middle_.width() <= 0 || middle_.depth() <= 0) return;
     cells_ = linkedRooms(middle_, areas, links, sizes.wall, kPlanStep, work_);
-    // The largest stand in front.
+    // The largest rooms are in front.
     for (PlanRect& cell : cells_) cell = {cell.x0, -cell.z1, cell.x1, -cell.z0};
     graph_ = wallGraph(middle_, cells_);
     near_ = roomsNearCorners();
@@ -117,7 +117,7 @@ class FloorLayout {
                        [&](const PlanFacade& f) { return f.high - f.low >= sizes_.door; });
   }
 
-  /// Doors, and what they reach. through: also from any room to those that nothing else reaches.
+  /// Doors, and the rooms that they reach. through: also from any room to rooms that are not reached otherwise.
   Access connected(const Carving& carving, bool through) const {
     const size_t rooms = cells_.size(), first = entered_ < rooms ? entered_ : 0;
     Access out;
@@ -173,14 +173,14 @@ class FloorLayout {
                                              [](const PlanDoor& d) { return d.link != PlanDoor::kNoLink; }));
   }
 
-  /// A path for the corridor, and what it could be worth at most: rooms for its length.
+  /// A path for the corridor, and its maximum value: rooms per length.
   struct Candidate {
     double most = 0;
     double length = 0;
     std::vector<bool> walls;
   };
 
-  /// All shortest paths that come to rooms which are not reached, the most promising first.
+  /// All shortest paths to rooms that are not reached, the most promising first.
   std::vector<Candidate> candidates(const std::vector<bool>& walls, const Access& access) const {
     const WallPaths paths(graph_, walls);
     std::vector<Candidate> out;
@@ -201,7 +201,7 @@ class FloorLayout {
     return out;
   }
 
-  /// Rooms that touch each corner, and those that links might lead on to from there.
+  /// The rooms that touch each corner, and those that links might reach from there.
   std::vector<uint64_t> roomsNearCorners() const {
     std::vector<uint64_t> beyond(cells_.size());
     for (size_t room = 0; room < beyond.size(); ++room) beyond[room] = uint64_t{1} << room;
@@ -217,7 +217,7 @@ class FloorLayout {
     return near;
   }
 
-  /// The best of the candidates seen so far, of which none that follows is worth more than it promises.
+  /// The best of the candidates so far; a later candidate is worth at most its promise.
   struct Best {
     double gain = 0;
     bool found = false;  ///< and no other can be better
@@ -226,9 +226,8 @@ class FloorLayout {
     bool takes(double other) const { return !found && other > gain; }
   };
 
-  /// Takes the walls of one more path for the corridor: that which reaches most rooms for its length. Rather a link is
-  /// lost than a way that leads through another room unasked, but those come first that take no door which a link asks
-  /// for.
+  /// Adds the walls of one more path to the corridor: the path that reaches most rooms per length. Losing a link is
+  /// better than an unrequested passage through another room, but paths that keep all doors of links are preferred.
   bool extend(std::vector<bool>& walls, Carving& carving, Access& access) {
     Best keeping, any;
     const size_t corners = graph_.corners.size();
@@ -238,7 +237,7 @@ class FloorLayout {
       keeping.found = keeping.found || one.most <= keeping.gain;
       any.found = any.found || one.most <= any.gain;
       if (keeping.found) break;
-      // Ways along the corridor that is there come to the same walls.
+      // Different paths along the present corridor can have the same new walls.
       if (!seen.insert(one.walls).second) continue;
       Carving with = carved(one.walls);
       work_.done += cells_.size() + with.corridor.size();
@@ -258,7 +257,7 @@ class FloorLayout {
     return true;
   }
 
-  /// Stretches of a room's outer walls that are open inside.
+  /// The parts of a room's outer walls that are open inside.
   std::vector<PlanFacade> facadesOf(const Carving& carving, size_t room) const {
     const PlanRect inner = grown(middle_, -sizes_.wall / 2);
     std::vector<PlanFacade> out;
@@ -310,12 +309,12 @@ class FloorLayout {
 
   FloorPlanSizes sizes_;
   std::span<const RoomLink> links_;
-  PlanRect floor_, middle_;  ///< to the outer faces of walls, to their middles
+  PlanRect floor_, middle_;  ///< to the outer faces of walls, and to their middles
   std::vector<PlanRect> cells_;
   WallGraph graph_;
-  std::vector<uint64_t> near_;  ///< a bit for each room
+  std::vector<uint64_t> near_;  ///< a bit per room
   PlanWork work_;
-  size_t entered_ = 0;  ///< the room that the entrance leads into; past the last where none has a wall for it
+  size_t entered_ = 0;  ///< the room that the entrance leads into; past the last if none has a suitable wall
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace sgm {
 namespace {
 
-/// Permutations of more parts than that are too many to try.
+/// Rows with more parts have too many permutations to try all.
 constexpr size_t kMostPermuted = 3;
 
 size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links, int32_t wall) {
@@ -16,8 +16,8 @@ size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links
   }));
 }
 
-/// What a row may become: its parts in other orders, all of few, of many those in which two have changed places; at
-/// either end. The largest rooms stay in front, where the entrance is.
+/// The variants of a row: its parts in other orders (all orders for few parts, swaps of two for many), at either end.
+/// The largest rooms stay in front, where the entrance is.
 std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   std::vector<TreemapRow> out{row};
   TreemapRow other = row;
@@ -42,7 +42,7 @@ std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   return out;
 }
 
-/// Rows that change places until no other choice for one or two of them meets more links.
+/// Changes rows until no other variant of one or two of them meets more links.
 class RoomSearch {
  public:
   RoomSearch(const PlanRect& whole, std::span<const double> areas, std::span<const RoomLink> links, int32_t wall,

@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles that rooms, corridors and doors of a floor plan are made of.
+// Rectangles of the rooms, corridors and doors of a floor plan.
 
 #include <algorithm>
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-/// How far holes reach into what they join, units.
+/// How far holes extend into the adjacent spaces, units.
 inline constexpr int32_t kDoorReachUnits = static_cast<int32_t>(kDoorReach * kUnitsPerMetre);
-/// Units. Middles and halves of all that is laid out are whole numbers.
+/// The step of the layout in units, so that middles and halves are whole numbers.
 inline constexpr int32_t kPlanStep = 2;
 
 using Rects = std::vector<PlanRect>;
@@ -24,17 +24,17 @@ inline PlanRect common(const PlanRect& a, const PlanRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.z0, b.z0), std::min(a.x1, b.x1), std::min(a.z1, b.z1)};
 }
 
-/// Whether a square with edges of `width` fits.
+/// True if a square with edges of `width` fits.
 inline bool admits(const PlanRect& r, int32_t width) { return std::min(r.width(), r.depth()) >= width; }
 
-/// What is left: all rectangles that no other one holds.
+/// Removes r; leaves all maximal rectangles of the rest.
 void takeAway(Rects& from, const PlanRect& r);
 
-/// Leaves those between which a square of that width can be moved to the first; they are maximal. What is narrower is
-/// nothing to stand in. False where that takes away any in which the square would fit.
+/// Keeps the maximal rectangles from which a square of that width can be moved to the first one; narrower space is not
+/// usable. Returns false if that removes any rectangle in which the square would fit.
 bool keepWalkable(Rects& room, int32_t width);
 
-/// The widest hole through a wall between the two: `width` of it, in its middle.
+/// The widest hole through a wall between the two, limited to `width` in its middle.
 std::optional<PlanRect> holeBetween(const Rects& a, const Rects& b, int32_t wall, int32_t width);
 
 }  // namespace sgm

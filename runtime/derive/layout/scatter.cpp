@@ -32,7 +32,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
     const size_t i = static_cast<size_t>(a);
     if (!lattice.hasAxis(a)) continue;
     low[i] = int64_t{cell[a]} * lattice.size[a];
-    // One cube more on each side: candidates two cubes apart are farther than the radius.
+    // One more cube on each side: candidates two cubes apart are farther than the radius.
     first[i] = floorDiv(low[i], step) - 1;
     count[i] = floorDiv(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
     if (static_cast<size_t>(count[i]) > limit / total) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
       }
     }
   }
-  // Steps to the cubes around one, the nearest first: most candidates lose, and most of these to a cube beside theirs.
+  // Offsets of the surrounding cubes, the nearest first: most candidates lose, mostly to one in an adjacent cube.
   std::vector<std::ptrdiff_t> around;
   for (int64_t shared = 2; shared >= 0; --shared) {
     for (int64_t k = -1; k <= 1; ++k) {
@@ -78,9 +78,9 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
   const auto wins = [&](const Candidate& c) {
     return std::none_of(around.begin(), around.end(), [&](std::ptrdiff_t away) {
       const Candidate& other = *(&c + away);
-      // A lower one is no rival, however near; equal hashes fall back on the position, which both see alike.
+      // A lower one is not a rival, however near; equal hashes are decided by the position, equally for both.
       if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) return false;
-      // One along an axis is far enough, and squares of what is left fit, however large the cell.
+      // A candidate that is far along one axis is far enough, and the squares of the rest fit, however large the cell.
       uint64_t square = 0;
       for (size_t a = 0; a < 3; ++a) {
         const auto d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));
@@ -103,7 +103,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
           inside = inside && d >= 0 && d < std::max(lattice.size[a], 1);
           offset[a] = saturate(d);
         }
-        // Inside, so that there are cubes all around it.
+        // Strictly inside the array, so that all surrounding cubes exist.
         if (inside && wins(c)) points.push_back({offset, c.key});
       }
     }
@@ -116,7 +116,7 @@ std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, doubl
   points.reserve(count);
   const double turn = kTwoPi * key.unit(~uint64_t{0});
   for (size_t i = 0; i < count; ++i) {
-    // By Archimedes, equal steps of height cut off equal areas.
+    // By Archimedes' theorem, equal steps of height cut off equal areas.
     const double strip = (static_cast<double>(i) + uniform(key, i, 0)) / static_cast<double>(count);
     const double y = 1.0 - 2.0 * up * strip;
     const double around = turn + kGoldenAngle * static_cast<double>(i) + (uniform(key, i, 1) - 0.5) * 0.8;

@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A branch that has not been walked yet.
+/// A branch that has not been grown yet.
 struct Bud {
   Vec3 at, heading;
   uint32_t first = 0;  ///< steps from the root
@@ -18,7 +18,7 @@ struct Bud {
   PathKey key;
 };
 
-/// A direction about another one: `around` from a side that depends on the heading alone.
+/// A direction around another one: `around` is measured from a side that depends only on the heading.
 Vec3 turned(Vec3 heading, double cosine, double around) {
   const Vec3 side = across(heading, {0, 1, 0}), other = cross(heading, side);
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -32,7 +32,7 @@ Skeleton grownSkeleton(PathKey key, const Turtle& turtle) {
   const uint32_t steps = static_cast<uint32_t>(turtle.steps);
   const double straightest = detCos(turtle.turn);
   std::vector<Bud> buds{{{}, {0, 1, 0}, 0, 0, key}};
-  // Side branches wait behind those of less depth: what is left out when there are too many are the finest twigs.
+  // Side branches wait behind those of less depth: if there are too many, the finest twigs are left out.
   for (size_t b = 0; b < buds.size(); ++b) {
     const Bud bud = buds[b];
     if (steps - bud.first > kMostSegments - out.segments.size()) {
@@ -45,7 +45,7 @@ Skeleton grownSkeleton(PathKey key, const Turtle& turtle) {
       out.segments.push_back({at, to, i / turtle.steps, bud.depth, bud.key.child(kSegmentSalt, i)});
       at = to;
       const PathKey joint = bud.key.child(kJointSalt, i);
-      // Even in the cosine is even on the sphere (Archimedes).
+      // Uniform in the cosine is uniform on the sphere (Archimedes).
       const double cosine = 1.0 - (1.0 - straightest) * joint.unit(kTurnDraw);
       const double around = 2 * kPi * joint.unit(kAroundDraw);
       if (i + 1 < steps && turtle.turn > 0 && joint.unit(kForkDraw) < turtle.fork) {

@@ -7,14 +7,14 @@
 namespace sgm {
 namespace {
 
-constexpr double kSlack = 1e-9;  // metres and copies that rounding may take away
+constexpr double kSlack = 1e-9;  // metres and copies that rounding may lose
 
 struct Sums {
   double rigid = 0, flexible = 0;
   size_t parts = 0;
 };
 
-/// How often the group stands beside the others.
+/// The number of repetitions of the group beside the others.
 double repetitionsOf(double length, const Sums& others, const Sums& group) {
   const double once = group.rigid + group.flexible;
   if (!(once > 0)) return 0;

@@ -1,12 +1,12 @@
 #pragma once
-// How the parts of a split share a length. After CGA (Mueller, Wonka, Haegler, Ulmer, Van Gool, Procedural Modeling of
-// Buildings, SIGGRAPH 2006, section 3).
+// Divides a length among the parts of a split. After CGA (Mueller, Wonka, Haegler, Ulmer, Van Gool, Procedural Modeling
+// of Buildings, SIGGRAPH 2006, section 3).
 //
-// Rigid parts are as long as they say. The group is repeated as often as fits beside the other parts, flexible ones at
-// the lengths they would like: to the nearest whole number, at least once, where it has flexible parts, which stretch
-// or shrink to fit, and rounded down where it has none; never more often than its rigid parts fit. What is left then is
-// shared by the flexible parts in proportion to the lengths that they would like, and stays empty at the high end where
-// there are none. Parts that are too long together are cut off at the end of the length.
+// Rigid parts have exactly their length. The group is repeated as often as fits beside the other parts, with flexible
+// parts at their preferred lengths. If the group has flexible parts, which stretch or shrink to fit, the number is
+// rounded to nearest and at least 1; otherwise it is rounded down. The group is never repeated more often than its
+// rigid parts fit. The flexible parts share the remaining length in proportion to their preferred lengths; without
+// flexible parts it stays empty at the high end. Parts that are too long together are cut off at the end of the length.
 
 #include <cstdint>
 #include <span>
@@ -17,11 +17,12 @@ namespace sgm {
 /// Metres, at least 0.
 struct SplitSize {
   double size = 0;
-  bool flexible = false;  ///< size is what it would like
+  bool flexible = false;  ///< size is the preferred size
   bool repeated = false;  ///< in the group, one run of parts
 };
 
-/// Where a part lies, metres from the low end. Length and middle: a run of equal parts is equal to the bit.
+/// The position of a part, metres from the low end. It is given by length and middle: in a run of equal parts the
+/// lengths are equal to the bit.
 struct SplitPlace {
   uint32_t part = 0;
   uint32_t repetition = 0;  ///< of the group, from 0
@@ -29,7 +30,7 @@ struct SplitPlace {
 };
 
 struct SplitLayout {
-  std::vector<SplitPlace> places;  ///< those with a size, in order
+  std::vector<SplitPlace> places;  ///< the parts with a size, in order
   double repetitions = 0;          ///< of the group
   bool cut_off = false;            ///< rigid parts are too long together
   bool too_many = false;           ///< more parts than `most`: no places

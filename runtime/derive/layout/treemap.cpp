@@ -16,18 +16,18 @@ double worstOf(double least, double most, double sum, double side) {
 
 int32_t snapped(double length, int32_t step) { return static_cast<int32_t>(detFloor(length / step + 0.5)) * step; }
 
-/// What rows have not taken yet.
+/// The space that is not yet divided into rows.
 struct Rest {
   PlanRect rect;
   double weight = 0;
   bool columns() const { return rect.width() >= rect.depth(); }  // rows lie along the shorter side
   double side() const { return columns() ? rect.depth() : rect.width(); }
   double across() const { return columns() ? rect.width() : rect.depth(); }
-  /// Area of a weight of one, units squared.
+  /// Area per unit of weight, units squared.
   double scale() const { return side() * across() / weight; }
 };
 
-/// Takes a row from the rest and gives its parts their places.
+/// Takes a row from the rest and places its parts.
 void take(Rest& rest, const TreemapRow& row, std::span<const double> weights, int32_t step,
           std::vector<PlanRect>& out) {
   const bool columns = rest.columns();

@@ -1,5 +1,5 @@
 #pragma once
-// Where corridors may run: along the walls between the rooms of a plan.
+// The possible paths of corridors: along the walls between the rooms of a plan.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Middles of inner walls. Edges go from the lower corner to the higher and meet at corners alone.
+/// Centre lines of inner walls. Edges go from the lower corner to the higher and meet only at corners.
 struct WallGraph {
   struct Corner {
     int32_t x = 0, z = 0;
@@ -27,11 +27,11 @@ struct WallGraph {
 /// cells: of a treemap of `whole`.
 WallGraph wallGraph(const PlanRect& whole, std::span<const PlanRect> cells);
 
-/// Shortest paths between all corners (Floyd 1962). Edges in `walked` (one flag for each) cost nothing.
+/// Shortest paths between all corners (Floyd 1962). Edges in `walked` (a flag per edge) cost nothing.
 class WallPaths {
  public:
   WallPaths(const WallGraph& graph, const std::vector<bool>& walked);
-  /// Adds the edges of the path to `edges`; false where there is none.
+  /// Adds the edges of the path to `edges`; returns false if there is no path.
   bool walk(size_t from, size_t to, std::vector<bool>& edges) const;
   int64_t length(size_t from, size_t to) const { return length_[from * corners_ + to]; }
   static constexpr int64_t kNone = int64_t{1} << 60;
@@ -39,7 +39,7 @@ class WallPaths {
  private:
   size_t corners_;
   std::vector<int64_t> length_;
-  std::vector<size_t> next_;  ///< edge to take from there, kNoEdge where there is none
+  std::vector<size_t> next_;  ///< next edge from there; kNoEdge if there is none
   const WallGraph& graph_;
   static constexpr size_t kNoEdge = SIZE_MAX;
 };

@@ -11,14 +11,14 @@
 namespace sgm {
 namespace {
 
-/// Wrong choices that the first search may take back.
+/// The number of wrong choices that the first search may undo.
 constexpr uint64_t kFirstRetreats = 32;
-/// Labels, of up to 64 tiles each, that a look at a place goes through for what it counts.
+/// A visit is one unit of work for this number of labels, of up to 64 tiles each.
 constexpr uint64_t kLabelsOfVisit = 8;
 
 constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }
 
-/// Tiles that may still stand somewhere, one a bit.
+/// The tiles that are still possible at a place, one bit each.
 template <size_t kWords>
 struct TileSet {
   std::array<uint64_t, kWords> word{};
@@ -91,7 +91,7 @@ class TileSearch {
           break;
         }
         if (++retreats > most_retreats) {
-          // What was proven before the first choice stays.
+          // Conclusions proven before the first choice remain.
           undo(choices_[0].changes);
           choices_.clear();
           retreats = 0;
@@ -137,7 +137,7 @@ class TileSearch {
     uint32_t place;
     uint16_t tile;
   };
-  /// How few tiles fit for how often none did, a draw for ties, the place; out of date where the first has changed.
+  /// Number of possible tiles relative to failures, a random draw for ties, the place; stale if the first has changed.
   using Waiting = std::tuple<uint32_t, uint32_t, uint32_t>;
 
   std::optional<uint32_t> neighbour(uint32_t place, size_t side) const {
@@ -159,7 +159,7 @@ class TileSearch {
     }
   }
 
-  /// Fits every place to the border, and then to its neighbours. Each is looked at once at the least.
+  /// Fits every place to the border, and then to its neighbours. Visits each place at least once.
   bool begin() {
     spent_ = most_visits_ < domains_.size();
     if (spent_) return false;
@@ -193,7 +193,7 @@ class TileSearch {
     waiting_.emplace(urgency(place), static_cast<uint32_t>(hashCombine(key_ + attempt_, place) >> 32), place);
   }
 
-  /// False where nothing is left.
+  /// Returns false if no tile is left.
   bool narrow(uint32_t place, const Tiles& to) {
     if (to == domains_[place]) return true;
     changes_.push_back({place, domains_[place]});
@@ -221,7 +221,8 @@ class TileSearch {
     }
   }
 
-  /// Sides share single labels, so it is enough to know which labels a place still offers: no table of pairs of tiles.
+  /// Sides match by single labels, so it is enough to know the labels that a place still offers: no table of tile pairs
+  /// is needed.
   bool propagate() {
     for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
       if (visits_ == most_visits_ || bytes() > most_bytes_) {
@@ -241,7 +242,7 @@ class TileSearch {
         if (!narrow(*other, fits)) return false;
       }
     }
-    // Those that have changed, once each.
+    // The changed places, once each.
     for (const uint32_t place : asked_) wait(place);
     asked_.clear();
     return true;
@@ -256,7 +257,7 @@ class TileSearch {
     }
   }
 
-  /// A place with the fewest tiles to choose from.
+  /// A place with the fewest possible tiles.
   uint32_t next() {
     while (!waiting_.empty()) {
       const auto [urgent, tie, place] = waiting_.top();
@@ -269,7 +270,7 @@ class TileSearch {
   size_t draw(uint32_t place) const {
     uint64_t total = 0;
     domains_[place].each([&](size_t t) { total += tiles_[t].weight; });
-    // In 32 bits: a product with a sum of weights fits 64.
+    // In 32 bits: the product with a sum of weights fits in 64.
     uint64_t left = (hashCombine(hashCombine(key_ + attempt_, place), 1) >> 32) * total >> 32;
     size_t drawn = tiles_.size();
     domains_[place].each([&](size_t t) {
@@ -285,12 +286,12 @@ class TileSearch {
   uint64_t key_, most_visits_;
   size_t most_bytes_;
   uint64_t attempt_ = 0, visits_ = 0;
-  bool spent_ = false;                                  ///< all visits that it may make
-  std::vector<uint8_t> labels_;                         ///< that tiles have
-  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< for each side and label: the tiles that have it there
+  bool spent_ = false;                                  ///< all allowed visits are used up
+  std::vector<uint8_t> labels_;                         ///< of the tiles
+  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< for each side and label: the tiles with that label there
   std::vector<Tiles> domains_;
   std::vector<uint32_t> failures_;
-  std::vector<uint32_t> asked_;  ///< places whose neighbours are to be looked at
+  std::vector<uint32_t> asked_;  ///< places whose neighbours must be visited
   std::vector<bool> waits_;      ///< places in asked_
   std::vector<Change> changes_;
   std::vector<Choice> choices_;
@@ -303,7 +304,7 @@ class TileSearch {
 
 WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
                         size_t most_bytes) {
-  // Most sets of tiles fit one word.
+  // Most tile sets fit in one word.
   if (tiles.size() <= 64) return TileSearch<1>(tiles, lattice, key, most_visits, most_bytes).run();
   return TileSearch<4>(tiles, lattice, key, most_visits, most_bytes).run();
 }

@@ -16,7 +16,7 @@ LexResult tokensOf(std::string_view text) {
   return lex(text, 0, kMostTokens, unread, std::pmr::get_default_resource());
 }
 
-/// Reads declarations off the tokens.
+/// Reads declarations from the tokens.
 class DeclarationReader {
  public:
   explicit DeclarationReader(std::string_view text) : text_(text), lexed_(tokensOf(text)) {}
@@ -43,13 +43,13 @@ class DeclarationReader {
   }
   bool isName(size_t ahead = 0) const { return kind(ahead) == Tok::word && !token(ahead).keyword; }
 
-  /// To the `;` or the end of the block that ends a declaration, or to the next one where that is missing.
+  /// Continues to the `;` or the end of the block that ends a declaration, or to the next one if that is missing.
   void declaration() {
     const size_t first = next_;
     const size_t first_name = out_.names.size();
     const std::string_view what = word();
     ++next_;
-    size_t head_end = first;  // the token behind the head
+    size_t head_end = first;  // the token after the head
     if (what == "import")
       import();
     else if (what == "param")
@@ -152,7 +152,7 @@ class DeclarationReader {
     }
   }
 
-  /// From here to the comma or parenthesis behind it: a name, with its default and its range.
+  /// The text from here to the next comma or parenthesis, with default and range.
   std::string formalText() const {
     size_t last = next_;
     for (int depth = 0; last + 1 < lexed_.tokens.size(); ++last) {
@@ -165,7 +165,7 @@ class DeclarationReader {
     return oneLine(text_.substr(begin, lexed_.tokens[last].span.end - begin));
   }
 
-  /// What a statement at this place declares.
+  /// Records the declaration of a statement at this place.
   void local() {
     const std::string_view what = word();
     if (kind() != Tok::word) return;
@@ -188,7 +188,7 @@ class DeclarationReader {
     out_.names.back().head = std::move(head);
   }
 
-  /// From here to the end of the statement's own words.
+  /// The text from here to the end of the statement's head.
   std::string statementText() const {
     size_t last = next_;
     while (last + 1 < lexed_.tokens.size() && lexed_.tokens[last + 1].kind != Tok::semicolon &&
@@ -213,7 +213,7 @@ class DeclarationReader {
     return line;
   }
 
-  /// Lines of comments that end on the line before this one.
+  /// Comment lines that end on the line before this one.
   std::string commentAbove(int line) const {
     std::vector<std::string_view> lines;
     for (size_t i = lexed_.comments.size(); i-- > 0;) {
@@ -230,7 +230,7 @@ class DeclarationReader {
     return doc;
   }
 
-  /// In the block of an override the names of the edited rule's parameters are known.
+  /// In the block of an override the parameter names of the edited rule are visible.
   void formalsOfEdits() {
     for (const Edit& edit : edits_) {
       std::string rule = edit.path.substr(edit.path.find_last_of('/') + 1);
@@ -323,7 +323,7 @@ std::optional<WordAt> wordAt(std::string_view text, uint32_t offset) {
       const Span& before = lexed.tokens[dot - 1].span;
       found.qualifier = text.substr(before.begin, before.end - before.begin);
     }
-    // The word behind the dot is nearer than the dot.
+    // The word after the dot is nearer than the dot.
     if (in_word) return found;
   }
   return found;

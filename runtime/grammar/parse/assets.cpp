@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-/// Of what is made of it: other names of other things in the file change nothing.
+/// A hash of the used content: other named objects in the file do not affect it.
 uint64_t hashOf(const asset::Polyhedron& solid, const std::vector<std::string>& materials) {
   uint64_t hash = hashText("asset");
   const auto add = [&](uint64_t value) { hash = hashCombine(hash, value); };

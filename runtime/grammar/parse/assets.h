@@ -1,5 +1,5 @@
 #pragma once
-// Assets that a grammar imports: their bytes to closed bodies of plane faces.
+// Reads assets that a grammar imports: bytes to closed bodies with planar faces.
 
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace sgm {
 
-/// Reads the asset of that path and puts it into Program::assets; the notes of its reader become warnings at `span`.
-/// nullopt, with an error there, if it is not an asset.
+/// Reads the asset and adds it to Program::assets; the reader's notes become warnings at `span`. nullopt, after an
+/// error there, if it is not a valid asset.
 std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::string_view bytes, const Span& span,
                                  DiagnosticSink& sink);
 

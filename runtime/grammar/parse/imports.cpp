@@ -29,7 +29,7 @@ class Loader {
     modules_.emplace(std::string(), 0);
     total_ = program_.modules[0].text.size();
     parse(0);
-    // A list that grows while it is walked: no recursion, whatever the text says.
+    // The list grows during the loop, which avoids recursion for any text.
     for (uint32_t m = 0; m < syntax_.size() && !sink_.full(); ++m)
       for (size_t i = 0; i < syntax_[m].imports.size(); ++i) {
         const ImportDecl import = syntax_[m].imports[i];
@@ -56,32 +56,33 @@ class Loader {
     return complaint.empty();
   }
 
-  /// The bytes of a file that is not the library's, at most `left` of them. Nothing, with an error, where there are
-  /// none; most, most_of_all: of one and of all of its kind, for messages.
+  /// Reads a file outside of the library, at most `left` bytes; nullopt after an error. most, most_of_all: the limits
+  /// for one and for all files of its kind, for messages.
   std::optional<std::string> read(const std::string& path, const ImportDecl& import, size_t left, size_t most,
                                   size_t most_of_all) {
     if (options_.resolver == nullptr) {
-      sink_.error(import.path_span, codes::kImportMissing, join({"cannot import `", path, "`: no folder to read from"}),
+      sink_.error(import.path_span, codes::kImportMissing,
+                  join({"cannot import `", path, "`: there is no folder to read from"}),
                   "only the standard library can be imported here: \"std/rock.sgm\"");
       return std::nullopt;
     }
     Result<std::string> bytes = options_.resolver->read(path, left);
     if (bytes ? bytes->size() > left : bytes.error().code == Code::limit) {
-      sink_.error(
-          import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}),
-          join({"a file has at most ", std::to_string(most), " bytes, all together ", std::to_string(most_of_all)}));
+      sink_.error(import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}),
+                  join({"a file has at most ", std::to_string(most), " bytes, and all files together at most ",
+                        std::to_string(most_of_all)}));
       return std::nullopt;
     }
     if (!bytes) {
       sink_.error(import.path_span, codes::kImportMissing,
                   join({"cannot import `", path, "`: ", bytes.error().message}),
-                  "a path starts at the folder of the file that imports");
+                  "a path is relative to the folder of the file that imports it");
       return std::nullopt;
     }
     return std::move(*bytes);
   }
 
-  /// Where a file's imports start from.
+  /// The path to which a file's imports are relative.
   std::string_view pathOf(uint32_t module) const {
     return module == 0 ? std::string_view() : std::string_view(program_.modules[module].path);
   }
@@ -93,8 +94,9 @@ class Loader {
     const auto known = assets_.find(path);
     if (known != assets_.end()) return known->second;
     if (program_.assets.size() >= limits.files) {
-      sink_.error(import.path_span, codes::kImportLimit, join({"more than ", std::to_string(limits.files), " assets"}),
-                  "put some of them together");
+      sink_.error(import.path_span, codes::kImportLimit,
+                  join({"the program imports more than ", std::to_string(limits.files), " assets"}),
+                  "combine some of them");
       return kNoId;
     }
     const size_t left = std::min(limits.asset_bytes, limits.total_asset_bytes - asset_bytes_);
@@ -118,14 +120,15 @@ class Loader {
     const auto known = modules_.find(path);
     if (known != modules_.end()) return known->second;
     if (program_.modules.size() >= limits.files) {
-      sink_.error(import.path_span, codes::kImportLimit, join({"more than ", std::to_string(limits.files), " files"}),
-                  "put some of them together");
+      sink_.error(import.path_span, codes::kImportLimit,
+                  join({"the program imports more than ", std::to_string(limits.files), " files"}),
+                  "combine some of them");
       return kNoId;
     }
     if (depth_[from] + 1 > limits.import_depth) {
       sink_.error(import.path_span, codes::kImportLimit,
-                  join({"imports go more than ", std::to_string(limits.import_depth), " deep"}),
-                  "put some of the files together");
+                  join({"imports are nested more than ", std::to_string(limits.import_depth), " deep"}),
+                  "combine some of the files");
       return kNoId;
     }
     std::string text;
@@ -161,7 +164,7 @@ class Loader {
     return module;
   }
 
-  /// Depth first without recursion; the import that closes a cycle is reported.
+  /// Depth-first search without recursion; reports the import that closes a cycle.
   void findCycles() {
     enum class Mark : uint8_t { fresh, open, done };
     std::vector<Mark> marks(syntax_.size(), Mark::fresh);
@@ -205,18 +208,18 @@ class Loader {
 }  // namespace
 
 std::string importPathComplaint(std::string_view path) {
-  if (path.empty()) return "an import without a path";
+  if (path.empty()) return "the import has no path";
   if (path.size() > kLongestPath) return "the path is too long";
   if (path.front() == '/' || path.find('\\') != std::string_view::npos || path.find(':') != std::string_view::npos)
     return "an import is a relative path with forward slashes";
-  if (!std::all_of(path.begin(), path.end(), pathChar)) return "a character that a path may not have";
+  if (!std::all_of(path.begin(), path.end(), pathChar)) return "the path has a character that is not allowed";
   std::string_view rest = path;
   while (true) {
     const size_t slash = rest.find('/');
     const std::string_view part = rest.substr(0, slash);
     if (part == "..") return "an import may not leave the folder of the root file";
     if (part.empty() || part == "." || part.back() == '.' || part.back() == ' ')
-      return "a part of the path that is no name";
+      return "a part of the path is not a name";
     if (slash == std::string_view::npos) break;
     rest.remove_prefix(slash + 1);
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Loads a file and what it imports, other files and assets, within the sandbox: below the root's folder, or the
-// embedded standard library.
+// Loads a file and its imports, files and assets, within the sandbox: below the root's folder, or from the embedded
+// standard library.
 
 #include <string>
 #include <string_view>
@@ -12,17 +12,17 @@
 
 namespace sgm {
 
-/// Why a path may not be imported; empty where it may. The rule is ImportResolver::read's.
+/// The reason why a path may not be imported; empty if it may. The rule is that of ImportResolver::read.
 std::string importPathComplaint(std::string_view path);
 
-/// Whether a good path is an asset's.
+/// Whether a valid path is that of an asset.
 bool isAssetPath(std::string_view path);
 
-/// The path of `import`, written in the file `from`, as seen from the root's folder. Both are good paths.
+/// The path of `import`, written in the file `from`, relative to the root's folder. Precondition: both are valid paths.
 std::string importedPath(std::string_view from, std::string_view import);
 
-/// Parses the root (program.modules[0], text already there) and all it imports. Modules come out in the order in which
-/// they are first named; a module or an asset that two files import is loaded once.
+/// Parses the root (program.modules[0], with its text) and all its imports. Modules are in the order of their first
+/// mention; a module or an asset that two files import is loaded once.
 std::vector<ModuleSyntax> loadModules(Program& program, NameTable& names, const CompileOptions& options,
                                       DiagnosticSink& sink, std::vector<SourceFile>& files);
 

@@ -105,14 +105,14 @@ void Parser::fail(const Span& span, std::string_view code, std::string message, 
   if (!isSaid(span)) sink_.error(span, code, std::move(message), std::move(hint));
 }
 
-/// Whether an error of the text itself stands where it may be the cause of this one.
+/// Whether a lexical error nearby may be the cause of this error.
 bool Parser::isSaid(const Span& span) const {
   const std::vector<int>& lines = lexed_.broken_lines;
   const auto broken = [&](int line) { return std::find(lines.begin(), lines.end(), line) != lines.end(); };
   return lexed_.tokens[next_].span.begin > lexed_.torn_at || broken(span.line) || broken(last_.end_line);
 }
 
-/// Names in it may be declared there: they are not told to be unknown.
+/// Names in the omitted part may be declared there: they are not reported as unknown.
 void Parser::leaveOut(size_t first) {
   out_.complete = false;
   if (joined_ > 0) out_.bounded = false;
@@ -128,24 +128,24 @@ std::string Parser::habitHint(std::string_view wanted, const Token& token) const
     return join({"write the unit against its number, `", textOf(lexed_.tokens[next_ - 1]), word, "`"});
   const std::span<const std::string_view> transforms = transformTable();
   if (wanted == "`;`" && std::find(transforms.begin(), transforms.end(), word) != transforms.end())
-    return "what moves or turns something stands in front of it: `at(1m, 0m, 0m) sphere(2m);`";
+    return "a transform stands in front of its shape: `at(1m, 0m, 0m) sphere(2m);`";
   if (wanted == "a statement" && word == "if")
     return "give a rule alternatives: `rule A when ... { }` and `rule A else { }`, or `weight`";
   if (wanted.starts_with("a text") && token.kind == Tok::word) return join({"write it in quotes, \"", word, "\""});
   if (wanted.starts_with("the name of ") || wanted.starts_with("the kind of ")) {
     const std::string name = token.kind == Tok::text ? textContent(word) : std::string();
     if (isName(name)) return join({"write it without quotes, `", name, "`"});
-    if (!name.empty()) return "names are of the letters a to z, digits and `_`, and stand without quotes";
+    if (!name.empty()) return "names consist of the letters a to z, digits and `_`, without quotes";
   }
   if (token.kind == Tok::dots)
-    return "a range such as 1m..2m stands behind `in`; a function takes both ends, `rand(1m, 2m)`";
+    return "a range such as 1m..2m stands after `in`; a function takes both ends, `rand(1m, 2m)`";
   return {};
 }
 
 void Parser::unexpected(std::string_view wanted) {
   if (panic_ || exhausted_ || unavailable()) return;
   const Token& token = peek();
-  // What is missing is reported where it should stand, just behind the last token, when that ends another line.
+  // A missing token is reported at its place, after the last token, if that ends an earlier line.
   Span span = token.span;
   if (wanted == "`;`" && (token.kind == Tok::end || token.span.line != last_.end_line)) {
     span = last_;
@@ -174,7 +174,7 @@ bool Parser::unavailable() {
   const Token& token = peek();
   if (token.kind != Tok::word || !token.unavailable) return false;
   fail(token.span, codes::kNotAvailable, join({"`", textOf(token), "` is not available in sgm 1 of this version"}),
-       "the word is kept for a later one");
+       "the word is reserved for a later version");
   return true;
 }
 
@@ -190,7 +190,7 @@ NameId Parser::declaredName(std::string_view of_what) {
   if (at(Tok::word) && (peek().keyword || peek().unavailable)) {
     fail(here(), codes::kReservedWord,
          join({"`", textOf(peek()), "` is a word of the language and cannot be ", of_what}),
-         join({"another name, such as `", textOf(peek()), "_`"}));
+         join({"choose another name, such as `", textOf(peek()), "_`"}));
     return kNoId;
   }
   return wordName(of_what);
@@ -217,8 +217,9 @@ Span Parser::since(const Span& begin) const {
 bool Parser::nodeBudget() {
   if (exhausted_) return false;
   if (program_.ast.exprs.size() + program_.ast.stmts.size() < limits_.nodes) return true;
-  fail(here(), codes::kTooLarge, join({"more than ", std::to_string(limits_.nodes), " expressions and statements"}),
-       "loops and rules say the same in fewer");
+  fail(here(), codes::kTooLarge,
+       join({"the text has more than ", std::to_string(limits_.nodes), " expressions and statements"}),
+       "use loops and rules to say the same in fewer");
   exhausted_ = true;
   return false;
 }
@@ -238,13 +239,13 @@ IdRange Parser::storeArgs(const std::vector<ArgNode>& args) {
 bool Parser::Deeper::fits() {
   if (parser_.nesting_ <= parser_.limits_.nesting) return true;
   parser_.fail(parser_.here(), codes::kTooDeep,
-               join({"nested more than ", std::to_string(parser_.limits_.nesting), " deep"}),
+               join({"this is nested more than ", std::to_string(parser_.limits_.nesting), " deep"}),
                "name a part of it: a value with let, a block with a rule");
   return false;
 }
 
-/// To behind the next ';', or to the '}' of the block around, or behind a block that opened after the error. At
-/// top level a declaration's word at the start of a line ends the search as well.
+/// Skips past the next ';', or to the '}' of the enclosing block, or past a block that opened after the error. At top
+/// level a declaration keyword at the start of a line also ends the search.
 void Parser::synchronise(bool top_level, size_t first) {
   panic_ = false;
   skip(top_level);
@@ -264,7 +265,7 @@ void Parser::skip(bool top_level) {
       if (open == 0 && !top_level) return;
       take();
       if (open <= 1) {
-        // `{ ... };` and `} -> ...` belong to what was skipped.
+        // `{ ... };` and `} -> ...` belong to the skipped part.
         accept(Tok::semicolon);
         return;
       }

@@ -1,8 +1,8 @@
 #pragma once
 // Recursive descent over one file's tokens into the shared arrays of a Program.
 //
-// After an error the parser is in panic: it sees only the end of the text, so that every loop winds down by itself, and
-// the loop over statements (or declarations) skips to the next ';' or '}' and goes on.
+// After an error the parser panics: it sees only the end of the text, so that every loop ends by itself, and the loop
+// over statements (or declarations) skips to the next ';' or '}' and continues.
 
 #include <cstdint>
 #include <map>
@@ -21,20 +21,20 @@ namespace sgm {
 
 class Parser {
  public:
-  /// The module's text must already be in program.modules[module].
+  /// Precondition: program.modules[module] has the module's text.
   Parser(Program& program, NameTable& names, uint32_t module, const CompileLimits& limits, DiagnosticSink& sink);
 
   ModuleSyntax run();
 
  private:
-  /// Counts nesting for the length of a scope.
+  /// Counts nesting for its lifetime.
   class Deeper {
    public:
     explicit Deeper(Parser& parser) : parser_(parser) { ++parser_.nesting_; }
     ~Deeper() { --parser_.nesting_; }
     Deeper(const Deeper&) = delete;
     Deeper& operator=(const Deeper&) = delete;
-    /// False, with an error, where the cap is passed.
+    /// Returns false, after an error, if the limit is exceeded.
     bool fits();
 
    private:
@@ -43,7 +43,7 @@ class Parser {
 
   // parser.cpp: tokens, errors, recovery
   const Token& peek(size_t ahead = 0) const;
-  /// What somebody who writes like this in other languages should write here, or empty.
+  /// What to write here instead of another language's syntax, or empty.
   std::string habitHint(std::string_view wanted, const Token& token) const;
   const Token& take();
   bool at(Tok kind) const { return peek().kind == kind; }
@@ -52,14 +52,14 @@ class Parser {
   bool acceptWord(std::string_view word);
   bool expect(Tok kind, std::string_view what);
   bool expectWord(std::string_view word);
-  /// A new name for something: not a keyword. kNoId in panic.
+  /// Parses a new name: not a keyword. kNoId in panic.
   NameId declaredName(std::string_view of_what);
   NameId wordName(std::string_view of_what);
   NameId textName(std::string_view of_what);
   void fail(const Span& span, std::string_view code, std::string message, std::string hint = {});
   void unexpected(std::string_view wanted);
   bool unavailable();
-  /// Goes on behind what is wrong; first: the token with which the part began that is left out.
+  /// Continues after an error; first: the first token of the omitted part.
   void synchronise(bool top_level, size_t first);
   void skip(bool top_level);
   void leaveOut(size_t first);
@@ -179,11 +179,11 @@ class Parser {
   ModuleSyntax out_;
   size_t next_ = 0;
   bool panic_ = false;
-  bool exhausted_ = false;  ///< out of nodes or of errors: only the end is left
+  bool exhausted_ = false;  ///< out of nodes or of errors: only the end of the text is left
   uint32_t nesting_ = 0;
   Token panic_token_;
   Span last_;
-  std::vector<uint16_t> depth_;  ///< of each expression, so that trees built by loops are capped as well
+  std::vector<uint16_t> depth_;  ///< of each expression, so that the depth of trees built by loops is limited, too
   size_t first_expr_ = 0;
   std::map<NameId, uint32_t> rules_;
   bool overriding_ = false;  ///< in the block of an override

@@ -32,7 +32,7 @@ void Parser::declaration() {
       fail(word, codes::kUnknownUnit, join({"unknown unit of length `", text, "`"}), "units are m, cm, mm and km");
     expect(Tok::semicolon, "`;`");
     if (panic_) return;
-    if (again) sink_.error(since(begin), codes::kDuplicate, "a second `units`", kRemove);
+    if (again) sink_.error(since(begin), codes::kDuplicate, "`units` is declared twice", kRemove);
     out_.unit = unit;
     out_.unit_span = begin;
     return item(ItemKind::units, 0, begin);
@@ -41,12 +41,12 @@ void Parser::declaration() {
   if (acceptWord("seed")) {
     if (at(Tok::word) && peek(1).kind == Tok::semicolon)
       fail(here(), codes::kSyntax,
-           join({"a seed is a whole number from 0 or a text, and `", textOf(peek()), "` is a name"}),
+           join({"a seed is a whole number (0 or more) or a text, and `", textOf(peek()), "` is a name"}),
            join({"write it in quotes, \"", textOf(peek()), "\""}));
     const ExprId seed = expression();
     expect(Tok::semicolon, "`;`");
     if (panic_) return;
-    if (out_.seed != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `seed`", kRemove);
+    if (out_.seed != kNoId) sink_.error(since(begin), codes::kDuplicate, "`seed` is declared twice", kRemove);
     out_.seed = seed;
     out_.seed_span = since(begin);
     return item(ItemKind::seed, 0, begin);
@@ -62,7 +62,7 @@ void Parser::declaration() {
   if (acceptWord("report")) return expectation(false);
   if (acceptWord("expect")) return expectation(true);
   if (at(Tok::close_brace)) {
-    fail(begin, codes::kSyntax, "a `}` without its `{`", "remove it");
+    fail(begin, codes::kSyntax, "this `}` has no `{`", "remove it");
     panic_ = false;
     take();
     return;
@@ -133,7 +133,7 @@ IdRange Parser::formals() {
     formal.span = since(begin);
     list.push_back(formal);
     if (list.size() > kMostFormals)
-      fail(begin, codes::kTooLarge, "more than 16 parameters", "a vector holds three numbers in one");
+      fail(begin, codes::kTooLarge, "this has more than 16 parameters", "a vector holds three numbers in one");
     if (!accept(Tok::comma)) break;
   }
   expect(Tok::close_paren, "`)` or `,`");
@@ -202,13 +202,14 @@ void Parser::domainDeclaration() {
         else
           domain.axes[static_cast<size_t>(c - 'x')] = true;
       }
-      if (!good) fail(here(), codes::kSyntax, "expected axes such as xz", "the axes along which there are cells");
+      if (!good) fail(here(), codes::kSyntax, "expected axes such as xz", "write the axes along which there are cells");
       if (!domain.infinite)
         fail(word, codes::kDomain, "a finite domain has no axes", "write `domain infinite axes ...`");
       take();
       domain.axes_written = true;
     } else if (atWord("solid") || atWord("empty")) {
-      if (domain.solid || domain.empty) fail(word, codes::kDuplicate, "`solid` or `empty` once", kRemove);
+      if (domain.solid || domain.empty)
+        fail(word, codes::kDuplicate, "the domain has a second `solid` or `empty`", kRemove);
       domain.solid = atWord("solid");
       domain.empty = !domain.solid;
       take();
@@ -222,7 +223,7 @@ void Parser::domainDeclaration() {
     } else if (atWord("box")) {
       if (domain.infinite)
         fail(word, codes::kDomain, "an infinite domain has no box", "write `domain finite box(...)`");
-      if (domain.box) fail(word, codes::kDuplicate, "a second box", kRemove);
+      if (domain.box) fail(word, codes::kDuplicate, "the domain has a second `box`", kRemove);
       take();
       domain.box = true;
       domain.box_args = storeArgs(arguments("box"));
@@ -233,7 +234,7 @@ void Parser::domainDeclaration() {
   expect(Tok::semicolon, "`;`");
   if (panic_) return;
   domain.span = since(begin);
-  if (out_.domain.present) sink_.error(domain.span, codes::kDuplicate, "a second `domain`", kRemove);
+  if (out_.domain.present) sink_.error(domain.span, codes::kDuplicate, "`domain` is declared twice", kRemove);
   out_.domain = domain;
   item(ItemKind::domain, 0, begin);
 }
@@ -271,7 +272,7 @@ void Parser::startDeclaration() {
   expect(Tok::semicolon, "`;`");
   if (panic_) return;
   if (out_.start != kNoId)
-    sink_.error(since(begin), codes::kDuplicate, "a second `start`", "call both rules in one, and start that");
+    sink_.error(since(begin), codes::kDuplicate, "`start` is declared twice", "call both rules in one, and start that");
   out_.start = start;
   out_.start_span = since(begin);
   item(ItemKind::start, 0, begin);

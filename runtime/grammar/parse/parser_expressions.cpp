@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-constexpr uint16_t kDeepestTree = 128;  // of trees that loops build, a + b + c ...
+constexpr uint16_t kDeepestTree = 128;  // for trees built by loops, a + b + c ...
 
 std::optional<BinaryOp> operatorOf(Tok kind, std::string_view text) {
   switch (kind) {
@@ -54,7 +54,7 @@ ExprId Parser::addExpr(ExprNode node, const Span& begin) {
   for (uint32_t i = 0; i < node.children.count; ++i) include(program_.ast.ids[node.children.first + i]);
   for (uint32_t i = 0; i < node.args.count; ++i) include(program_.ast.args[node.args.first + i].value);
   if (++depth > kDeepestTree) {
-    fail(node.span, codes::kTooDeep, join({"an expression with more than ", std::to_string(kDeepestTree), " steps"}),
+    fail(node.span, codes::kTooDeep, join({"the expression has more than ", std::to_string(kDeepestTree), " steps"}),
          "name a part of it with let");
     depth = kDeepestTree;
   }
@@ -121,7 +121,7 @@ ExprId Parser::unary() {
   Deeper deeper(*this);
   if (!deeper.fits()) return kNoId;
   take();
-  // `not a < b` denies the comparison; a minus binds to what is next.
+  // `not a < b` negates the comparison; a minus applies to the next operand.
   const ExprId operand = negation ? binaryLevel(kComparison) : unary();
   if (panic_) return kNoId;
   ExprNode node;
@@ -147,7 +147,7 @@ ExprId Parser::postfix() {
       continue;
     }
     if (kind != ExprKind::name && kind != ExprKind::member) return value;
-    // The call takes over the name, and the receiver where there is one.
+    // The call takes over the name, and the receiver if there is one.
     ExprNode node = program_.ast.exprs[value];
     node.kind = ExprKind::call;
     const std::vector<ArgNode> args = arguments(nameOf(node.name));
@@ -256,8 +256,8 @@ ExprId Parser::parenthesised() {
   return addExpr(node, begin);
 }
 
-/// `name value`: a word before something that starts an expression. Before a minus it is a name only where the callee
-/// has such a parameter and the minus touches its operand: `halfspace(below -2m)`, `at(y -2m)`; elsewhere `name = -2m`.
+/// `name value`: a word before the start of an expression. Before a minus it is a name only if the callee has such a
+/// parameter and the minus touches its operand: `halfspace(below -2m)`, `at(y -2m)`; otherwise write `name = -2m`.
 bool Parser::namedArgumentAhead(std::string_view callee) const {
   if (peek().kind != Tok::word) return false;
   const std::string_view word = textOf(peek());
@@ -295,7 +295,7 @@ std::vector<ArgNode> Parser::arguments(std::string_view callee) {
     arg.span = since(begin);
     args.push_back(arg);
     if (args.size() > kMostArguments)
-      fail(begin, codes::kTooLarge, "more than 80 arguments", "give several shapes a part of them each");
+      fail(begin, codes::kTooLarge, "the call has more than 80 arguments", "split them among several shapes");
     if (!accept(Tok::comma)) break;
   }
   expect(Tok::close_paren, "`)` or `,`");

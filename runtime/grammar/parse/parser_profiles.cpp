@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, and roofs.
+// Footprints, their extrusions, and roofs.
 
 #include "grammar/parse/parser.h"
 

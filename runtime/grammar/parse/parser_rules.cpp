@@ -35,7 +35,7 @@ void Parser::ruleDeclaration() {
     const Span clause = here();
     const std::string_view word = textOf(peek());
     auto once = [&](bool there) {
-      if (there) fail(clause, codes::kDuplicate, join({"a second `", word, "`"}), "remove one of them");
+      if (there) fail(clause, codes::kDuplicate, join({"this head has a second `", word, "`"}), "remove one of them");
       take();
     };
     auto guard = [&] {
@@ -67,7 +67,7 @@ void Parser::ruleDeclaration() {
     } else if (atWord("lod")) {
       once(head.lod != kNoId);
       if (atWord("far") || atWord("mid") || atWord("near"))
-        fail(here(), codes::kSyntax, "lod takes the cell edge from which on it stands in", "such as `lod 2m`");
+        fail(here(), codes::kSyntax, "lod takes the edge of the smallest cells that use this head", "such as `lod 2m`");
       head.lod = expression();
     } else {
       more = false;

@@ -1,4 +1,4 @@
-// Scopes in parts: split and comp.
+// Parts of scopes: split and comp.
 
 #include <algorithm>
 
@@ -83,18 +83,18 @@ void Parser::splitParts(Parts& parts, bool repeated) {
 void Parser::splitGroup(Parts& parts, bool repeated) {
   const Span group = here();
   const size_t first = parts.nodes.size();
-  // What is wrong with it is no reason to misread what follows.
+  // Parse it despite the error, so that the following text is not misread.
   if (repeated)
     sink_.error(group, codes::kSyntax, "a repeated group holds no other group", "split its parts once more instead");
   else if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [](const PartNode& p) { return p.repeated; }))
-    sink_.error(group, codes::kDuplicate, "a second repeated group in this split",
+    sink_.error(group, codes::kDuplicate, "this split has a second repeated group",
                 "put its parts into the first one, or split a part once more");
   Deeper deeper(*this);
   if (!deeper.fits()) return;
   take();
   const uint32_t errors = sink_.errorCount();
   splitParts(parts, true);
-  if (!partsEnd(group) || !expect(Tok::star, "`*` behind the parts that are repeated")) return;
+  if (!partsEnd(group) || !expect(Tok::star, "`*` after the parts that are repeated")) return;
   if (parts.nodes.size() == first && sink_.errorCount() == errors)
     sink_.error(since(group), codes::kSyntax, "this repeated group has no parts", "such as `{ ~2m: Bay; }*`");
   for (size_t i = first; i < parts.nodes.size(); ++i) parts.nodes[i].group = since(group);
@@ -146,14 +146,14 @@ void Parser::compPart(Parts& parts) {
     if (!at(Tok::word) || peek(1).kind != Tok::colon) return unexpected("a part of the box such as `front:`");
     Suggestion suggestion(textOf(peek()));
     for (const std::string_view known : words) suggestion.offer(known);
-    return fail(
-        begin, codes::kUnknownName, join({"a box has no part `", textOf(peek()), "`"}),
-        suggestion.best().empty() ? "front, back, left, right, side, top, bottom, edges, inside" : suggestion.hint());
+    return fail(begin, codes::kUnknownName, join({"a box has no part `", textOf(peek()), "`"}),
+                suggestion.best().empty() ? "it has front, back, left, right, side, top, bottom, edges, inside"
+                                          : suggestion.hint());
   }
   part.of = static_cast<BoxPart>(word - words.begin());
   if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [&](const PartNode& p) { return p.of == part.of; }))
     return fail(begin, codes::kDuplicate, join({"`", *word, "` stands twice in this comp"}),
-                "put both into one block behind it");
+                "put both into one block after it");
   take();
   expect(Tok::colon, "`:`");
   const StmtId body = bodyOf("this part");

@@ -50,7 +50,7 @@ StmtId Parser::block() {
   return addStmt(node, begin);
 }
 
-/// One statement with its own end: a call and what ends like one takes a ';', a block none.
+/// Parses one statement with its end: statements that end like calls need a ';', blocks do not.
 StmtId Parser::statement() {
   Deeper deeper(*this);
   if (!deeper.fits()) return kNoId;
@@ -102,7 +102,7 @@ StmtId Parser::callStatement() {
     for (std::string_view word : kStatements) suggestion.offer(word);
     for (std::string_view word : transformTable()) suggestion.offer(word);
     if (!suggestion.best().empty()) {
-      fail(begin, codes::kSyntax, join({"`", textOf(peek()), "` starts no statement"}), suggestion.hint());
+      fail(begin, codes::kSyntax, join({"`", textOf(peek()), "` does not start a statement"}), suggestion.hint());
       return kNoId;
     }
   }
@@ -112,7 +112,7 @@ StmtId Parser::callStatement() {
   node.expr = callExpression("a shape, a rule or a statement");
   if (panic_) return kNoId;
   if (const std::string_view ours = wordFor(word); !ours.empty() && !at(Tok::semicolon)) {
-    fail(begin, codes::kSyntax, join({"`", word, "` starts no statement"}), join({"write `", ours, "`"}));
+    fail(begin, codes::kSyntax, join({"`", word, "` does not start a statement"}), join({"write `", ours, "`"}));
     return kNoId;
   }
   if (at(Tok::open_brace)) {
@@ -258,7 +258,7 @@ StmtId Parser::scatterStatement() {
   } else {
     scatter.span = points;
     if (atWord("gap") && peek(1).kind == Tok::word && peek(2).kind == Tok::word)
-      unexpected("`probe up` or `probe down`, which a gap is behind");
+      unexpected("`probe up` or `probe down` before the gap");
   }
   if (acceptWord("when")) scatter.when = expression();
   StmtNode node;
@@ -324,8 +324,7 @@ StmtId Parser::innerStatement() {
   const Span begin = here();
   take();
   if (!overriding_)
-    fail(begin, codes::kWrongUse, "`inner` stands in overrides alone",
-         "it derives what an override takes the place of");
+    fail(begin, codes::kWrongUse, "`inner` stands in overrides only", "it derives the block that an override replaces");
   StmtNode node;
   node.kind = StmtKind::inner;
   node.extra = inners_++;

@@ -1,4 +1,4 @@
-// Floors in rooms: treemap and the links in it.
+// Floor plans: treemap and its links.
 
 #include "grammar/parse/parser.h"
 

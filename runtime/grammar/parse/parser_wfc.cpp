@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-/// Sides of a tile among the parts of a box.
+/// The sides of a tile among the parts of a box.
 std::span<const std::string_view> sideWords() { return boxPartTable().first(static_cast<size_t>(BoxPart::side) + 1); }
 
 }  // namespace
@@ -103,7 +103,7 @@ std::optional<SocketNode> Parser::socket(const std::vector<SocketNode>& before) 
     Suggestion suggestion(textOf(peek()));
     for (const std::string_view known : words) suggestion.offer(known);
     fail(begin, codes::kUnknownName, join({"a tile has no side `", textOf(peek()), "`"}),
-         suggestion.hintOr("front, back, left, right, side, top, bottom"));
+         suggestion.hintOr("it has front, back, left, right, side, top, bottom"));
     return std::nullopt;
   }
   out.of = static_cast<BoxPart>(word - words.begin());

@@ -101,7 +101,7 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
         out += '.';
       }
       out += program_.text(node.name);
-      // A rule without arguments is written without parentheses; a value without them would be no call.
+      // A rule without arguments is written without parentheses; a value without them would not be a call.
       if (node.args.count > 0 || !node.shape) args(out, node.args, program_.text(node.name));
       break;
     case ExprKind::query:
@@ -145,7 +145,7 @@ void LinePrinter::formals(std::string& out, IdRange range) const {
       out += " = ";
       expr(out, formal.fallback);
     }
-    // What it refuses changes no byte of what it derives.
+    // The range rejects calls, but does not change the derived content.
     if (formal.low_expr == kNoId || meaning_) continue;
     out += " in ";
     expr(out, formal.low_expr, kOr);

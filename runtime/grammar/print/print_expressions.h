@@ -1,5 +1,5 @@
 #pragma once
-// Expressions, calls and statements as one line of text: the part of the printer that knows no layout.
+// Prints expressions, calls and statements as one line of text: the part of the printer without layout.
 
 #include <string>
 #include <string_view>
@@ -8,29 +8,29 @@
 
 namespace sgm {
 
-/// With a blank on either side where the formatter puts one: " + ", "*".
+/// With spaces around it if the formatter writes them: " + ", "*".
 std::string_view binaryText(BinaryOp op);
 
 class LinePrinter {
  public:
-  /// meaning: numbers by value and no parentheses that the source has for clarity alone.
+  /// meaning: print numbers by value, and omit parentheses that are in the source only for clarity.
   LinePrinter(const Program& program, bool meaning) : program_(program), meaning_(meaning) {}
 
-  /// A range prints as a..b.
+  /// Prints a range as a..b.
   void expr(std::string& out, ExprId id, int lowest = 0) const;
   void formals(std::string& out, IdRange range) const;
   void args(std::string& out, IdRange range, std::string_view callee) const;
   void xforms(std::string& out, IdRange range) const;
-  /// What stands before a statement's body, without a blank at the end; the whole statement where it has no body.
+  /// Prints the part before a statement's body, without a space at the end; without a body, the whole statement.
   void head(std::string& out, const StmtNode& node) const;
-  /// A split, a comp, a treemap or a wfc.
+  /// Whether it is a split, a comp, a treemap or a wfc.
   static bool hasParts(const StmtNode& node);
-  /// What stands before the statement of part i of one of these, with a blank at the end.
+  /// Prints the part before the statement of part i of one of these, with a space at the end.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
-  /// Whether a repeated group begins before part i, or ends behind it.
+  /// Whether a repeated group begins before part i, or ends after it.
   bool opensGroup(const StmtNode& node, uint32_t i) const;
   bool closesGroup(const StmtNode& node, uint32_t i) const;
-  /// The whole statement on one line.
+  /// Prints the whole statement on one line.
   void statement(std::string& out, StmtId id) const;
   void ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const;
   void overrideHead(std::string& out, const Override& edit) const;
@@ -42,7 +42,7 @@ class LinePrinter {
  private:
   void morphOperand(std::string& out, StmtId id) const;
   void footprint(std::string& out, const FootprintNode& node) const;
-  /// before: what stands before the first of them.
+  /// before: text before the first socket.
   void sockets(std::string& out, const TileNode& tile, std::string_view before) const;
   void roof(std::string& out, const StmtNode& node) const;
   void fit(std::string& out, const StmtNode& node) const;

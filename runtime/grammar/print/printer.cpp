@@ -13,7 +13,7 @@ namespace sgm {
 namespace {
 
 constexpr size_t kWidth = 110;
-constexpr uint32_t kLongestInline = 400;  // longer in the source: not even tried on one line, which bounds the work
+constexpr uint32_t kLongestInline = 400;  // longer source is not tried on one line, which bounds the work
 
 void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
   out += measureName(e.measure);
@@ -39,7 +39,7 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
-/// What a parameter is to the world: what is left of its declaration is for hosts.
+/// The part of a parameter's declaration that affects the world; the rest is for hosts.
 void paramMeaning(std::string& out, const Program& program, const LinePrinter& line, const Param& param) {
   out += join({"param ", program.text(param.name), " = "});
   line.expr(out, param.value_expr);
@@ -50,7 +50,7 @@ void paramMeaning(std::string& out, const Program& program, const LinePrinter& l
   line.expr(out, param.high_expr, kOr);
 }
 
-/// Any declaration on one line.
+/// Prints any declaration on one line.
 void declarationLine(std::string& out, const Program& program, const ModuleSyntax& syntax, const LinePrinter& line,
                      const Item& item) {
   switch (item.kind) {
@@ -198,7 +198,7 @@ class ModulePrinter {
     return text_.substr(comment.begin, comment.end - comment.begin);
   }
 
-  /// Comments that stand before an offset, each on a line of its own.
+  /// Prints the comments before an offset, each on its own line.
   void comments(uint32_t before, size_t depth) {
     for (; next_ < comments_.size() && comments_[next_].begin < before; ++next_) {
       blankLine(comments_[next_].line);
@@ -208,7 +208,7 @@ class ModulePrinter {
     }
   }
 
-  /// A comment behind something that ends (or opens a block) on this line stays there.
+  /// Keeps a comment on the line whose end (or block start) it follows.
   void trailing(int line) {
     if (next_ < comments_.size() && !comments_[next_].own_line && comments_[next_].line <= line) {
       out_ += join({"  ", commentText(comments_[next_])});
@@ -237,7 +237,7 @@ class ModulePrinter {
 
   bool hasComment(const Span& span) const { return next_ < comments_.size() && comments_[next_].begin < span.end; }
 
-  /// The block of a declaration that may take several lines, or none.
+  /// The block of a declaration that may take several lines, or kNoId.
   StmtId blockOf(const Item& item) const {
     if (item.kind == ItemKind::overriding) return program_.overrides[item.index].body;
     if (item.kind != ItemKind::alternative || program_.rules[item.index].morphic) return kNoId;
@@ -276,7 +276,7 @@ class ModulePrinter {
     last_line_ = block.span.end_line;
   }
 
-  /// The parts of a split, comp, treemap or wfc, each on a line, a repeated group one deeper.
+  /// Prints the parts of a split, comp, treemap or wfc, one a line, a repeated group indented once more.
   void partsInLines(const StmtNode& node, size_t depth) {
     out_ += " {";
     trailing(node.span.line);
@@ -308,7 +308,7 @@ class ModulePrinter {
     last_line_ = node.span.end_line;
   }
 
-  /// A fit with each of its zones on a line.
+  /// Prints a fit with one zone a line.
   void zonesInLines(const StmtNode& node, size_t depth) {
     const FitNode& fit = program_.ast.fits[node.extra];
     out_ += join({"fit ", program_.text(node.name)});
@@ -347,8 +347,8 @@ class ModulePrinter {
   std::string_view text_;
   const std::pmr::vector<Comment>& comments_;
   std::string out_;
-  size_t next_ = 0;    ///< the first comment that is not printed yet
-  int last_line_ = 0;  ///< of the source, of what was printed last; 0 at the start of a block
+  size_t next_ = 0;    ///< the first unprinted comment
+  int last_line_ = 0;  ///< source line of the last printed text; 0 at the start of a block
 };
 
 }  // namespace

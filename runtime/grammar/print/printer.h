@@ -1,5 +1,5 @@
 #pragma once
-// Syntax back to text.
+// Prints syntax as text.
 
 #include <string>
 #include <string_view>
@@ -8,16 +8,16 @@
 
 namespace sgm {
 
-/// The canonical layout of a file, comments kept: printing what was parsed from it gives the same bytes again. One
-/// statement a line, two blanks of indent, a block on one line only where it was written so and fits.
+/// Prints the canonical layout of a file, with its comments; parsing and printing that gives the same bytes. One
+/// statement a line, two spaces of indent; a block is on one line only if it was written so and fits.
 std::string printModule(const Program& program, const ModuleSyntax& syntax);
 
-/// One line that is equal for files of equal meaning: no comments, no superfluous parentheses, numbers by value.
+/// Prints one line that is equal for files of equal meaning: no comments, no superfluous parentheses, numbers by value.
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax);
 
 /// "watertight", "components", ...
 std::string_view measureName(Measure measure);
-/// What follows `report` or `expect`, without the semicolon: "components(air) == 1 in block(8)".
+/// The text after `report` or `expect`, without the semicolon: "components(air) == 1 in block(8)".
 std::string printMeasure(const Program& program, const Expectation& expectation);
 
 }  // namespace sgm

@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-constexpr double kFarthest = 1e6;  ///< metres; a finite domain without a box is not larger
+constexpr double kFarthest = 1e6;  ///< metres; upper limit for a finite domain without a box
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void ReachCheck::run() {
 void ReachCheck::setCell(const Layer& layer) {
   IntervalVector edges;
   for (int axis = 0; axis < 3; ++axis) edges[static_cast<size_t>(axis)] = Interval::exactly(layer.cell[axis] * kUnit);
-  // Of a finite domain without a box the shapes' bounds make the box, not the other way round.
+  // In a finite domain without a box the shapes' bounds determine the box, not vice versa.
   if (isFinite(layer) && program_.domain.box.empty()) edges.fill({0, kInfinity});
   centred_ = isFinite(layer);
   whole_ = layer.cell_expr == kNoId;
@@ -49,19 +49,19 @@ void ReachCheck::layerReach(uint32_t index) {
   const bool boxed = !program_.domain.box.empty();
   setCell(layer);
   const uint32_t errors = sink_.errorCount();
-  // Later attempts follow other cells than the layer's, or parts of ranges.
+  // Later attempts use other cells than the layer's, or parts of ranges.
   values_.judgeArguments(true);
   const Extent extent = provenExtent(index);
   values_.judgeArguments(false);
   reportMisfits(program_, values_.takeMisfits(), sink_);
   if (sink_.full()) return;
   seen(layer, values_.sight());
-  // What is divided by 0 has no bound, either, and that is no second fault.
+  // A division by 0 also has no bound; do not report that as a second error.
   if (sink_.full() || (sink_.errorCount() > errors && !isEnough(layer, extent))) return;
 
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{1, 0} : extent.at.may[static_cast<size_t>(axis)];
-    // An end that is not a number is no bound: the first operands of these are taken then.
+    // A NaN end is no bound: min and max then return their first argument.
     const double lo = std::min(std::max(-3e9, std::floor(side.lo * kUnitsPerMetre)), 3e9);
     const double hi = std::max(std::min(3e9, std::ceil(side.hi * kUnitsPerMetre)), -3e9);
     layer.bound.lo[axis] = saturate(static_cast<int64_t>(lo));
@@ -113,7 +113,7 @@ Extent ReachCheck::provenExtent(uint32_t index) {
     steps_ = limits_.bound_steps;
     const Extent tighter = parameters ? overParameters(index) : startExtent(index);
     spent_ += limits_.bound_steps - steps_;
-    // What the budget cut short says nothing.
+    // A result cut short by the budget proves nothing.
     if (!std::exchange(cut_short_, false) && (tighter.empty || tighter.size() < extent.size())) extent = tighter;
     pieces_ = Pieces::none;
     values_.takePieces(false);
@@ -142,7 +142,7 @@ void ReachCheck::finiteBox(Layer& layer, const Extent& extent) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{-1, 1} : extent.at.may[static_cast<size_t>(axis)];
-    // The box is centred, as a written one is.
+    // The box is centred, like a written one.
     const double half = std::max(std::fabs(side.lo), std::fabs(side.hi)) + 1;
     box.hi[axis] = static_cast<int32_t>(std::ceil(half * kUnitsPerMetre));
     box.lo[axis] = -box.hi[axis];

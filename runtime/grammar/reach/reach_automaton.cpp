@@ -1,4 +1,4 @@
-// Cellular automata in the proof of reach: where they may stand, and what of them belongs to a cell.
+// Cellular automata in the proof of reach: their possible places, and their part in a cell.
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ Extent ReachCheck::automaton(const ExprNode& n, const RangeFrame& frame) {
   }
   values_.asked().place = true;
   if (!(frame.place == PlaceRange{})) {
-    sink_.error(n.span, codes::kWrongUse, "`ca` fills its layer's cell where that stands and cannot be placed",
+    sink_.error(n.span, codes::kWrongUse, "`ca` fills its layer's cell and cannot be placed elsewhere",
                 "take it out of at, rot, scale, mirror, repeat and scatter");
     return Extent::nothing();
   }

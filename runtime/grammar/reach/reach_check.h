@@ -1,11 +1,11 @@
 #pragma once
 // The proof of reach: an abstract interpretation of each layer's rules over intervals. Rules are evaluated once for
-// each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
+// each tuple of argument ranges, with cached results, so that recursion costs its depth, not its number of leaves.
 //
-// reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
+// reach.cpp: layers and their messages. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
 // reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms.
 // reach_wfc.cpp: tiles. reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions, roofs,
-// assets. reach_overrides.cpp: overrides. reach_pieces.cpp: ranges in pieces. reach_report.cpp: what is said.
+// assets. reach_overrides.cpp: overrides. reach_pieces.cpp: ranges in pieces. reach_report.cpp: messages.
 
 #include <functional>
 #include <map>
@@ -27,34 +27,34 @@ class ReachCheck {
   void run();
 
  private:
-  /// A rule, whether a cut in it takes from the domain, the ranges of arguments and scope, and those rules with a
-  /// `depth` that are active, each with how often, and what is known of overrides.
+  /// A rule; whether a cut in it applies to the domain; the ranges of arguments and scope; the active rules with a
+  /// `depth` and their counts; and the state of overrides.
   using Key = std::tuple<uint32_t, bool, std::vector<double>, std::vector<std::pair<uint32_t, uint32_t>>,
                          std::vector<uint32_t>>;
 
-  /// Where derivation stands with respect to overrides.
+  /// The state of derivation with respect to overrides.
   struct EditState {
-    std::vector<uint32_t> begun;   ///< by path: those whose first steps lead here, and that lead on
-    uint32_t depth = 0;            ///< how many steps of them
-    std::vector<uint32_t> within;  ///< by tag: those in whose own block this is
+    std::vector<uint32_t> begun;   ///< by path: those whose first steps lead here, and that continue
+    uint32_t depth = 0;            ///< number of these steps
+    std::vector<uint32_t> within;  ///< by tag: those whose own block this is in
   };
 
-  /// What the `inner` of an override's block stands for: a use of a rule, or a block with a tag.
+  /// The target of the `inner` of an override's block: a use of a rule, or a block with a tag.
   struct UnderEdit {
     uint32_t rule = 0;
     const std::vector<RangeValue>& args;
-    const std::vector<uint32_t>& edits;  ///< those that may hold, as in Program::overrides
-    const StmtNode* block = nullptr;     ///< with the tag; null: a use
+    const std::vector<uint32_t>& edits;  ///< those that may apply, as in Program::overrides
+    const StmtNode* block = nullptr;     ///< the block with the tag; null: a use of a rule
     const RangeFrame* frame = nullptr;   ///< of that block
-    size_t at = 0;                       ///< the one whose block this is, into `edits`
-    EditState state;                     ///< of what `inner` derives
+    size_t at = 0;                       ///< index in `edits` of the override of this block
+    EditState state;                     ///< state of what `inner` derives
     const UnderEdit* outer = nullptr;
   };
 
-  /// What is taken piece by piece of its range: nothing, what has no bound otherwise, or everything.
+  /// Which ranges are evaluated in pieces: none, those without a bound, or all.
   enum class Pieces : uint8_t { none, lost, all };
 
-  /// By how much shapes pass what their layer declares, metres: what some may, and what they do for certain.
+  /// By how much shapes exceed their layer's declaration, metres: possibly, and certainly.
   struct Excess {
     double may = 0, sure = 0;
   };
@@ -62,7 +62,7 @@ class ReachCheck {
   // Layers.
   void layerReach(uint32_t index);
   Extent startExtent(uint32_t index);
-  /// As tight as the budget allows where the plain proof is not enough.
+  /// Proves as tight a bound as the budget allows if the plain proof is insufficient.
   Extent provenExtent(uint32_t index);
   Extent overParameters(uint32_t layer);
   void setCell(const Layer& layer);
@@ -76,8 +76,8 @@ class ReachCheck {
   Extent overPieces(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent);
   Extent ruleInPieces(uint32_t rule, std::vector<RangeValue> args, const RangeFrame& caller, bool top);
 
-  // What is said.
-  /// What extends farthest, and where it is written.
+  // Messages.
+  /// The call that extends farthest, and its place.
   struct Culprit {
     std::string name;
     Span span;
@@ -88,16 +88,16 @@ class ReachCheck {
   std::string lossHint(const BoundLoss& loss) const;
   std::string lossText(const BoundLoss& loss) const;
   std::string_view written(ExprId id) const;
-  /// What to declare so that all shapes of the layer fit, tried before it is said; empty where nothing would do.
+  /// The declaration with which all shapes of the layer fit, verified first; empty if there is none.
   std::string roomHint(uint32_t index, const Extent& extent);
-  static double cellOf(const Layer& layer);  ///< its edge along the axes that are cut into cells
+  static double cellOf(const Layer& layer);  ///< edge along the axes that are cut into cells
   void report(uint32_t index, const Extent& extent);
   void reportOne(const Layer& layer, const Extent& extent, const std::string& room);
   void reportZeroDivisions();
   void finiteBox(Layer& layer, const Extent& extent);
 
   // Rules.
-  enum class Call : uint8_t { start, instead, written };  ///< a layer's, that of depth and minsize, a statement
+  enum class Call : uint8_t { start, instead, written };  ///< by a layer, by depth or minsize, by a statement
   Extent callExtent(ExprId id, const RangeFrame& frame, Call call);
   Extent ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
   Extent remembered(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
@@ -113,7 +113,7 @@ class ReachCheck {
   void startOverrides(uint32_t layer);
   std::vector<uint32_t> enter(uint32_t rule);
   std::vector<uint32_t> editKey(const std::vector<uint32_t>& ended) const;
-  /// What the first `below` of the overrides make of it; above: the one whose `inner` asks, by path.
+  /// The extent after the first `below` overrides; above: the override by path whose `inner` asks.
   Extent use(const UnderEdit& what, size_t below, RangeFrame& frame, const Override* above);
   Extent overridden(const UnderEdit& what, size_t at, const RangeFrame& place);
   Extent inner(const StmtNode& s, const RangeFrame& at);
@@ -124,7 +124,7 @@ class ReachCheck {
   Extent body(StmtId id, RangeFrame& frame);
   Extent statement(StmtId id, RangeFrame& frame);
   Extent statementKinds(const StmtNode& s, RangeFrame& frame);
-  /// first: what stands before the block's own statements.
+  /// first: the extent before the block's own statements.
   Extent block(const StmtNode& s, RangeFrame& frame, Extent first = Extent::nothing());
   Extent blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame, Extent out);
   Extent meet(const StmtNode& s, RangeFrame& frame);
@@ -154,31 +154,31 @@ class ReachCheck {
   Program& program_;
   DiagnosticSink& sink_;
   const CompileLimits limits_;
-  const bool lossy_;    ///< not all of the text is here
-  uint32_t steps_;      ///< left, of all layers together
-  uint64_t spent_ = 0;  ///< in the last layer, on all attempts
-  /// Ranges of sizes are taken in pieces in the outermost splits alone: pieces of pieces of pieces take all steps.
+  const bool lossy_;    ///< a part of the text is missing
+  uint32_t steps_;      ///< the rest of the budget, for all layers together
+  uint64_t spent_ = 0;  ///< for the last layer, in all attempts
+  /// Divide ranges of sizes only in the outermost splits: nested pieces would use up all steps.
   bool few_pieces_ = false;
   Pieces pieces_ = Pieces::none;
   uint32_t rules_ = 0;  ///< rules on the path
   bool collects_ = false;
-  std::vector<ExprId> top_calls_;  ///< where it collects: the calls that stand in the layer's own rule
-  ExprId only_ = kNoId;            ///< of the calls in a start rule, the one that counts; kNoId: all
-  int splits_ = 0;                 ///< that this stands in
+  std::vector<ExprId> top_calls_;  ///< if collects_: the calls directly in the layer's own rule
+  ExprId only_ = kNoId;            ///< the only call of a start rule to evaluate; kNoId: all
+  int splits_ = 0;                 ///< number of splits around the current one
   RangeEvaluator values_;
   IntervalVector cell_{};
   bool whole_ = false;                             ///< the start has no cells
-  bool centred_ = false;                           ///< the cell lies about the origin: a finite domain's
-  std::map<Key, Extent> known_, scaled_, placed_;  ///< by what was asked on the way; the latter two with longer keys
-  std::set<Key> open_;                             ///< with the scale
-  std::vector<uint32_t> active_;                   ///< activations of each rule on the path
-  std::vector<bool> counted_;                      ///< rules whose activations matter
-  std::map<uint32_t, uint32_t> counts_;            ///< of those, the active ones
+  bool centred_ = false;                           ///< the cell is centred on the origin: a finite domain's
+  std::map<Key, Extent> known_, scaled_, placed_;  ///< by what was queried meanwhile; the latter two have longer keys
+  std::set<Key> open_;                             ///< including the scale
+  std::vector<uint32_t> active_;                   ///< number of activations of each rule on the path
+  std::vector<bool> counted_;                      ///< rules whose number of activations matters
+  std::map<uint32_t, uint32_t> counts_;            ///< active ones of these
   EditState edits_;
-  const UnderEdit* under_ = nullptr;  ///< in an override's block: what is there otherwise
+  const UnderEdit* under_ = nullptr;  ///< in an override's block: the original content
   int depth_ = 0;
-  std::vector<std::vector<bool>> derived_;  ///< of each rule that is used, which heads can be derived
-  bool cut_short_ = false;                  ///< the budget or the depth was not enough: nothing is proven
+  std::vector<std::vector<bool>> derived_;  ///< for each used rule, the heads that can be derived
+  bool cut_short_ = false;                  ///< budget or depth was insufficient: nothing is proven
 };
 
 }  // namespace sgm

@@ -1,4 +1,4 @@
-// Overrides in the proof of reach: which may hold where, and what their blocks put there.
+// Overrides in the proof of reach: where they may apply, and the content of their blocks.
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ std::vector<uint32_t> listOf(const Program& program, IdRange range) {
   return out;
 }
 
-/// Whether both may hold for one use. Precondition: their steps are uses of the same rules.
+/// Whether both may apply to one use. Precondition: their steps are uses of the same rules.
 bool together(const Program& program, const Override& a, const Override& b) {
   if (a.one_cell && b.one_cell && (a.layer != b.layer || a.cell != b.cell)) return false;
   for (uint32_t i = 0; i < a.steps.count; ++i) {
@@ -25,7 +25,7 @@ bool together(const Program& program, const Override& a, const Override& b) {
   return true;
 }
 
-/// Whether `wide` holds wherever `narrow` (null: anything with these rules) does.
+/// Whether `wide` applies wherever `narrow` (null: any path with these rules) does.
 bool covers(const Program& program, const Override& wide, const Override* narrow) {
   if (wide.one_cell && (narrow == nullptr || !narrow->one_cell || narrow->cell != wide.cell)) return false;
   for (uint32_t i = 0; i < wide.steps.count; ++i) {
@@ -47,7 +47,7 @@ void ReachCheck::startOverrides(uint32_t layer) {
   }
 }
 
-/// What is known of overrides in a use of the rule: the paths that lead on, and those that end here.
+/// Updates the state of overrides for a use of the rule: the paths that continue, and those that end here.
 std::vector<uint32_t> ReachCheck::enter(uint32_t rule) {
   std::vector<uint32_t> ended;
   std::erase_if(edits_.begun, [&](uint32_t o) {
@@ -61,7 +61,7 @@ std::vector<uint32_t> ReachCheck::enter(uint32_t rule) {
   return ended;
 }
 
-/// What tells uses with the same arguments apart.
+/// The part of the key that separates uses with the same arguments.
 std::vector<uint32_t> ReachCheck::editKey(const std::vector<uint32_t>& ended) const {
   if (program_.overrides.empty()) return {};
   std::vector<uint32_t> key = ended;
@@ -76,7 +76,7 @@ std::vector<uint32_t> ReachCheck::editKey(const std::vector<uint32_t>& ended) co
 Extent ReachCheck::use(const UnderEdit& what, size_t below, RangeFrame& frame, const Override* above) {
   Extent out = Extent::nothing();
   bool first = true;
-  // Where both extend as far, what is there without the override is to blame.
+  // If both extend equally far, blame the content without the override.
   const auto also = [&](Extent part) {
     if (!first) part.either(out);
     out = part;
@@ -93,7 +93,7 @@ Extent ReachCheck::use(const UnderEdit& what, size_t below, RangeFrame& frame, c
   return out;
 }
 
-/// The block of an override in the place of a use or of a block.
+/// The extent of an override's block in place of a use or of a block.
 Extent ReachCheck::overridden(const UnderEdit& what, size_t at, const RangeFrame& place) {
   const Override& edit = program_.overrides[what.edits[at]];
   RangeFrame frame;
@@ -136,7 +136,7 @@ Extent ReachCheck::inner(const StmtNode& s, const RangeFrame& at) {
   return out;
 }
 
-/// A block, a meet or an extrusion, under the overrides of its tag.
+/// The extent of a block, a meet or an extrusion with the overrides of its tag.
 Extent ReachCheck::tagged(const StmtNode& s, uint16_t tag, RangeFrame& frame) {
   std::vector<uint32_t> edits = listOf(program_, program_.overridesOf(tag));
   std::erase_if(edits, [&](uint32_t o) {

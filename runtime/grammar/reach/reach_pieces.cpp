@@ -1,6 +1,6 @@
-// A tighter proof where intervals alone lose too much: they forget that a value which is used twice is the same both
-// times, so that `r / (0.3*r)` and a displacement by a part of what it displaces look worse than they are. Over short
-// pieces of the range of such a value little is lost; all pieces together are all of it.
+// A tighter proof where plain intervals lose too much: they ignore that a value used twice is the same both times, so
+// that `r / (0.3*r)` and a displacement by a part of its operand look worse than they are. Over short pieces of the
+// range of such a value little is lost; together the pieces cover the range.
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,15 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepest = 8;       ///< cuts of one range in two
-constexpr int kAlways = 3;        ///< cuts of each range where a bound is there and too far
-constexpr double kNarrow = 1.02;  ///< of the ends of a range that is not worth another cut
+constexpr int kDeepest = 8;       ///< halvings of a range
+constexpr int kAlways = 3;        ///< halvings of each range if there is a bound, but too far out
+constexpr double kNarrow = 1.02;  ///< ratio of the ends of a range that is not worth another division
 
 bool isNarrow(Interval range) { return range.lo > 0 && range.hi <= kNarrow * range.lo; }
 
 }  // namespace
 
-/// The extent over all of a range in pieces. False if some piece has no bound, however short it is.
+/// The extent over all pieces of a range. Returns false if some piece has no bound, however short it is.
 bool ReachCheck::cut(RangeValue& value, int depth, const std::function<Extent()>& extent, Extent& out, bool& first) {
   const Interval range = value.v[0];
   const bool short_enough = pieces_ == Pieces::lost ? depth > 0 : depth >= kAlways;
@@ -46,7 +46,7 @@ bool ReachCheck::cut(RangeValue& value, int depth, const std::function<Extent()>
   return good;
 }
 
-/// The extent for all that the values may be, each of them in pieces if that helps.
+/// The extent for all possible values, each in pieces if that helps.
 Extent ReachCheck::overPieces(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent) {
   Extent whole = extent();
   if (cut_short_ || whole.empty || (pieces_ == Pieces::lost && !whole.lost())) return whole;
@@ -58,7 +58,7 @@ Extent ReachCheck::overPieces(const std::vector<RangeValue*>& values, const std:
       if (cut_short_) return whole;
       continue;
     }
-    // How far it reaches for certain is said of all of the range, as without pieces.
+    // The certain reach applies to the whole range, as without pieces.
     pieces.sure_lo = whole.sure_lo;
     pieces.sure_hi = whole.sure_hi;
     if (pieces_ == Pieces::lost) return pieces;
@@ -73,7 +73,7 @@ Extent ReachCheck::ruleInPieces(uint32_t rule, std::vector<RangeValue> args, con
   return overPieces(values, [&] { return ruleExtent(rule, args, caller, top); });
 }
 
-/// The same for a parameter of the grammar, whose uses stand anywhere.
+/// The same for a parameter of the grammar, which may be used anywhere.
 Extent ReachCheck::overParameters(uint32_t layer) {
   Extent whole = startExtent(layer);
   const std::vector<bool> asked = values_.askedParameters();

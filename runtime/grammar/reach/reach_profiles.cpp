@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, roofs and fitted assets in the proof of reach.
+// Footprints, their extrusions, roofs and fitted assets in the proof of reach.
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace sgm {
 namespace {
 
 constexpr Interval kMiddle{0.5, 0.5};
-/// A roof's peak is cut off a little above it, and heights are rounded (derive/interpret/profiles.cpp).
+/// A roof's peak is cut slightly above it, and heights are rounded (derive/interpret/profiles.cpp).
 constexpr double kRounding = 4.0 / kUnitsPerMetre;
 
 Interval notBelowZero(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
@@ -45,7 +45,7 @@ RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& fr
       out.v[2] = number(1);
       break;
     case Outline::regular:
-      // The box of a triangle is the least of all.
+      // A triangle has the smallest box of all.
       out.v[0] = out.v[2] = number(1) * Interval{1.5, 2};
       break;
     case Outline::polygon: {
@@ -114,12 +114,12 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-/// An asset fills the scope's box, and no more, or is left out.
+/// An asset fills exactly the scope's box, or is omitted.
 Extent ReachCheck::fit(const StmtNode& s, RangeFrame& frame) {
   const FitNode& fit = program_.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
     const FitZoneNode& zone = program_.ast.fit_zones[fit.zones.first + i];
-    for (const ExprId end : {zone.from, zone.to}) values_.number(end, frame);  // queries in them
+    for (const ExprId end : {zone.from, zone.to}) values_.number(end, frame);  // queries in these
   }
   return solidIn(frame.scope);
 }

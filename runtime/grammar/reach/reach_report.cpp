@@ -1,5 +1,4 @@
-// What is said where the reach of a layer is not proven: the cause, at a line that its author can change, and what to
-// write instead.
+// Messages if the reach of a layer is not proven: the cause, at a line that its author can change, and the remedy.
 
 #include <algorithm>
 #include <charconv>
@@ -16,15 +15,15 @@ namespace {
 constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
 constexpr const char* kGiveBox = "give the domain a box: `domain finite box(20m, 20m, 20m);`";
 constexpr const char* kSmaller = "make the shape smaller";
-constexpr size_t kMostParts = 32;  ///< calls of a start rule that are judged one by one
+constexpr size_t kMostParts = 32;  ///< calls of a start rule that are examined one by one
 constexpr int kMostTrials = 6;
-constexpr uint64_t kMostAttempts = 8;  ///< times the steps of one proof, for all calls of a start rule together
+constexpr uint64_t kMostAttempts = 8;  ///< limit for all calls of a start rule together, in steps of one proof
 
 double wholeMetres(double metres) { return std::ceil(metres - 1e-9); }
 
 std::string lengthText(double metres) { return join({numberText(metres), "m"}); }
 
-/// A small positive value of a dimension as it is written; empty where there is no unit for it.
+/// An example of a small positive value of a dimension; empty if it has no unit.
 std::string_view smallValue(Dim dim) {
   return dim == kRatio    ? "0.1"
          : dim == kLength ? "0.1m"
@@ -41,7 +40,7 @@ std::string_view ReachCheck::written(ExprId id) const {
   return std::string_view(program_.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// What a cell depends on lies within its reach.
+/// Content on which a cell depends must lie within its reach.
 void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
   const double reach = layer.reach * kUnit;
   if (sight.query == kNoId || sight.far <= reach) return;
@@ -53,7 +52,7 @@ void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
                       : "bound its radius and where it stands: a parameter's range, or clamp()");
 }
 
-/// Divisions that can have no value, whatever is drawn. Errors of their own, each at its line.
+/// Divisions that never have a value. Each is an error of its own, at its line.
 void ReachCheck::reportZeroDivisions() {
   for (const BoundLoss& zero : values_.zeroDivisions()) {
     const ExprNode& quotient = program_.expr(zero.expr);
@@ -66,16 +65,17 @@ void ReachCheck::reportZeroDivisions() {
     const ExprNode& call = program_.expr(zero.caller);
     sink_
         .error(call.span, codes::kDivideByZero,
-               join({"division by zero: `", program_.text(call.name), "` divides by what is 0 with these arguments"}),
+               join({"division by zero: `", program_.text(call.name),
+                     "` divides by a value that is 0 with these arguments"}),
                "give it arguments other than 0")
         .notes.push_back(join({"the division is at ", sink_.place(quotient.span)}));
   }
 }
 
 ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {
-  if (extent.edit != kNoId) return {"what this override derives", program_.overrides[extent.edit].address_span};
+  if (extent.edit != kNoId) return {"the shape of this override", program_.overrides[extent.edit].address_span};
   const ExprNode& node = program_.expr(extent.culprit == kNoId ? layer.start : extent.culprit);
-  return {node.shape ? join({"`", program_.text(node.name), "`"}) : "what this displaces", node.span};
+  return {node.shape ? join({"`", program_.text(node.name), "`"}) : "the shape that this displaces", node.span};
 }
 
 std::string ReachCheck::lossText(const BoundLoss& loss) const {
@@ -92,7 +92,7 @@ std::string ReachCheck::lossHint(const BoundLoss& loss) const {
     const std::string name(program_.text(param.name));
     if (value.kind != ExprKind::number || !(value.value > 0))
       return join({"give it one: `param ", name, " = ", text, " in LOW..HIGH`"});
-    // Twice the default in the unit in which that is written.
+    // Suggest twice the default, in the unit in which that is written.
     const std::string_view unit = text.substr(std::min(text.find_first_not_of("0123456789.eE"), text.size()));
     double number = 0;
     std::from_chars(text.data(), text.data() + text.size(), number);
@@ -104,7 +104,7 @@ std::string ReachCheck::lossHint(const BoundLoss& loss) const {
   return join({"keep it away from 0: `max(", written(divisor), ", ", least, ")`"});
 }
 
-/// Without a box a finite grammar's scope has no end; with one, what stands in it may have an end.
+/// Without a box a finite grammar's scope is unbounded; with one, its content may be bounded.
 bool ReachCheck::needsBox(uint32_t index) {
   Layer& layer = program_.layers[index];
   if (!isFinite(layer) || !program_.domain.box.empty()) return false;
@@ -131,7 +131,7 @@ std::string ReachCheck::hint(const Extent& extent) const {
     return join({"displace by less than ", numberText(std::floor(extent.allowed * 100) / 100),
                  " m: a sum's field is no larger far away"});
   if (extent.why == Unbound::radius)
-    return "give the smallest radius of what it displaces a bound from below, such as max(r, 1m)";
+    return "give the smallest radius of the displaced shape a lower bound, such as max(r, 1m)";
   if (extent.loss != 0) return lossHint(values_.losses()[extent.loss]);
   const ExprNode* blamed = extent.culprit == kNoId ? nullptr : &program_.expr(extent.culprit);
   if (blamed != nullptr && blamed->ref == Ref::primitive && static_cast<Primitive>(blamed->id) == Primitive::halfspace)
@@ -151,7 +151,7 @@ std::string ReachCheck::roomHint(uint32_t index, const Extent& extent) {
   if (!finite && needed <= cellOf(layer) * limits_.neighbours)
     return join({"raise reach to ", metresText(needed), " or make the shape smaller"});
 
-  // What a shape extends to may depend on the cell or the box itself.
+  // The extent of a shape may depend on the cell or the box itself.
   std::string found;
   Extent tried = extent;
   constexpr double kLargest = 2.5e5;  // metres; a reach of several such cells is within the grid
@@ -193,7 +193,7 @@ double ReachCheck::cellOf(const Layer& layer) {
   return std::max({layer.cell[0], layer.cell[1], layer.cell[2]}) * kUnit;
 }
 
-/// All that is at fault at once: every call in the layer's own rule that passes what is declared by itself.
+/// Reports all causes at once: every call in the layer's own rule that exceeds the declaration by itself.
 void ReachCheck::report(uint32_t index, const Extent& extent) {
   const Layer& layer = program_.layers[index];
   std::vector<Extent> parts;
@@ -205,7 +205,7 @@ void ReachCheck::report(uint32_t index, const Extent& extent) {
     const std::vector<ExprId> calls = top_calls_;
     spent_ = 0;
     for (size_t i = 0; i < std::min(calls.size(), kMostParts) && calls.size() > 1; ++i) {
-      if (spent_ > kMostAttempts * limits_.bound_steps) break;  // then the others are told when these are mended
+      if (spent_ > kMostAttempts * limits_.bound_steps) break;  // the others are reported once these are fixed
       only_ = calls[i];
       steps_ = limits_.bound_steps;
       const Extent part = provenExtent(index);
@@ -215,7 +215,7 @@ void ReachCheck::report(uint32_t index, const Extent& extent) {
     }
   }
   if (parts.empty()) parts.push_back(extent);
-  // One declaration has room for all of them.
+  // One declaration with room for all of them.
   Extent bounded = Extent::nothing();
   for (const Extent& part : parts)
     if (!part.lost()) bounded.join(part);
@@ -231,7 +231,7 @@ void ReachCheck::reportOne(const Layer& layer, const Extent& extent, const std::
   const Excess over = excessOf(layer, extent);
   const std::string name = join({"`", program_.text(layer.name), "`"});
   const double reach = layer.reach * kUnit;
-  // A finite grammar's declared box is its reach; a layer's is measured from its cell.
+  // A finite grammar's declared box is its reach; a layer's reach is measured from its cell.
   const std::string extends =
       unbounded ? "without bound" : metresText(finite && !boxed ? extent.size() : over.may + (finite ? 0 : reach));
   const std::string from = finite ? (boxed       ? " beyond the domain's box"
@@ -241,12 +241,12 @@ void ReachCheck::reportOne(const Layer& layer, const Extent& extent, const std::
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
   std::string message = join({shape, " may extend ", extends, from, limit});
   if (!unbounded && over.sure <= 0 && (!finite || boxed)) {
-    if (lossy_) return;  // what is missing may be what keeps it within
+    if (lossy_) return;  // a missing part of the text may keep it within
     sink_.warning(span, codes::kReachMaybe, std::move(message), "shapes that go farther are left out whole");
     return;
   }
   const BoundLoss* loss = nullptr;
-  // The message and the hint tell of one cause.
+  // Message and hint must describe the same cause.
   if (unbounded && !cut_short_ && extent.loss != 0 && hint(extent) == lossHint(values_.losses()[extent.loss]))
     loss = &values_.losses()[extent.loss];
   if (loss != nullptr) {

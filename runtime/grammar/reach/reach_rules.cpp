@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepestStatement = 400;  // statements on the stack
+constexpr int kDeepestStatement = 400;  // statements on the call stack
 
 }  // namespace
 
@@ -39,9 +39,9 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   Extent e = pieces_ == Pieces::none ? ruleExtent(n.id, args, frame, call == Call::start)
                                      : ruleInPieces(n.id, args, frame, call == Call::start);
   values_.leave();
-  // The outermost call is the one to name: what stands in the start rule.
+  // Name the outermost call: the one in the start rule.
   if (call == Call::written && !e.empty) e.blame(id);
-  // Nobody can mend the library: its caller is told.
+  // The author cannot change the library: report its caller.
   if (e.culprit != kNoId && call != Call::start && isStandard(program_, program_.expr(e.culprit).span.file) &&
       !isStandard(program_, n.span.file)) {
     e.inside = e.culprit;
@@ -86,7 +86,7 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
     asked.place = true;
     return known->second;
   }
-  // A call of the same rule with the same ranges inside itself is without bound. Where it stands brings no end nearer.
+  // A recursive call with the same ranges is unbounded. Its place makes no progress towards an end.
   if (tooFar() || !open_.insert(scaled).second) return Extent::unbounded();
   --steps_;
   const RangeEvaluator::Asked before = asked;
@@ -147,7 +147,7 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
       out = part;
     else
       out.either(part);
-    // Alternatives by level stand beside each other.
+    // Alternatives by level are derived independently.
     if (levels) out.count = count + part.count;
     first = false;
   }
@@ -155,20 +155,20 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
   return out;
 }
 
-/// Weights below 0 count as 0 when rules are derived, which nobody means by them.
+/// Derivation treats negative weights as 0, which is never intended.
 void ReachCheck::judgeWeight(ExprId id, Interval weight) {
   if (pieces_ != Pieces::none || only_ != kNoId || weight.lo >= 0 || !weight.bounded()) return;
   const ExprId caller = values_.callerOf(id);
   const Span& span = program_.expr(caller != kNoId ? caller : id).span;
   if (weight.hi < 0)
     sink_.error(span, codes::kValueRange, join({"a weight is 0 or more, and this is at most ", numberText(weight.hi)}),
-                "write how often this head comes beside the others, such as weight 2");
+                "write how often this head is drawn relative to the others, such as weight 2");
   else
     sink_.warning(span, codes::kValueRange, join({"this weight may be as low as ", numberText(weight.lo)}),
                   "below 0 it counts as 0: bound what it depends on, or write max(..., 0)");
 }
 
-/// Heads of the root's rules that no call derives, whatever the parameters are.
+/// Warns of heads of the root's rules that no call derives, whatever the parameters are.
 void ReachCheck::idleHeads() {
   for (uint32_t r = 0; r < program_.rules.size(); ++r) {
     const Rule& rule = program_.rules[r];
@@ -178,9 +178,9 @@ void ReachCheck::idleHeads() {
       const Alternative& head = rule.alternatives[h];
       const bool otherwise = head.guard == Guard::otherwise;
       sink_.warning(otherwise ? head.span : program_.expr(head.when).span, codes::kIdleHead,
-                    join({"this head of `", program_.text(rule.name),
-                          "` never comes: ", otherwise ? "another one's guard always holds" : "its guard never holds"}),
-                    "whatever the parameters are, within their ranges: mend the guard, or remove the head");
+                    join({"this head of `", program_.text(rule.name), "` never applies: ",
+                          otherwise ? "another one's guard always holds" : "its guard never holds"}),
+                    "this holds for all parameters within their ranges: correct the guard, or remove the head");
     }
   }
 }
@@ -203,7 +203,7 @@ Extent ReachCheck::alternativeExtent(uint32_t rule, const Alternative& head, Ran
     if (activations >= most.hi) return out;
   }
   if (head.minsize != kNoId) {
-    // Sizes as they come out, however the scope is scaled.
+    // Use final sizes, however the scope is scaled.
     values_.asked().scale = true;
     const Interval scale = frame.place.scale, least = values_.number(head.minsize, frame);
     Interval size{};

@@ -1,4 +1,4 @@
-// Where the parts of scopes may lie; see derive/layout/split_layout.h and derive/interpret/split.cpp.
+// The possible places of parts of scopes; see derive/layout/split_layout.h and derive/interpret/split.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@ namespace sgm {
 
 namespace {
 
-/// Sizes of a split's parts that stand once, and of one copy of its group.
+/// Sizes of a split's unrepeated parts, and of one copy of its group.
 struct Sums {
   Interval rigid{}, wanted{};
 };
 
 Interval notBelow(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
-/// Pieces of a range of sizes: a part that is small lies farther out than one that is large.
+/// Pieces of a range of sizes: a small part lies farther out than a large one.
 constexpr int kPieces = 4;
 constexpr int kSplitsInPieces = 4;
 
@@ -39,14 +39,14 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
-  // Rigid parts have their size where nothing is cut off; flexible ones of a group
-  // share half a copy more than they would like, or less than the rigid part of one copy that does not fit.
+  // Rigid parts keep their size if nothing is cut off. Flexible parts of a group share up to half a copy more than they
+  // want, or less than the rigid part of one copy that does not fit.
   const double snap = s.amount == kNoId ? 0 : std::max(0.0, values_.number(s.amount, frame).hi);
   const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
   const double times = once.lo > 0 ? std::max(1.0, length.hi / once.lo + 1) : kInfinity;
-  double before = 0, after = 0;  // lengths that surely lie there
+  double before = 0, after = 0;  // lengths that certainly lie there
   for (uint32_t i = 0; i < s.parts.count; ++i)
     if (whole && !parts[i].flexible && !parts[i].repeated) after += sizes[i].lo;
   Extent out = Extent::nothing();
@@ -112,7 +112,7 @@ Extent ReachCheck::comp(const StmtNode& s, RangeFrame& frame) {
     for (int face = 0; face < 6; ++face) {
       const bool upright = face < 4;
       if (static_cast<int>(of) != face && !(upright && (edges || of == BoxPart::side))) continue;
-      // Faces in the order of BoxPart: front, right, back, left, top, bottom.
+      // Faces are in the order of BoxPart: front, right, back, left, top, bottom.
       const size_t depth = !upright ? 1 : face % 2 == 0 ? 2 : 0, width = depth == 0 ? 2 : 0, height = upright ? 1 : 2;
       const Interval half = scope[depth] * Interval::exactly(0.5);
       IntervalVector by{}, along{};

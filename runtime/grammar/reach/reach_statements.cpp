@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// Statements that put no shape into their block.
+/// Statements without a shape of their own.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
          kind == StmtKind::anchor || kind == StmtKind::footprint;
@@ -31,7 +31,7 @@ Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
   if (tooFar()) return Extent::unbounded();
   --steps_;
   ++depth_;
-  // What the statement around this one has evaluated: a place, a count.
+  // Keep the loss of the enclosing statement's evaluations: a place, a count.
   const uint32_t around = values_.takeLoss();
   Extent e = statementKinds(program_.stmt(id), frame);
   const uint32_t loss = values_.takeLoss();
@@ -86,7 +86,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();
     case StmtKind::snap:
-      values_.number(s.expr, frame);  // queries in them
+      values_.number(s.expr, frame);  // queries in these
       if (s.amount != kNoId) values_.number(s.amount, frame);
       return body(s.body, frame);
     case StmtKind::detail: {
@@ -132,7 +132,7 @@ Extent ReachCheck::blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame
       });
     }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
-      // What a nested cut takes away adds nothing, and leaves what stood before it uncertain.
+      // A nested cut adds nothing, but makes the content before it uncertain.
       if (!part.empty) out.uncertain();
       out.node();
       continue;
@@ -163,7 +163,7 @@ Extent ReachCheck::meet(const StmtNode& s, RangeFrame& frame) {
     first = false;
   }
   if (missing || first) return Extent::nothing();
-  // An operand that is not there leaves the whole meet out.
+  // A missing operand removes the whole meet.
   out.certain = false;
   out.inner = inner_radius;
   out.inner_low = 0;
@@ -181,7 +181,7 @@ Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
   if (apart && pieces_ == Pieces::none)
     sink_.warning(s.span, codes::kMorphDisjoint, "the two shapes of this morph lie apart, and may vanish half way",
                   "let them overlap");
-  // A blend holds what both hold: only that is certain.
+  // A blend contains the intersection of both: only that is certain.
   std::array<double, 3> lo = a.sure_lo, hi = a.sure_hi;
   for (size_t i = 0; i < 3; ++i) {
     lo[i] = std::max(lo[i], b.sure_lo[i]);
@@ -195,7 +195,7 @@ Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
   a.certain = both;
   a.inner_low = inner_low;
   if (s.power && !a.empty) {
-    // A superquadric of radii in between.
+    // A superquadric with radii in between.
     const double least = inner_low > 0 ? 1 / inner_low : kInfinity;
     a.at.core = a.at.may;
     a.at.ball = 0;
@@ -216,7 +216,7 @@ Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
   }
   Extent e = body(s.body, frame);
   const Unbound before = e.why;
-  // What it adds to the field makes the shape smaller, what it takes away larger.
+  // Positive displacement makes the shape smaller, negative larger.
   e.shrinkSure(by.magnitude() * (std::isfinite(e.spread) ? e.spread : 1));
   e.grow(std::max(0.0, -by.lo));
   e.node();

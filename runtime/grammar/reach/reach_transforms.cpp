@@ -8,13 +8,13 @@ namespace sgm {
 
 namespace {
 
-/// Counts and the ends of loops are taken to the nearest whole number.
+/// Counts and the ends of loops are rounded to the nearest whole number.
 Interval rounded(Interval v) { return floorOf({v.lo + 0.5, v.hi + 0.5}); }
 
-/// Copies of which each has a size by that of the one before, followed one by one.
+/// The most copies that are followed one by one if each one's size depends on the previous one's.
 constexpr double kSizedCopies = 64;
 
-/// Of a scale, with room for the rounding of the products that it stands for.
+/// A power of a scale, with room for the rounding of the product that it replaces.
 Interval powerOf(Interval base, double times) {
   if (times == 0 || base == Interval{1, 1}) return {1, 1};
   const double low = base.lo > 0 ? detPow(base.lo, times) : 0, high = base.hi > 0 ? detPow(base.hi, times) : 0;
@@ -81,7 +81,7 @@ Extent ReachCheck::transformed(const StmtNode& s, RangeFrame& frame) {
   Extent e = statement(s.body, frame);
   frame.scope = scope;
   frame.place = place;
-  // The last transform written is the innermost.
+  // The last written transform is the innermost.
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
     if (step->kind == XformKind::at) e.move(step->by);
     if (step->kind == XformKind::rot) e.rotate(step->axis, step->amount);
@@ -91,8 +91,8 @@ Extent ReachCheck::transformed(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-/// The scopes of copies, each made from the one before: those of the first few one by one, and of all where these say
-/// it all. times: copies behind the first, at most.
+/// The scopes of copies, each derived from the previous one: the first few one by one, and a range for all if that
+/// suffices. times: upper bound of the copies after the first.
 void ReachCheck::sizedAgain(IdRange xforms, double times, RangeFrame& frame) {
   const auto step = [&](const IntervalVector& scope) {
     RangeFrame next = frame;
@@ -113,7 +113,7 @@ void ReachCheck::sizedAgain(IdRange xforms, double times, RangeFrame& frame) {
     if (joined(all, step(all)) == all) times = 0;
   }
   if (times > kSizedCopies) {
-    // What only shrinks comes near to nothing.
+    // Edges that only shrink approach 0.
     for (Interval& edge : all) edge.lo = std::min(edge.lo, 0.0);
     const IntervalVector next = step(all);
     for (size_t k = 0; k < 3; ++k)
@@ -122,7 +122,7 @@ void ReachCheck::sizedAgain(IdRange xforms, double times, RangeFrame& frame) {
   frame.scope = all;
 }
 
-/// Copy i stands where i steps lead: exactly so where the steps only move or only turn about one axis.
+/// Copy i is at the end of i steps: exact if the steps only move, or only turn about one axis.
 Extent ReachCheck::repeated(const StmtNode& s, RangeFrame& frame) {
   const Interval count = rounded(values_.number(s.expr, frame));
   if (!(count.hi >= 1)) return Extent::nothing();
@@ -182,7 +182,7 @@ Extent ReachCheck::repeated(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-/// The lengths of all moves of one step, along one axis.
+/// The total lengths of one step's moves, along each axis.
 IntervalVector ReachCheck::stepLengths(IdRange xforms, const RangeFrame& frame) {
   double sum = 0;
   for (uint32_t i = 0; i < xforms.count; ++i) {
@@ -195,7 +195,7 @@ IntervalVector ReachCheck::stepLengths(IdRange xforms, const RangeFrame& frame) 
 Extent ReachCheck::forEach(const StmtNode& s, RangeFrame& frame) {
   const ExprNode& source = program_.expr(s.expr);
   RangeValue variable = RangeValue::unknown();
-  Interval times{0, 3};  // a cell owns three faces at most
+  Interval times{0, 3};  // a cell owns at most three faces
   if (source.kind == ExprKind::range) {
     const Interval low = rounded(values_.number(program_.idAt(source.children, 0), frame));
     const Interval high = rounded(values_.number(program_.idAt(source.children, 1), frame));
@@ -229,7 +229,7 @@ IntervalVector ReachCheck::areaOf(const ScatterNode& scatter, const RangeFrame& 
     case ScatterArea::shell: {
       const Interval r = values_.number(scatter.a, frame);
       at.fill({-r.magnitude(), r.magnitude()});
-      // The upper share of a sphere by height.
+      // The upper share of a sphere, by height.
       if (scatter.b != kNoId)
         at[1] = r * Interval{1 - 2 * std::clamp(values_.number(scatter.b, frame).hi, 0.0, 1.0), 1};
       break;

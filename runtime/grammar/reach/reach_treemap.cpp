@@ -1,4 +1,4 @@
-// Where rooms, corridors, doors and facades of a treemap may lie; see derive/layout/floor_plan.h and
+// The possible places of a treemap's rooms, corridors, doors and facades; see derive/layout/floor_plan.h and
 // derive/interpret/rooms.cpp.
 
 #include <algorithm>
@@ -13,16 +13,16 @@ namespace sgm {
 
 namespace {
 
-/// Rectangles of rooms and corridors, and doors.
+/// Limit for rectangles of rooms and corridors, and doors.
 constexpr double kMostBoxes = 1024;
-/// Pieces of a range of edges: a room that is small lies farther out than one that is large.
+/// Pieces of a range of edges: a small room lies farther out than a large one.
 constexpr int kRoomPieces = 2;
 
 Interval notNegative(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
 }  // namespace
 
-/// What stands in a scope that lies anywhere in a box of these edges, along x and z.
+/// The content of a scope that lies anywhere in a box of these edges, along x and z.
 Extent ReachCheck::inPieces(StmtId child, const IntervalVector& edges, RangeFrame& frame) {
   const IntervalVector scope = frame.scope;
   const PlaceRange place = frame.place;

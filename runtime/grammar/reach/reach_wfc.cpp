@@ -1,4 +1,4 @@
-// Where tiles may lie; see derive/interpret/tiles.cpp.
+// The possible places of tiles; see derive/interpret/tiles.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@ namespace {
 
 Interval notUnderZero(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
-/// Places along an edge, the whole number nearest to edge / wanted, but one at least.
+/// The number of places along an edge: the whole number nearest to edge / wanted, but at least one.
 Interval placesIn(Interval edge, Interval wanted) {
   const Interval count = floorOf(edge / wanted + Interval::exactly(0.5));
   return {std::max(1.0, std::isfinite(count.lo) ? count.lo : 1.0), std::max(1.0, count.hi)};
 }
 
-/// Edges of such a place. Within 3/4 and 3/2 of what is wanted, unless the scope is smaller.
+/// The edge of such a place: 3/4 to 3/2 of the wanted one, unless the scope is smaller.
 Interval placeEdge(Interval edge, Interval wanted, Interval count) {
   if (count.exact()) return edge / count;
   return {std::min(edge.lo, 0.75 * wanted.lo), std::min(edge.hi, 1.5 * wanted.hi)};
@@ -27,7 +27,7 @@ Interval placeEdge(Interval edge, Interval wanted, Interval count) {
 
 }  // namespace
 
-/// What stands in a box of the edges `tile` that lies anywhere in one of the edges `edges`.
+/// The content of a box with edges `tile` that lies anywhere in one with edges `edges`.
 Extent ReachCheck::tile(StmtId child, const IntervalVector& edges, const IntervalVector& tile, RangeFrame& frame) {
   const IntervalVector written = frame.scope;
   const PlaceRange place = frame.place;
@@ -56,7 +56,7 @@ Extent ReachCheck::wave(const StmtNode& s, RangeFrame& frame) {
   IntervalVector edges{}, place{};
   double places = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
-    // What is smaller is left out.
+    // Smaller tiles are omitted.
     wanted[axis] = maximum(wanted[axis], Interval::exactly(kTileRange.low));
     edges[axis] = notUnderZero(frame.scope[axis]);
     const Interval count = placesIn(edges[axis], wanted[axis]);
@@ -73,7 +73,7 @@ Extent ReachCheck::wave(const StmtNode& s, RangeFrame& frame) {
     Extent one = Extent::nothing();
     const int turns = program_.ast.tiles[part.tile].turns ? 4 : 1;
     for (int turn = 0; turn < turns; ++turn) {
-      // In the tile's own axes; what it stands in is turned the other way.
+      // In the tile's own axes; its surroundings are turned the other way.
       const bool across = turn % 2 != 0;
       const auto own = [&](const IntervalVector& v) { return across ? IntervalVector{v[2], v[1], v[0]} : v; };
       const bool turned = frame.place.turned;

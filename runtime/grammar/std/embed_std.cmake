@@ -3,7 +3,7 @@ set(body "")
 set(count 0)
 foreach(file IN LISTS FILES)
   file(READ ${DIR}/${file} text)
-  # Compilers cap the length of one literal; a few kilobytes each stay far below.
+  # Compilers limit the length of a literal; a few kilobytes each are far below.
   string(APPEND body "    {\"std/${file}\", R\"sgm(${text})sgm\"},\n")
   math(EXPR count "${count} + 1")
 endforeach()

@@ -14,7 +14,7 @@ struct StdFile {
 /// All of its files, by path.
 std::span<const StdFile> stdLibrary();
 
-/// The text of the file "std/NAME.sgm", or an empty view if the library has none of that path.
+/// The text of the file "std/NAME.sgm", or an empty view if the library has no such file.
 std::string_view standardModule(std::string_view path);
 
 }  // namespace sgm

@@ -1,7 +1,7 @@
 #pragma once
-// The syntax tree of a whole program, all files in one set of arrays. The parser fills the written part; the checker
-// fills what is marked "resolved": after it no name needs to be looked up again. Indices are kNoId where absent.
-// Numbers are in metres, radians and plain ratios.
+// The syntax tree of a whole program, all files in one set of arrays. The parser sets the written part; the checker
+// sets everything marked "resolved": after it no name lookup is needed. Absent indices are kNoId. Numbers are in
+// metres, radians and plain ratios.
 
 #include <array>
 #include <cstdint>
@@ -21,7 +21,7 @@ using ExprId = uint32_t;  ///< into Ast::exprs
 using StmtId = uint32_t;  ///< into Ast::stmts
 using NameId = uint32_t;  ///< into Ast::names
 
-/// A stretch of one of the Ast's index arrays.
+/// A range of one of the Ast's index arrays.
 struct IdRange {
   uint32_t first = 0, count = 0;
 };
@@ -34,9 +34,9 @@ enum class ExprKind : uint8_t {
   logical_not,  ///< children[0]
   binary,       ///< children[0] binary children[1]
   conditional,  ///< if children[0] then children[1] else children[2]
-  range,        ///< children[0] .. children[1], the end left out
+  range,        ///< children[0] .. children[1], end excluded
   name,         ///< ref, id
-  member,       ///< children[0] . member; resolved away for `module.name` and for calls of methods
+  member,       ///< children[0] . member; replaced for `module.name` and for calls of methods
   call,         ///< ref, id, bound
   query,        ///< clear or `inside` [children[0]: radius] of name: a layer; ref, id
 };
@@ -56,7 +56,7 @@ enum class BinaryOp : uint8_t {
   logical_or
 };
 
-/// What a name or the callee of a call stands for (resolved); `id` is an index into the table named here.
+/// The meaning of a name or of the callee of a call (resolved); `id` is an index into the table named here.
 enum class Ref : uint8_t {
   none,
   parameter,  ///< Program::params
@@ -77,21 +77,21 @@ struct ExprNode {
   BinaryOp binary = BinaryOp::add;
   Ref ref = Ref::none;           ///< resolved
   Member member = Member::none;  ///< resolved
-  bool parenthesised = false;    ///< written in parentheses that the printer keeps
-  bool shape = false;            ///< call of a rule or terminal: needs no () where it has no arguments
-  bool inside = false;           ///< query: whether all is solid, not whether all is void
-  bool circular = false;         ///< resolved, call of a rule: it may lead back to the rule that it stands in
-  Type type;                     ///< resolved; of let functions and fields: as last instantiated
+  bool parenthesised = false;    ///< written in parentheses that the printer must keep
+  bool shape = false;            ///< call of a rule or terminal: needs no () without arguments
+  bool inside = false;           ///< query: whether all is solid; else whether all is void
+  bool circular = false;         ///< resolved, call of a rule: it may lead back to the rule that contains it
+  Type type;                     ///< resolved; for let functions and fields: of the last instance
   double value = 0;              ///< number
-  NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part
+  NameId name = kNoId;           ///< name, member, text; number: as written, with its unit; call: last part
   NameId qualifier = kNoId;      ///< call and name: `rock` of rock.fbm, once resolved to a module
   uint32_t id = kNoId;           ///< resolved: see Ref
-  uint32_t ordinal = 0;          ///< resolved: rand, chance: number of this draw within its rule, let or field
-  IdRange children;              ///< into Ast::ids; of a call of a method: the receiver
+  uint32_t ordinal = 0;          ///< resolved: rand, chance: index of this draw within its rule, let or field
+  IdRange children;              ///< into Ast::ids; for a call of a method: the receiver
   IdRange args;                  ///< into Ast::args: as written
-  IdRange bound;                 ///< resolved, into Ast::ids: one ExprId for each parameter of the callee, in its
-                                 ///< order; kNoId: left out (use BuiltinParam::fallback). Defaults of lets, fields
-                                 ///< and rules are already put in. Variadic tails follow
+  IdRange bound;                 ///< resolved, into Ast::ids: one ExprId for each parameter of the callee, in order;
+                                 ///< kNoId: omitted (use BuiltinParam::fallback). Defaults of lets, fields and rules
+                                 ///< are filled in. Variadic tails follow
   Span span;
 };
 
@@ -103,16 +103,16 @@ struct ArgNode {
 };
 
 enum class StmtKind : uint8_t {
-  block,      ///< children; material and tag apply to all that is in it, also to what stands before them
+  block,      ///< children; material and tag apply to its whole content, including statements before them
   call,       ///< expr: a call of a rule or a primitive
   unite,      ///< union [smooth amount] body
-  cut,        ///< cut [smooth amount] body: takes the body away from what precedes in the block. Directly in the body
-              ///< of a layer's start rule (through loops, transforms, detail and plain blocks): from the domain
+  cut,        ///< cut [smooth amount] body: subtracts the body from what precedes in the block; from the domain if
+              ///< directly in the body of a layer's start rule (through loops, transforms, detail and plain blocks)
   meet,       ///< meet [smooth amount] body: the intersection of the body's own statements, added to the block
   sum,        ///< sum body: compact-kernel sum of the leaves
   morph,      ///< children[0], children[1] (call or block), expr: t, power; at t = 0 the first, at t = 1 the second
   displace,   ///< expr (length), amount: declared bound of |expr|, which clamps it, or kNoId; body
-  warp,       ///< expr (vector of lengths), amount: as in displace, for each component; body
+  warp,       ///< expr (vector of lengths), amount: like displace, for each component; body
   transform,  ///< xforms, applied left to right from the outside in; body
   repeat,     ///< expr: count; xforms: applied i times to copy i; body
   for_each,   ///< slot: loop variable; expr: a range, faces or segments; body
@@ -122,22 +122,22 @@ enum class StmtKind : uint8_t {
   mat,        ///< extra: Program::materials
   tag,        ///< extra: Program::tags
   anchor,     ///< extra: kind, extra2: name; both Program::names
-  split,      ///< extra: axis 0 1 2; parts: along it, each with its child; amount: how far its lines snap, or kNoId
-  snap,       ///< extra: axis 0 1 2; expr: distance of the planes; amount: of the first from the low end, or kNoId
+  split,      ///< extra: axis 0 1 2; parts: along it, each with its child; amount: how far its borders snap, or kNoId
+  snap,       ///< extra: axis 0 1 2; expr: distance of the planes; amount: of the first one from the low end, or kNoId
   comp,       ///< parts: faces and edges of the scope's box, each with its child
-  treemap,    ///< extra: Ast::treemaps; parts: its rooms and what else is derived in it, each with its child
+  treemap,    ///< extra: Ast::treemaps; parts: its rooms and other derived parts, each with its child
   link,       ///< of a treemap: name and name2: rooms; extra: Ast::links
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
   footprint,  ///< slot: a plan, from here to the end of the block; extra: Ast::footprints
   extrude,    ///< expr: height; plan; body: a block or kNoId
   roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
-  inner,      ///< in an override's block: what the override takes the place of; extra: its number there
+  inner,      ///< in an override's block: the replaced content; extra: its index there
   fit,        ///< name: an import of an asset; extra: Ast::fits
   wfc,        ///< expr: a length or a vector, the edges of tiles; extra: Ast::waves; parts: tiles, each with its child
-  border,     ///< of a wfc: extra: Ast::tiles, what its sides have to meet
+  border,     ///< of a wfc: extra: Ast::tiles, the sockets that its sides must meet
 };
 
-/// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
+/// Whether a statement only adds its body's content: elsewhere, several times, or not at every level.
 constexpr bool placesBody(StmtKind kind) {
   return kind == StmtKind::transform || kind == StmtKind::repeat || kind == StmtKind::for_each ||
          kind == StmtKind::scatter || kind == StmtKind::detail || kind == StmtKind::snap;
@@ -146,10 +146,10 @@ constexpr bool placesBody(StmtKind kind) {
 struct StmtNode {
   StmtKind kind = StmtKind::block;
   bool power = false;        ///< morph: by exponent
-  bool layer_level = false;  ///< resolved, cut and inner: cuts the domain, where its rule runs as a layer's start
+  bool layer_level = false;  ///< resolved, cut and inner: cuts the domain if its rule is a layer's start
   uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
   uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
-  uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys
+  uint32_t ordinal = 0;      ///< resolved: index of this statement within its rule, for path keys
   ExprId expr = kNoId;
   ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
   ExprId plan = kNoId;    ///< extrude, roof: a name
@@ -165,11 +165,11 @@ struct StmtNode {
 };
 
 enum class XformKind : uint8_t {
-  at,      ///< a: a point, or a, b, c: lengths (kNoId is 0): moves the scope
-  rot,     ///< axis 0 1 2, or a: vector (any length but 0) where axis is 3; b: angle, right-handed
+  at,      ///< a: a point, or a, b, c: lengths (kNoId means 0): moves the scope
+  rot,     ///< axis 0 1 2, or a: vector (any length but 0) if axis is 3; b: angle, right-handed
   scale,   ///< a: factor > 0
   size,    ///< a, b, c: the edges of the scope's box (kNoId keeps one), or a: a vector of all three
-  mirror,  ///< axis 0 1 2: that coordinate changes its sign
+  mirror,  ///< axis 0 1 2: negates that coordinate
 };
 
 struct XformNode {
@@ -187,10 +187,9 @@ enum class ScatterArea : uint8_t {
   disc,   ///< a: radius, in the plane y = 0
 };
 
-/// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance,
-/// and is left out where there is none or where it does not start in the open. With gap: the body knows how far it is
-/// from there through the open to the next surface the other way; a point where that is farther than `within` is left
-/// out.
+/// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance; it
+/// is dropped if there is none, or if it does not start in the void. With gap: the body gets the distance from there
+/// through the void to the next surface in the opposite direction; a point where this exceeds `within` is dropped.
 struct ScatterNode {
   bool poisson = false;
   ExprId count = kNoId;  ///< a count, or the least distance with poisson
@@ -201,14 +200,14 @@ struct ScatterNode {
   ExprId distance = kNoId;
   NameId layer_name = kNoId;
   uint32_t layer = kNoId;  ///< resolved: Program::layers
-  NameId gap = kNoId;      ///< the name of that length, or none
-  uint32_t slot = kNoId;   ///< its place among the locals
+  NameId gap = kNoId;      ///< the name of that distance, or none
+  uint32_t slot = kNoId;   ///< its slot among the locals
   ExprId within = kNoId;
-  ExprId when = kNoId;  ///< each point draws by itself
+  ExprId when = kNoId;  ///< evaluated for each point, with its own random draws
   Span span;
 };
 
-/// What `comp` takes of a box; named as seen from the front, which is +z.
+/// The parts of a box for `comp`, seen from the front, which is +z.
 enum class BoxPart : uint8_t {
   front,   ///< +z
   right,   ///< +x
@@ -216,15 +215,15 @@ enum class BoxPart : uint8_t {
   left,    ///< -x
   top,     ///< +y
   bottom,  ///< -y
-  side,    ///< those of the first four that have no part of their own
-  edges,   ///< the four that are parallel to y
+  side,    ///< those of the first four without a part of their own
+  edges,   ///< the four parallel to y
   inside,  ///< the box itself
 };
 
-/// What stands in a treemap.
+/// The parts of a treemap.
 enum class FloorPart : uint8_t {
   room,
-  corridor,  ///< what is derived in each stretch of it
+  corridor,  ///< derived in each stretch of it
   facade,    ///< at each outer wall of a room
   link,      ///< a statement of that kind
 };
@@ -232,8 +231,8 @@ enum class FloorPart : uint8_t {
 /// A part of a split, a comp, a treemap or a wfc.
 struct PartNode {
   ExprId size = kNoId;          ///< of a split: a length, or a share of the scope; of a room or a tile: its weight
-  bool flexible = false;        ///< of a split: the length is a weight in what the others leave
-  bool repeated = false;        ///< of a split: in the group that is repeated, which is one run of parts
+  bool flexible = false;        ///< of a split: the length is a weight for the space that the others leave
+  bool repeated = false;        ///< of a split: in the repeated group, which is one run of parts
   bool relative = false;        ///< resolved, of a split: size is a share
   BoxPart of = BoxPart::front;  ///< of a comp
   FloorPart floor = FloorPart::room;  ///< of a treemap
@@ -241,7 +240,7 @@ struct PartNode {
   uint32_t tile = kNoId;              ///< of a wfc: Ast::tiles
   uint16_t tag = 0;                   ///< resolved, of a room: Program::tags
   Span span;
-  Span group;  ///< repeated: of the whole group
+  Span group;  ///< if repeated: of the whole group
 };
 
 enum class Outline : uint8_t {
@@ -254,7 +253,7 @@ struct FootprintNode {
   Outline outline = Outline::rect;
   ExprId count = kNoId;  ///< merge, or kNoId: one piece
   IdRange args;          ///< into Ast::args: as written
-  IdRange bound;         ///< resolved, into Ast::ids; drawn for each piece
+  IdRange bound;         ///< resolved, into Ast::ids; evaluated for each piece, with its own random draws
   Span span;             ///< of the outline
 };
 
@@ -262,15 +261,15 @@ enum class RoofForm : uint8_t { flat, gable, hip };
 
 struct RoofNode {
   RoofForm form = RoofForm::flat;
-  ExprId measure = kNoId;   ///< resolved: flat: the height, otherwise the pitch
+  ExprId measure = kNoId;   ///< resolved: flat: the height, else the pitch
   ExprId overhang = kNoId;  ///< resolved, or kNoId: 0
   IdRange args;             ///< into Ast::args: as written
 };
 
-/// Part of an asset, along an axis from the low end of its box.
+/// A part of an asset, along an axis from the low end of its box.
 struct FitZoneNode {
   uint8_t axis = 0;      ///< 0 1 2
-  bool repeats = false;  ///< otherwise it stretches
+  bool repeats = false;  ///< otherwise it is stretched
   ExprId from = kNoId, to = kNoId;
   Span span;
 };
@@ -288,20 +287,20 @@ struct TreemapNode {
 };
 
 struct LinkNode {
-  IdRange args;                          ///< into Ast::args: as written; none where the treemap says how wide doors are
-  uint32_t a = 0, b = 0;                 ///< resolved: rooms, as numbered among those of the treemap
-  ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: as the treemap says
+  IdRange args;                          ///< into Ast::args: as written; empty if the treemap gives the width of doors
+  uint32_t a = 0, b = 0;                 ///< resolved: indices among the rooms of the treemap
+  ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: as in the treemap
 };
 
 /// One side of a tile or of the border, as written.
 struct SocketNode {
   BoxPart of = BoxPart::front;  ///< front to bottom, or side
-  IdRange labels;               ///< into Ast::ids (NameId): what it is
-  IdRange meets;                ///< likewise, what it meets; none: what it is
+  IdRange labels;               ///< into Ast::ids (NameId): its labels
+  IdRange meets;                ///< the same: the labels it meets; empty: its own
   Span span;
 };
 
-/// What a side is and what it meets, a bit for each label; all bits of a side that is not written.
+/// The labels of a side and those it meets, a bit for each label; all bits for an unwritten side.
 struct SideKind {
   uint64_t labels = ~uint64_t{0}, meets = ~uint64_t{0};
 
@@ -312,14 +311,14 @@ struct SideKind {
 
 /// A tile of a wfc, or its border.
 struct TileNode {
-  bool turns = false;              ///< stands turned by any number of quarters about y
+  bool turns = false;              ///< may be rotated by any number of quarter turns about y
   IdRange sockets;                 ///< into Ast::sockets: as written
-  std::array<uint8_t, 6> sides{};  ///< resolved, in the order of BoxPart: numbers of their kinds
+  std::array<uint8_t, 6> sides{};  ///< resolved, in the order of BoxPart: indices of their kinds
 };
 
 /// Resolved.
 struct WaveNode {
-  IdRange labels;  ///< into Ast::ids (NameId): by their bits
+  IdRange labels;  ///< into Ast::ids (NameId): in the order of their bits
   IdRange kinds;   ///< into Ast::side_kinds
 };
 
@@ -327,10 +326,10 @@ struct WaveNode {
 struct FormalNode {
   NameId name = kNoId;
   ExprId fallback = kNoId;                     ///< written default
-  ExprId low_expr = kNoId, high_expr = kNoId;  ///< written range; of a rule's heads that of the first counts
+  ExprId low_expr = kNoId, high_expr = kNoId;  ///< written range; the first of a rule's heads applies
   Type type;                                   ///< resolved for rules
-  uint32_t slot = kNoId;  ///< resolved: its place in the frame; of rules, lets and global fields: its position
-  bool ranged = false;    ///< resolved: a number of `dim` from `low` to `high`, both allowed
+  uint32_t slot = kNoId;  ///< resolved: its slot in the frame; for rules, lets and global fields: its position
+  bool ranged = false;    ///< resolved: a number of `dim` from `low` to `high`, ends included
   Dim dim;
   double low = 0, high = 0;
   Span span;
@@ -340,7 +339,7 @@ struct FormalNode {
 struct Comment {
   uint32_t begin = 0, end = 0;
   int line = 0;
-  bool own_line = false;  ///< nothing stands before it on its line
+  bool own_line = false;  ///< nothing precedes it on its line
 };
 
 struct Ast {
@@ -362,7 +361,7 @@ struct Ast {
   std::pmr::vector<ArgNode> args;
   std::pmr::vector<FormalNode> formals;
   std::pmr::vector<uint32_t> ids;
-  std::pmr::deque<std::pmr::string> names;  ///< a deque: views of them outlive later names
+  std::pmr::deque<std::pmr::string> names;  ///< a deque, since views of names must stay valid when names are added
 
   explicit Ast(std::pmr::memory_resource* memory)
       : exprs(memory),

@@ -11,7 +11,7 @@ namespace {
 
 using P = BuiltinParam;
 
-/// A number of any dimension at any stage; the first sets the dimension of the others.
+/// A number of any dimension at any stage; the first one determines the dimension of the others.
 constexpr P any(std::string_view name) { return {name, ValueKind::number, kRatio, true, true, 0, false, false}; }
 /// A ratio at any stage.
 constexpr P ratio(std::string_view name) { return {name, ValueKind::number, kRatio, false, true, 0, false, false}; }
@@ -46,7 +46,7 @@ constexpr std::array kVec = {any("x"), any("y"), any("z")};
 constexpr std::array kBranch = {number("n", kRatio), named(number("step", kLength)), named(number("turn", kAngle)),
                                 named(option("fork", kRatio, 0))};
 
-// A millionth of a millimetre: whatever is shorter is 0 in world units many times over. 90deg may round upwards.
+// A millionth of a millimetre: shorter lengths round to 0 world units many times over. 90deg may round upwards.
 constexpr std::array<ValueRange, 4> kBranchRanges = {
     {{0, kMostSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
      {1e-9, 1e9, "the `step` of a branch is a length above 0", "such as step 6m"},

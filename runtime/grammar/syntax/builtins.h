@@ -1,5 +1,5 @@
 #pragma once
-// Everything the language knows without a declaration, with its signature. The tables are in builtins.cpp.
+// The signatures of all built-in names. The tables are in builtins.cpp.
 
 #include <cstdint>
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-/// Names that stand for a value.
+/// Built-in values.
 enum class BuiltinValue : uint8_t {
   cell,   ///< the cell being derived (rules only)
   scope,  ///< vector: edges of the scope's box (rules only); a rule starts with its layer's cell or the domain's box
@@ -19,8 +19,8 @@ enum class BuiltinValue : uint8_t {
   u,      ///< sample time: 0..1 along the sweep (tube, beam) around it
 };
 
-/// Functions of values. Positions are measured in the scope that the rule starts with: a layer's start rule starts at
-/// the low corner of its cell (on axes that the domain does not name: at 0), axes as the world's.
+/// Functions of values. Positions are in the scope with which the rule starts. A layer's start rule starts at the low
+/// corner of its cell (on axes that the domain does not name: at 0), with the world's axes.
 enum class Builtin : uint8_t {
   min,           ///< (a, b); any stage
   max,           ///< (a, b)
@@ -30,32 +30,31 @@ enum class Builtin : uint8_t {
   sqrt,          ///< (a): halves the dimension
   mix,           ///< (a, b, t)
   clamp,         ///< (a, low, high)
-  smoothstep,    ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high turns it round
+  smoothstep,    ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high reverses it
   fract,         ///< (a) ratio: a - floor(a)
   sin,           ///< (angle), derive time
   cos,           ///< (angle), derive time
   atan2,         ///< (y, x) -> angle, derive time
   pow,           ///< (a, b) ratios, a >= 0, derive time
   length,        ///< (vector), derive time
-  rand,          ///< (a, b): uniform in [a, b) by derivation path; derive time
-  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face, a segment or a number), the same wherever it is
-                 ///< drawn
+  rand,          ///< (a, b): uniform in [a, b), by derivation path; derive time
+  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face, a segment or a number), the same at every place
   chance,        ///< (p): true with probability p, by derivation path
   chance_keyed,  ///< chance(key, p)
   cell_noise,    ///< cellnoise(cell, period, salt = 0): smooth noise 0..1 at the centre of the cell; derive time
   fractal,       ///< (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1; sample time. The arguments
                  ///< are derive time; period is rounded to units; octaves 1..12
   cell_point,    ///< cell.point(jitter = 0.5): a point of the cell; 0 its centre, 1 anywhere in it. bound[0]: the cell
-  cell_links,    ///< cell.links(tree = 3, extra = 0): faces that a passage crosses; each face by its lower cell only,
-                 ///< so that a link is derived once; connected within blocks of 2^tree cells and between them
+  cell_links,    ///< cell.links(tree = 3, extra = 0): faces crossed by a passage; each face by its lower cell only, so
+                 ///< that a link is derived once; connected within blocks of 2^tree cells and between them
   face_point,    ///< face.point(jitter = 0.5): a point of the face. In a let the receiver may be a cell in one call and
-                 ///< a face in another: tell by the value, not by the enumerator
+                 ///< a face in another: decide by the value, not by the enumerator
   position,      ///< vec(x, y, z), the same as (x, y, z)
-  branch,  ///< branch(n, step, turn, fork = 0): segments of a branching skeleton from the scope's origin along +y,
-           ///< by derivation path; rules only. derive/layout/skeleton.h says how it grows
+  branch,  ///< branch(n, step, turn, fork = 0): segments of a branching skeleton from the scope's origin along +y, by
+           ///< derivation path; rules only. See derive/layout/skeleton.h
 };
 
-/// Of one branch(): further side branches are left out.
+/// The most segments of one branch(): further side branches are omitted.
 inline constexpr uint32_t kMostSegments = 4096;
 
 /// Terminals. Centred on the scope's origin, axis y, unless said otherwise.
@@ -70,19 +69,19 @@ enum class Primitive : uint8_t {
   superq,     ///< (radii vector, square): square 0 an ellipsoid, 1 nearly a box (exponent 2 / (1 - s + s*2/kMaxPower))
   blob,       ///< (r): a sphere; the usual leaf of `sum`
   halfspace,  ///< (below h) or (above h): y under (over) h
-  tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc that leaves the line by at most bend
-  beam,       ///< (a, b, r, bend = 0): as tube with a square section of half edge r
+  tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc with a sagitta of at most bend
+  beam,       ///< (a, b, r, bend = 0): like tube, with a square section of half edge r
   prism,      ///< (h, (x, z), (x, z), (x, z) ...): polygon of 3 to 64 corners, extruded to full height h
   ca,         ///< (voxel, fill = 45%, rounds = 4, threshold = 50%, radius = 1, salt = 0): a cellular automaton over all
-              ///< the world's voxels, of which the shape is the part in the layer's cell; see AutomatonLimits
+              ///< voxels of the world; the shape is its part in the layer's cell; see AutomatonLimits
 };
 
-/// A voxel starts solid with the chance `fill`. In each of the rounds all become, at once, solid where at least the
-/// share `threshold` of the voxels around them is, themselves among them: a cube of 2 radius + 1 voxels along the axes
-/// that the layer is cut along; along others all voxels are alike. The same arguments give the same voxels in every
-/// cell, rule and layer: neighbours join without a seam; where arguments differ from cell to cell they end at the face.
-/// The field is nowhere farther from 0 than 7/8 of a voxel: displaced by more than that, it is all solid or all void.
-/// Levels whose cells are larger than `coarsest_voxels` leave it out. Johnson, Yannakakis, Togelius 2010.
+/// A voxel starts solid with the probability `fill`. In each round all voxels change at once: a voxel becomes solid if
+/// at least the share `threshold` of the voxels around it, itself included, is solid. These form a cube of 2 radius + 1
+/// voxels along the axes that the layer is cut along; along other axes all voxels are alike. The same arguments give
+/// the same voxels in every cell, rule and layer, so neighbours join without a seam; if arguments differ between cells,
+/// voxels end at the face. The field never differs from 0 by more than 7/8 of a voxel: a larger displacement makes it
+/// all solid or all void. Levels with cells larger than `coarsest_voxels` omit it. Johnson, Yannakakis, Togelius 2010.
 struct AutomatonLimits {
   static constexpr int32_t least_edge = 16;   ///< of a voxel, units
   static constexpr int32_t most_voxels = 64;  ///< along a cell's edge; the fewest is one
@@ -91,7 +90,7 @@ struct AutomatonLimits {
   static constexpr int32_t most_halo = 16;    ///< rounds times radius
   static constexpr int32_t coarsest_voxels = 4;
 
-  /// The largest cell of a level at which voxels of this edge show; both in units.
+  /// The largest cell of a level at which voxels of this edge are visible; both in units.
   static constexpr int32_t coarsestCell(int32_t edge) {
     return edge > std::numeric_limits<int32_t>::max() / coarsest_voxels ? std::numeric_limits<int32_t>::max()
                                                                         : edge * coarsest_voxels;
@@ -103,9 +102,9 @@ struct BuiltinParam {
   std::string_view name;
   ValueKind kind;
   Dim dim;
-  bool any_dim = false;  ///< numbers of any dimension; the first such argument sets it for all that are any_dim
+  bool any_dim = false;  ///< numbers of any dimension; the first such argument determines it for all any_dim parameters
   bool required = true;
-  double fallback = 0;      ///< where it is left out
+  double fallback = 0;      ///< the value if it is omitted
   bool named_only = false;  ///< must be written `name value`
   bool derive_only = true;  ///< a sample-time argument is an error
 };
@@ -123,7 +122,7 @@ struct PrimitiveInfo {
   bool variadic = false;  ///< prism: more pairs may follow
 };
 
-/// What a number may be.
+/// The valid range of a number.
 struct ValueRange {
   double low, high;
   std::string_view rule;     ///< "the `step` of a branch must be positive"
@@ -134,15 +133,15 @@ struct ValueRange {
 std::span<const BuiltinInfo> builtinTable();      ///< functions, by enumerator
 std::span<const PrimitiveInfo> primitiveTable();  ///< by enumerator
 std::span<const ValueRange> branchRangeTable();   ///< by parameter of branch()
-// How calls are bound to these parameters: ExprNode::bound has one entry for each parameter (after the receiver of a
-// method). box and ellipsoid with one argument: bound[0] only (an edge or a vector; box(edge) is a cube), bound[1] and
-// bound[2] are kNoId. halfspace: bound[0] is `below`, bound[1] is `above`; exactly one of them is there. prism: corners
-// follow the first three.
+// The binding of calls to these parameters: ExprNode::bound has one entry for each parameter (after the receiver of a
+// method). box and ellipsoid with one argument: only bound[0] (an edge or a vector; box(edge) is a cube), bound[1] and
+// bound[2] are kNoId. halfspace: bound[0] is `below`, bound[1] is `above`; exactly one of them is set. prism: further
+// corners follow the first three.
 
-/// nullptr where there is none. rand and chance give the form without a key.
+/// nullptr if there is none. rand and chance give the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
-/// Whether `word -2m` among the arguments of a builtin or of `at` is the argument's name and its value, no difference.
+/// Whether `word -2m` in the arguments of a builtin or of `at` is a named argument, not a difference.
 bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

@@ -11,7 +11,7 @@ namespace sgm {
 namespace {
 
 struct Foreign {
-  std::string_view theirs;  ///< in small letters
+  std::string_view theirs;  ///< in lower case
   std::string_view ours;
 };
 
@@ -35,7 +35,7 @@ constexpr std::string_view kBillow =
     "write `import \"std/noise.sgm\" as noise;` at the top and `noise.billow(period 8m, amp 1m)` here";
 constexpr std::string_view kLarger = "write `displace -0.1m { ... }` to make a shape larger on all sides";
 
-/// Where no single word of ours will do.
+/// Hints for words without a single equivalent in this language.
 constexpr std::array<Foreign, 61> kHints = {
     {{"acos", "write `atan2(sqrt(1 - x*x), x)`"},
      {"asin", "write `atan2(x, sqrt(1 - x*x))`"},

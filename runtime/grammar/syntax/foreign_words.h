@@ -1,5 +1,5 @@
 #pragma once
-// What other languages call things: shaders, OpenSCAD, CGA, Blender, Houdini.
+// Words of other languages: shaders, OpenSCAD, CGA, Blender, Houdini.
 
 #include <string>
 #include <string_view>

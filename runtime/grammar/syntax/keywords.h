@@ -9,9 +9,9 @@ namespace sgm {
 
 /// Reserved words, sorted.
 std::span<const std::string_view> keywordTable();
-/// Words that mean something only where a clause expects them, sorted.
+/// Words with a meaning only where a clause expects them, sorted.
 std::span<const std::string_view> clauseWordTable();
-/// Words kept for constructs that this version does not have (portal ...), sorted.
+/// Words reserved for constructs that this version does not have (portal ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
 /// Words that start a declaration.
@@ -23,10 +23,10 @@ std::span<const std::string_view> measureTable();
 /// Words of the parts of a box, in the order of BoxPart.
 std::span<const std::string_view> boxPartTable();
 
-/// What another language's word is called here: `at` for `translate`; empty where it is none that is known.
+/// The word of this language for another language's: `at` for `translate`; empty if it is unknown.
 std::string_view wordFor(std::string_view foreign);
 
-/// cell, scope, p, q and u: values that every text has.
+/// cell, scope, p, q and u: values that are always available.
 bool isValueWord(std::string_view word);
 bool isKeyword(std::string_view word);
 bool startsDeclaration(std::string_view word);

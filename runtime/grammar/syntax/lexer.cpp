@@ -25,7 +25,7 @@ struct Unit {
   std::string_view name;
   Dim dim;
   double factor;  ///< metres, radians or plain ratios in one unit
-  bool divide;    ///< by the factor instead, which is exact where the decimal is
+  bool divide;    ///< divide by the factor instead, which is exact if the decimal is
 };
 
 constexpr std::array<Unit, 13> kUnits = {{{"m", kLength, 1, false},
@@ -62,8 +62,9 @@ class Lexer {
     while (skipBlank() && !sink_.full()) {
       if (out_.tokens.size() >= max_tokens_) {
         const Span here = spanFrom(at_, line_, at_ - line_start_);
-        error(here, codes::kTooLarge, join({"more than ", std::to_string(max_tokens_), " words and signs"}),
-              "loops and rules say the same in fewer");
+        error(here, codes::kTooLarge,
+              join({"the text has more than ", std::to_string(max_tokens_), " words and signs"}),
+              "use loops and rules to say the same in fewer");
         out_.readable = false;
         break;
       }
@@ -82,7 +83,7 @@ class Lexer {
     sink_.error(span, code, std::move(message), std::move(hint));
   }
 
-  /// One error for the whole file: whatever its bytes would be read as is not what is written.
+  /// One error for the whole file, since its bytes do not have the meaning that was intended.
   LexResult unreadable(const EncodingFault& fault) {
     for (size_t i = 0; i < fault.at; ++i, ++at_)
       if (text_[i] == '\n') ++line_, line_start_ = i + 1;
@@ -97,7 +98,7 @@ class Lexer {
     return std::move(out_);
   }
 
-  /// Bytes that are not UTF-8 have one cause and one remedy, however many they are.
+  /// Bytes that are not UTF-8 have one cause and one remedy, however many there are.
   void foreignByte(const Span& span) {
     out_.broken_lines.push_back(span.line);
     if (foreign_bytes_++ == 0) first_foreign_ = span;
@@ -135,7 +136,7 @@ class Lexer {
     fresh_line_ = true;
   }
 
-  /// False at the end of the text.
+  /// Returns false at the end of the text.
   bool skipBlank() {
     blank_ = at_ == 0;
     while (!done()) {
@@ -163,7 +164,7 @@ class Lexer {
     return false;
   }
 
-  /// Steps over one character of a comment or a text.
+  /// Skips one character of a comment or a text constant.
   void character() {
     const size_t size = utf8Size(text_.substr(at_));
     const size_t begin = at_;
@@ -265,7 +266,7 @@ class Lexer {
                            : token.dim.length > 1 ? kLargestNumber * kLargestNumber
                                                   : kLargestNumber;
     if (!(value <= largest)) {
-      brokenNumber(token, codes::kNumberRange, "number too large",
+      brokenNumber(token, codes::kNumberRange, "this number is too large",
                    token.dim == kLength   ? "the world ends at 2097 km"
                    : token.dim.length > 1 ? "write at most 1e18"
                                           : "write at most 1e9");
@@ -282,7 +283,7 @@ class Lexer {
       if (done() || c == '\n') {
         push(Tok::text, begin, column);
         out_.torn_at = std::min(out_.torn_at, begin);
-        error(out_.tokens.back().span, codes::kBadText, "text without its closing quote", "close it with \"");
+        error(out_.tokens.back().span, codes::kBadText, "this text has no closing quote", "close it with \"");
         return;
       }
       if (c == '\\') {
@@ -308,10 +309,10 @@ class Lexer {
     if (!complaint.empty()) error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
   }
 
-  /// Skipped whole, so that its words are not misread.
+  /// Skips it whole, so that its words are not misread.
   void foreignComment(size_t begin, size_t column) {
     at_ += 2;
-    error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` begins no comment here",
+    error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` does not begin a comment",
           "comments start with // and end with their line");
     while (!done() && !(peek() == '*' && peek(1) == '/')) {
       if (peek() == '\n')
@@ -368,13 +369,13 @@ class Lexer {
     push(Tok::broken, begin, column);
     const Span span = out_.tokens.back().span;
     if (size == 0) return foreignByte(span);
-    std::string hint = "names are of the letters a to z, digits and `_`";
+    std::string hint = "names consist of the letters a to z, digits and `_`";
     if (c == '&') hint = "write `and`";
     if (c == '|') hint = "write `or`";
     if (c == '!') hint = "write `not`";
     if (c == '#') hint = "comments start with //";
     if (c == '\'') hint = "texts stand in double quotes";
-    if (c == '%') hint = "write `a - b*floor(a/b)` for what a division leaves";
+    if (c == '%') hint = "write `a - b*floor(a/b)` for the remainder of a division";
     if (c == '^') hint = "write `pow(a, b)`";
     if (c == '?') hint = "write `if a < b then c else d`";
     if (c == '[' || c == ']') hint = "write a vector as `(x, y, z)`";

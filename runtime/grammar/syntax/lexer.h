@@ -1,5 +1,5 @@
 #pragma once
-// Text to tokens: spans, numbers with units, text constants, comments kept aside for the printer.
+// Splits text into tokens: spans, numbers with units, text constants; comments are kept for the printer.
 
 #include <cstdint>
 #include <memory_resource>
@@ -39,14 +39,14 @@ enum class Tok : uint8_t {
   equal,
   not_equal,
   tilde,
-  broken,  ///< a character that the language does not have
+  broken,  ///< an invalid character
 };
 
 struct Token {
   Tok kind = Tok::end;
   bool keyword = false;
   bool unavailable = false;
-  bool space_before = false;  ///< something blank stands before it
+  bool space_before = false;  ///< white space before it
   bool broken = false;        ///< a number with an error: it has no value
   Dim dim;
   double value = 0;
@@ -56,23 +56,23 @@ struct Token {
 struct LexResult {
   std::pmr::vector<Token> tokens;  ///< ends with Tok::end
   std::pmr::vector<Comment> comments;
-  bool readable = true;           ///< false: the file is not a text in UTF-8, or too long; nothing is to be parsed
-  std::vector<int> broken_lines;  ///< those with an error, in order: what else they hold may be misread
-  size_t torn_at = SIZE_MAX;      ///< offset from which on a text without its end may hide signs of the syntax
+  bool readable = true;           ///< false: the file is not UTF-8 text, or too long; do not parse it
+  std::vector<int> broken_lines;  ///< lines with an error, ascending: their other tokens may be wrong
+  size_t torn_at = SIZE_MAX;      ///< from this offset on an unterminated text may hide syntax
 };
 
-/// Whether numbers may have it as their unit.
+/// Whether a number may have it as its unit.
 bool isUnit(std::string_view word);
-/// Whether the text is spelt like a name; it may be a word of the language.
+/// Whether the text has the form of a name; it may be a word of the language.
 bool isName(std::string_view text);
 
-/// Reports what is wrong and goes on; always gives a stream that ends. At most `max_tokens`, otherwise an error.
+/// Reports errors and continues; the result always has an end token. More than `max_tokens` is an error.
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,
               std::pmr::memory_resource* memory);
 
 /// The content of a text constant without its quotes and escapes.
 std::string textContent(std::string_view quoted);
-/// The constant with quotes and escapes.
+/// The constant for this content, with quotes and escapes.
 std::string quoteText(std::string_view content);
 
 }  // namespace sgm

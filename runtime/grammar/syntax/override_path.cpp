@@ -20,7 +20,7 @@ class PathReader {
         out_.layer = first;
         out_.layer_place = {begin, at_};
         cell();
-        if (next() != '/') want("`/` and a rule behind the cell");
+        if (next() != '/') want("`/` and a rule after the cell");
         continue;
       }
       WrittenStep step{{}, first, {}, {}};

@@ -1,11 +1,11 @@
 #pragma once
-// How tightly operators bind, for the parser and the printer.
+// The precedence of operators, for the parser and the printer.
 
 #include "grammar/syntax/ast.h"
 
 namespace sgm {
 
-/// Binds tighter where larger.
+/// A larger value binds tighter.
 enum Precedence : int {
   kLoosest = 0,  ///< `if`, ranges
   kOr,

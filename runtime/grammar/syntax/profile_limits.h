@@ -1,6 +1,5 @@
 #pragma once
-// What the measures of footprints and roofs may be. Constants are judged by the checker, all others where they are
-// derived.
+// The valid ranges for the measures of footprints and roofs. The checker tests constants, derivation all other values.
 
 #include "base/math.h"
 #include "grammar/syntax/builtins.h"
@@ -15,8 +14,8 @@ inline constexpr ValueRange kPitchRange{kLeastPitch * (1 - 1e-12), kMostPitch*(1
                                         "the pitch of a roof is 5deg to 80deg", "such as 35deg"};
 inline constexpr ValueRange kOverhangRange{0, 1e5, "the overhang of a roof is 0m or more", "such as overhang 0.5m"};
 
-/// How far a corner stands out from where it was, in overhangs, at most: what is sharper than 60 degrees stands out
-/// less than its edges do.
+/// The largest distance that a corner moves outwards, in overhangs: corners sharper than 60 degrees move less than
+/// their edges would require.
 inline constexpr double kMostMiter = 2;
 
 }  // namespace sgm

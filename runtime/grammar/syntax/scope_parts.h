@@ -1,21 +1,21 @@
 #pragma once
-// What the parts of scopes and the proof of where they lie agree upon.
+// Constants shared by the division of scopes into parts and the proof of reach.
 
 #include "base/fixed.h"
 #include "grammar/syntax/builtins.h"
 
 namespace sgm {
 
-/// Metres by which a part reaches beyond where it meets the next one of its split. Solids that share a face alone would
-/// leave a sheet of void where samples lie in that face: this is more than the rounding of their places and than the
-/// step in which cells of up to 2 m are sampled.
+/// Metres by which a part extends beyond its border with the next part of its split. Solids that share only a face
+/// would leave a sheet of void where samples lie in that face. This exceeds the rounding of places, and the sampling
+/// step of cells of up to 2 m.
 inline constexpr double kSeamOverlap = 2.0 / kUnitsPerMetre;
 
 inline constexpr ValueRange kSnapRange{0.01, 1e5, "snap planes are 1cm or more apart", "such as snap y 3.2m"};
 
-inline constexpr ValueRange kSnapReachRange{0, 1e5, "the lines of a split snap by 0m or more", "such as snap 0.5m"};
+inline constexpr ValueRange kSnapReachRange{0, 1e5, "the snap reach of a split is 0m or more", "such as snap 0.5m"};
 
-/// Metres by which an entrance reaches out of the floor of a treemap, and doors into what they join.
+/// Metres by which an entrance extends out of the floor of a treemap, and doors into the spaces they join.
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 
 inline constexpr size_t kMostRooms = 32;

@@ -1,6 +1,6 @@
 #pragma once
-// What the parser finds in one file besides the shared arrays of Program: the order of its declarations and the parts
-// that the checker turns into resolved ones. Kept only while compiling and printing.
+// The parser's result for one file besides the shared arrays of Program: the order of its declarations, and the parts
+// that the checker resolves. Exists only while compiling and printing.
 
 #include <cstdint>
 #include <memory_resource>
@@ -27,7 +27,7 @@ enum class ItemKind : uint8_t {
   expectation
 };
 
-/// A declaration in source order; index into the array of its kind, sub: the alternative of a rule.
+/// A declaration in source order. index: in the array of its kind; sub: the alternative of a rule.
 struct Item {
   ItemKind kind = ItemKind::version;
   uint32_t index = 0, sub = 0;
@@ -36,12 +36,12 @@ struct Item {
 
 struct ImportDecl {
   NameId path = kNoId, alias = kNoId;
-  uint32_t module = kNoId;  ///< once loaded; of an asset none
+  uint32_t module = kNoId;  ///< once loaded; kNoId for an asset
   uint32_t asset = kNoId;   ///< Program::assets, once loaded
   Span path_span, alias_span;
 };
 
-/// A word of the source that has yet to be looked up.
+/// A word of the source that is not resolved yet.
 struct NamedPlace {
   NameId name = kNoId;
   Span span;
@@ -50,7 +50,7 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
-  ExprId detail = kNoId;  ///< or kNoId: shown at every level
+  ExprId detail = kNoId;  ///< or kNoId: visible at every level
   std::vector<NamedPlace> uses;
   Span span;
 };
@@ -80,9 +80,9 @@ struct ModuleSyntax {
 
   /// Whether all of the text was parsed.
   bool complete = true;
-  bool readable = true;       ///< false: none of it was
-  bool bounded = true;        ///< false: what was not parsed may bound the rest: a domain, an operand of meet or sum
-  std::set<NameId> in_doubt;  ///< words of what was not parsed: they may be declared there
+  bool readable = true;       ///< false: none of it was parsed
+  bool bounded = true;        ///< false: an unparsed part may bound the rest: a domain, or an operand of meet or sum
+  std::set<NameId> in_doubt;  ///< words of unparsed parts, where they may be declared
 
   bool mayDeclare(NameId name) const { return !readable || in_doubt.contains(name); }
 };

@@ -7,7 +7,7 @@
 namespace sgm {
 
 /// Exponents of length and angle. Ratios, counts and percentages are {0, 0}; an area is {2, 0}.
-/// Numbers are kept in metres, radians and plain ratios (30% is 0.3).
+/// Numbers are stored in metres, radians and plain ratios (30% is 0.3).
 struct Dim {
   int8_t length = 0, angle = 0;
   friend constexpr bool operator==(Dim, Dim) = default;
@@ -19,10 +19,10 @@ inline constexpr Dim kRatio{0, 0}, kLength{1, 0}, kAngle{0, 1}, kArea{2, 0}, kVo
 std::string dimName(Dim dim);
 
 enum class ValueKind : uint8_t {
-  unknown,  ///< a parameter of a rule that nothing calls; agrees with everything
+  unknown,  ///< a parameter of an uncalled rule; agrees with everything
   number,   ///< one number of dimension dim
   boolean,
-  vector,    ///< three numbers of dimension dim; a point where dim is length
+  vector,    ///< three numbers of dimension dim; a point if dim is length
   pair,      ///< two numbers of dimension dim (corners of a prism, x and z)
   cell,      ///< a cell of the layer: `cell`, or `other` of a face
   face,      ///< a face of a cell, from cell.faces or cell.links
@@ -37,8 +37,8 @@ enum class ValueKind : uint8_t {
 struct Type {
   ValueKind kind = ValueKind::unknown;
   Dim dim;
-  bool sample = false;   ///< known at sample time only (depends on p, q, u or noise)
-  bool any_dim = false;  ///< fits every dimension: the literal 0, and vectors of which nothing is known
+  bool sample = false;   ///< known only at sample time (depends on p, q, u or noise)
+  bool any_dim = false;  ///< fits every dimension: the literal 0, and vectors of unknown content
   friend constexpr bool operator==(const Type&, const Type&) = default;
 };
 

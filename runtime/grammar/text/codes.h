@@ -1,5 +1,5 @@
 #pragma once
-// Every diagnostic's stable name. A test gives a program for each, with the exact line and column.
+// The stable name of every diagnostic. For each, a test has a program with the exact line and column.
 
 #include <string_view>
 

@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// The text of a line without its end; empty where there is no such line.
+/// The text of a line without its line end; empty if there is no such line.
 std::string_view lineOf(std::string_view source, int line) {
   for (int at = 1; at < line; ++at) {
     const size_t end = source.find('\n');
@@ -32,21 +32,21 @@ std::string renderDiagnostic(const Diagnostic& d, std::string_view source) {
 
   std::string_view line = d.line > 0 ? lineOf(source, d.line) : std::string_view();
   if (!line.empty()) {
-    // A window of the line, so that a file without line ends does not flood the terminal.
+    // Show a window of the line, so that a file without line ends does not flood the terminal.
     constexpr size_t kWindow = 160;
     const size_t column = static_cast<size_t>(d.column - 1);
     size_t first = column > kWindow / 2 && line.size() > kWindow ? column - kWindow / 2 : 0;
     while (first > 0 && first < line.size() && isContinuation(line[first])) --first;
     const size_t last = std::min(line.size(), first + kWindow);
     std::string shown, caret;
-    size_t next = first;  // where the next character begins
+    size_t next = first;  // offset of the next character
     for (size_t i = first; i < std::max(last, column + 1); ++i) {
       const char c = i < last ? line[i] : ' ';
       const size_t size = i < last ? utf8Size(line.substr(i)) : 1;
       const bool begins = i >= next;
       if (begins) next = i + std::max(size, size_t{1});
-      // Control characters of untrusted text and bytes that are no text never reach the terminal; tabs stay so that the
-      // caret lines up.
+      // Control characters of untrusted text and invalid bytes must not reach the terminal; tabs stay, so that the
+      // caret is aligned.
       const bool hidden = (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F || (begins && size == 0);
       if (i < last) shown += hidden ? '?' : c;
       if (i < column && begins) caret += c == '\t' ? '\t' : ' ';

@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a grammar, where, and what to do about it. Plain values; safe to copy between threads.
+// Diagnostics of a grammar: the problem, its place, and the remedy. Plain values; safe to copy between threads.
 
 #include <cstdint>
 #include <string>
@@ -23,14 +23,14 @@ struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;     ///< stable kebab-case name, such as "unit-mismatch"; the list is in codes.h
   std::string message;  ///< one line, no full stop
-  std::string file;     ///< as the caller named it, or the path of an import
+  std::string file;     ///< as named by the caller, or the path of an import
   int line = 0, column = 0, end_column = 0;
   std::string hint;                ///< what to write instead; may be empty
   std::vector<std::string> notes;  ///< further places and facts, one line each
 };
 
-/// "file:line:column: error: message", the source line, a caret line, the hint and the notes. `source` is the text of
-/// the diagnostic's file; where it is empty the source line and the caret are left out. Ends with a line feed.
+/// "file:line:column: error: message", the source line, a caret line, the hint and the notes. `source`: the text of the
+/// diagnostic's file; if empty, source line and caret are omitted. Ends with a line feed.
 std::string renderDiagnostic(const Diagnostic& diagnostic, std::string_view source);
 
 /// "1 error, 2 warnings"

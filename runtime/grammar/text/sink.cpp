@@ -26,7 +26,7 @@ std::string numberText(double value) {
 
 std::string metresText(double metres) {
   if (!std::isfinite(metres)) return "without bound";
-  // One decimal, rounded away from zero, is what a person needs to choose a bound from.
+  // One decimal, rounded away from zero, is enough to choose a bound from.
   const double rounded = std::copysign(std::ceil(std::fabs(metres) * 10 - 1e-9) / 10, metres);
   return numberText(rounded) + " m";
 }
@@ -37,7 +37,7 @@ Diagnostic& DiagnosticSink::add(Severity severity, const Span& span, std::string
     if (errors_ > error_limit_) return surplus_ = {};
     if (++errors_ > error_limit_) {
       code = codes::kTooManyErrors;
-      message = join({"more than ", std::to_string(error_limit_), " errors; the rest is left out"});
+      message = join({"there are more than ", std::to_string(error_limit_), " errors; the rest are left out"});
       hint.clear();
     }
   } else if (entries_.size() > size_t{4} * error_limit_) {
@@ -74,7 +74,7 @@ std::string DiagnosticSink::place(const Span& span) const {
 
 std::vector<Diagnostic> DiagnosticSink::take() {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    // That errors were cut off is said last.
+    // The message that errors were cut off comes last.
     const bool a_last = a.diagnostic.code == codes::kTooManyErrors, b_last = b.diagnostic.code == codes::kTooManyErrors;
     return std::tie(a_last, a.file, a.diagnostic.line, a.diagnostic.column, a.order) <
            std::tie(b_last, b.file, b.diagnostic.line, b.diagnostic.column, b.order);
@@ -118,7 +118,7 @@ std::string lowered(std::string_view text) {
 }  // namespace
 
 void Suggestion::offer(std::string_view candidate) {
-  // Long words are cut off rather than compared: the cost stays bounded on untrusted text.
+  // Long words are skipped, so that the cost stays bounded for untrusted text.
   constexpr size_t kLongest = 40;
   if (candidate.empty() || candidate.size() > kLongest || word_.size() > kLongest) return;
   const size_t far = word_.size() <= 2 ? 1 : word_.size() <= 5 ? 2 : 3;

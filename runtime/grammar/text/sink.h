@@ -1,5 +1,5 @@
 #pragma once
-// Where the stages of the compiler put their diagnostics, and the small text tools that they share.
+// Collects the diagnostics of all compiler stages. Also text functions that they share.
 
 #include <initializer_list>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace sgm {
 
-/// One string of many parts.
+/// Concatenates the parts.
 std::string join(std::initializer_list<std::string_view> parts);
-/// The shortest decimal that reads back as the same double.
+/// The shortest decimal number that reads back as the same double.
 std::string numberText(double value);
-/// A length for people: "214 m", "2.5 m", "unbounded" where it is not finite.
+/// A length for people: "214 m", "2.5 m", "unbounded" if it is not finite.
 std::string metresText(double metres);
 
 class DiagnosticSink {
@@ -28,10 +28,10 @@ class DiagnosticSink {
   Diagnostic& warning(const Span& span, std::string_view code, std::string message, std::string hint = {});
 
   uint32_t errorCount() const { return errors_; }
-  /// Enough has been said: the stages stop early.
+  /// Whether the limit is exceeded: stages then stop early.
   bool full() const { return errors_ > error_limit_; }
   std::string place(const Span& span) const;
-  /// Sorted by file and place, each said once.
+  /// Takes the diagnostics, sorted by file and place, without duplicates.
   std::vector<Diagnostic> take();
 
  private:
@@ -49,7 +49,7 @@ class DiagnosticSink {
   Diagnostic surplus_;
 };
 
-/// The candidate nearest to a misspelt word, or empty where none is near enough.
+/// Finds the candidate nearest to a misspelt word; empty if none is near enough.
 class Suggestion {
  public:
   explicit Suggestion(std::string_view word) : word_(word) {}
@@ -57,7 +57,7 @@ class Suggestion {
   std::string_view best() const { return best_; }
   /// "did you mean `x`?" or empty.
   std::string hint() const;
-  /// The same, or where it is empty another hint.
+  /// The same, or another hint if it is empty.
   std::string hintOr(std::string_view other) const { return best_.empty() ? std::string(other) : hint(); }
 
  private:

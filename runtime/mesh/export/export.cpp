@@ -16,7 +16,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".stl") return MeshFormat::stl;
   return Error{Code::invalid_argument,
-               path.string() + ": no mesh format that we can write; end the name in .glb, .obj, .ply or .stl"};
+               path.string() + ": the mesh format is unsupported; end the name in .glb, .obj, .ply or .stl"};
 }
 
 Result<MeshFile> MeshFile::create(const std::filesystem::path& path, UnfinishedFiles* unfinished) {
@@ -47,7 +47,7 @@ Result<void> MeshFile::write(const WorldMesh& mesh, const ExportInfo& info) {
     case MeshFormat::stl:
       return writeStl(mesh, info, files_[0]);
   }
-  return Error{Code::invalid_argument, "no such mesh format"};
+  return Error{Code::invalid_argument, "the mesh format is unknown"};
 }
 
 uint64_t MeshFile::bytes() const {

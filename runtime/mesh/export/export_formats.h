@@ -1,5 +1,5 @@
 #pragma once
-// The writers behind exportMesh, one a format, and what they share.
+// The writers behind exportMesh, one per format, and their common functions.
 
 #include <array>
 #include <string>
@@ -12,13 +12,13 @@ namespace sgm {
 Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
 Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
 Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
-/// library_name is what the file calls the library.
+/// library_name: the name of the library in the file.
 Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
                       FileWriter& library, FileWriter& file);
-/// The file name of the materials of an .obj. Many readers end a name at a blank and know no other letters than those
-/// of ASCII: a name with such characters is replaced by one that differs for each.
+/// The file name of the materials of an .obj. Many readers end a name at a space and accept only ASCII letters: a name
+/// with other characters is replaced by a unique one.
 std::string materialLibraryName(const std::filesystem::path& obj);
-/// Error: Code::io where something stands there that writeObj has not written.
+/// Error: Code::io if a file exists there that writeObj has not written.
 Result<void> mayReplaceLibrary(const std::filesystem::path& library);
 
 using Float3 = std::array<float, 3>;
@@ -27,7 +27,7 @@ Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex);
 Float3 exportedNormal(const WorldMesh& mesh, uint32_t vertex);
 uint16_t triangleMaterial(const WorldMesh& mesh, size_t first_index);
 ExportMaterial materialAt(const ExportInfo& info, uint16_t index);
-/// Shortest text that reads back as the same number, in any locale.
+/// The shortest text that reads back as the same number, in any locale.
 std::string decimalText(float value);
 std::string decimalText(double value);
 /// Line breaks and other control characters become spaces, so that a name stays within its line.

@@ -12,15 +12,15 @@ namespace {
 
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 constexpr size_t kVertexBytes = 28;   // position, normal, tag, two bytes of padding
-constexpr size_t kTextureBytes = 12;  // what a texture adds: coordinates, blend
-constexpr size_t kColourBytes = 8;    // what a pair of materials adds
+constexpr size_t kTextureBytes = 12;  // added by a texture: coordinates, blend
+constexpr size_t kColourBytes = 8;    // added by a pair of materials
 
-/// The triangles of one material, or of one pair of them. Vertices are renumbered, in the order in which the triangles
-/// use them.
+/// The triangles of one material, or of a pair of materials. Vertices are renumbered in the order in which the
+/// triangles use them.
 struct Primitive {
   std::array<uint16_t, 2> materials{};
   size_t vertex_size = kVertexBytes;
-  std::vector<uint32_t> vertices;  // numbers in the whole mesh; with a texture, numbers of its places
+  std::vector<uint32_t> vertices;  // indices in the whole mesh; with a texture, indices of its texture vertices
   std::vector<uint32_t> indices;   // into vertices
   Float3 low{}, high{};
 
@@ -103,7 +103,7 @@ std::string vectorText(const Float3& v) {
   return '[' + decimalText(v[0]) + ',' + decimalText(v[1]) + ',' + decimalText(v[2]) + ']';
 }
 
-/// Joins the texts that item(i) gives for i < count.
+/// Joins the texts item(i) for i < count.
 template <class Item>
 std::string listOf(size_t count, Item item) {
   std::string out = "[";
@@ -122,7 +122,7 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
          "],\"tags\":" + listOf(info.tags.size(), [&](size_t i) { return quoted(info.tags[i]); }) + "}}";
 }
 
-/// Of a material, or of a pair of them: white then, for the colours are its vertices'.
+/// The material of a primitive; for a pair of materials it is white, because the vertices have the colours.
 std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   const ExportMaterial first = materialAt(info, primitive.materials[0]);
   const ExportMaterial second = materialAt(info, primitive.materials[1]);
@@ -131,7 +131,7 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   };
   const bool pictured = info.texture != nullptr && !info.texture->png.empty();
   const float roughness = (std::clamp(first.roughness, 0.0f, 1.0f) + std::clamp(second.roughness, 0.0f, 1.0f)) / 2;
-  // What the vertices' colours show, for importers that have materials of their own.
+  // The mixture in the vertices' colours, for importers with materials of their own.
   const std::string extras = !primitive.blends() ? ""
                                                  : ",\"extras\":{\"sgm\":{\"materials\":[" + quoted(first.name) + ',' +
                                                        quoted(second.name) + "],\"shareOfSecond\":\"_BLEND.w\"}}";
@@ -141,7 +141,7 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
          "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(roughness) + '}' + extras + '}';
 }
 
-/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p, a texture's picture the last one.
+/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; the last one is a texture's image.
 std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
                       size_t buffer_bytes) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +
@@ -225,7 +225,7 @@ void writePrimitive(const WorldMesh& mesh, const ExportInfo& info, const Primiti
     if (texture != nullptr) {
       const auto& [u, v] = texture->coordinates[number];
       file.writeValue(u);
-      file.writeValue(-v);  // a picture's rows go down
+      file.writeValue(-v);  // the rows of an image go down
       const ExportBlend& blend = texture->blends[number];
       file.write(blend.planes.data(), blend.planes.size());
       file.writeValue(blend.share);

@@ -8,10 +8,10 @@
 namespace sgm {
 namespace {
 
-/// What tells our libraries from others'. The first line names the generator.
+/// Identifies material libraries that this library wrote. The first line names the generator.
 constexpr const char* kSecondLine = "# origin_units ";
 
-/// usemtl and newmtl end a name at white space in many readers.
+/// Many readers end the names in usemtl and newmtl at white space.
 std::string materialWord(const ExportInfo& info, uint16_t index) {
   std::string word = oneLine(materialAt(info, index).name);
   for (char& c : word)
@@ -19,7 +19,7 @@ std::string materialWord(const ExportInfo& info, uint16_t index) {
   return word.empty() ? "material_" + std::to_string(index) : word;
 }
 
-/// Triangles in groups of one material; within a group in the mesh's order.
+/// Triangles grouped by material, in the mesh's order within a group.
 std::vector<uint16_t> usedMaterials(const WorldMesh& mesh) {
   std::vector<bool> used(size_t{1} << 16);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) used[triangleMaterial(mesh, i)] = true;
@@ -66,7 +66,7 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
       file.write(line + '\n');
     }
   }
-  // Both are whole on the disk before either takes its name, and a file never names a library that is not there yet.
+  // Both files are complete on the disk before either gets its name, and a file never refers to a missing library.
   if (Result<void> done = library.finish(); !done) return done;
   if (Result<void> done = file.finish(); !done) return done;
   if (Result<void> done = library.commitReversibly(); !done) return done;
@@ -84,7 +84,7 @@ std::string materialLibraryName(const std::filesystem::path& obj) {
     if (!plain) c = '_';
   }
   if (name == stem) return name + ".mtl";
-  // Other names may become the same one.
+  // Other names may become the same name.
   constexpr char kDigits[] = "0123456789abcdef";
   name += '_';
   const uint64_t hash = hashText(stem);
@@ -97,13 +97,13 @@ Result<void> mayReplaceLibrary(const std::filesystem::path& library) {
   std::ifstream in(library, std::ios::binary);
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<size_t>(in.gcount()));
-  // Nothing is lost of an empty one, and of what cannot be read FileWriter says why.
+  // Replacing an empty file loses nothing, and FileWriter reports why a file cannot be read.
   if (start.empty()) return {};
   const size_t second = start.find('\n') + 1;
   if (start.starts_with("# ") && start.substr(second).starts_with(kSecondLine)) return {};
   return Error{Code::io, "cannot write '" + library.string() +
-                             "', the materials of the .obj file: one that sgm did not write is there; move it away or "
-                             "choose another name"};
+                             "', the materials of the .obj file: a file that sgm did not write is there; move it away "
+                             "or choose another name"};
 }
 
 }  // namespace sgm

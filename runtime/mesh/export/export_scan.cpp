@@ -64,7 +64,7 @@ Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
 
 Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
   if (mesh.indices.size() / 3 > std::numeric_limits<uint32_t>::max()) return tooLarge(".stl");
-  // Readers take a file that begins with "solid" for text.
+  // Readers treat a file that begins with "solid" as text.
   std::string header = "binary STL, " + oneLine(info.generator) + ", origin_units " + std::to_string(mesh.origin.x) +
                        ' ' + std::to_string(mesh.origin.y) + ' ' + std::to_string(mesh.origin.z);
   header.resize(80, ' ');

@@ -1,5 +1,5 @@
 #pragma once
-// The edits of a world on disk: a head that names the world, then operations, each with its length and checksum.
+// The edits of a world on disk: a head that identifies the world, then operations with their lengths and checksums.
 
 #include <filesystem>
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Of which world a journal is.
+/// Identifies the world of a journal.
 struct WorldIdentity {
   uint64_t grammar = 0;  ///< hash of the grammar and its parameters
   uint64_t seed = 0;
@@ -18,25 +18,25 @@ struct WorldIdentity {
 
 struct OpenedJournal;
 
-/// Thread-safe. Whatever happens, the process killed or the power lost, all that was flushed is there when the file is
-/// opened again. The file is locked as long as the journal lives, so that nobody else has it open.
+/// Thread-safe. Everything that was flushed is there when the file is opened again, even after a crash of the process
+/// or a power failure. The file is locked during the journal's lifetime, so that no other process opens it.
 class EditJournal {
  public:
-  /// Opens the file, or makes it. A damaged one is kept under another name, and what stood before the damage goes on in
-  /// a new one. One in which most operations are essential no more (essentialEdits) is written anew without them.
-  /// io: not readable or writable, no room. bad_input: no journal, or one of another version or world; it stays as it
-  /// is. limit: somebody has it open, or it is larger than a gigabyte.
+  /// Opens or creates the file. A damaged file is kept under another name, and its content before the damage continues
+  /// in a new one. A file in which most operations are no longer essential (essentialEdits) is rewritten without them.
+  /// io: not readable or writable, or no room. bad_input: not a journal, or of another version or world; the file stays
+  /// as it is. limit: the file is already open, or larger than a gigabyte.
   static Result<OpenedJournal> open(const std::filesystem::path& path, const WorldIdentity& world);
 
   EditJournal(const EditJournal&) = delete;
   EditJournal& operator=(const EditJournal&) = delete;
-  ~EditJournal();  ///< flushes; whoever wants to know how that went flushes before
+  ~EditJournal();  ///< flushes; to see errors, call flush() before
 
-  /// Takes operations into memory; never waits for the disk. Throws std::bad_alloc, and none is taken.
+  /// Stores operations in memory; never waits for the disk. Throws std::bad_alloc, and then stores none.
   void append(std::span<const EditOperation> operations);
-  /// Writes what was appended, and returns when the disk has it: where it is called every second, on any thread but the
-  /// frame's, no more than that second can be lost. io: nothing is lost, and the next call tries again; the message
-  /// says how many operations the disk does not have.
+  /// Writes the appended operations, and blocks until they are on disk. Call it every second on a thread other than the
+  /// frame's; then at most that second can be lost. io: nothing is lost, and the next call tries again; the message
+  /// says how many operations are not on disk.
   Result<void> flush();
 
  private:
@@ -47,16 +47,16 @@ class EditJournal {
   std::mutex appending_, writing_;
   std::vector<std::byte> waiting_;    ///< guarded by appending_
   std::vector<std::byte> unwritten_;  ///< guarded by writing_
-  uint64_t size_;                     ///< up to here the disk has the file; guarded by writing_
+  uint64_t size_;                     ///< the size of the file on disk; guarded by writing_
 };
 
 struct OpenedJournal {
   std::unique_ptr<EditJournal> journal;
-  std::vector<EditOperation> operations;  ///< in the order in which they were written
-  uint64_t cut_bytes = 0;                 ///< of a last operation that was not written to its end: they are gone
-  size_t left_out = 0;                    ///< operations that were essential no more: they are gone
-  std::filesystem::path damaged;          ///< where the damaged file is kept; empty: it was whole
-  std::string message;                    ///< for the log, where something was not as it should be
+  std::vector<EditOperation> operations;  ///< in the order of writing
+  uint64_t cut_bytes = 0;                 ///< lost: of a last operation that was not completely written
+  size_t left_out = 0;                    ///< removed: operations that were no longer essential
+  std::filesystem::path damaged;          ///< path of the damaged file; empty: the file was intact
+  std::string message;                    ///< for the log, if something was wrong
 };
 
 }  // namespace sgm

@@ -1,9 +1,8 @@
 #pragma once
-// What must be meshed again when another field takes the place of a world's own: other parameters, or a grammar that
-// was edited.
+// Finds the chunks to mesh again when another field replaces a world's own: other parameters, or an edited grammar.
 //
-// Cells of both fields are derived and compared, group by group, but those that have read no parameter which differs.
-// So a chunk that no differing group reaches keeps its mesh, and one that a group's bounds reach is meshed again.
+// Cells of both fields are derived and compared group by group, except cells that have read no differing parameter. A
+// chunk within the bounds of a differing group is meshed again; other chunks keep their meshes.
 
 #include <cstdint>
 #include <map>
@@ -18,29 +17,30 @@
 
 namespace sgm {
 
-/// Thread-safe: a pure function of the two fields, which keeps what it has found.
+/// Thread-safe: a pure function of the two fields, with cached results.
 class FieldChange {
  public:
-  /// Of two fields with one finest cell. `to` takes over what `from` has derived (WorldField::adopt). sharp: chunks
-  /// have sharp features.
+  /// Compares two fields with the same finest cell. `to` takes over the derived cells of `from` (WorldField::adopt).
+  /// sharp: chunks have sharp features.
   FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in, bool sharp = false);
 
   const std::shared_ptr<const WorldField>& to() const { return to_; }
 
-  /// Whether the chunk's mesh, its seams or its anchors may differ. Derives the cells around it, where that has not
-  /// been done: as long as that takes. A cell that cannot be derived counts as changed.
+  /// Whether the chunk's mesh, seams or anchors may differ. Derives the cells around the chunk that are not cached, and
+  /// takes as long as that. A cell that cannot be derived counts as changed.
   bool touches(const ChunkKey& chunk) const;
 
  private:
   using Changes = std::vector<ChangedShape>;
-  /// A layer of each field with the same name and cells; or one that the other field does not have.
+  /// A layer of each field with the same name and cells; or a layer that only one field has.
   struct LayerPair {
     std::optional<uint32_t> before, after;
   };
 
   void pairLayers();
   bool shows(const LayerPair& pair, int32_t cell_edge) const;
-  /// One of the two is left out at a level that matters to chunks with cells of this edge: by its own `detail`.
+  /// Whether only one of the two is visible, by its own `detail`, at a level that matters to chunks with cells of this
+  /// edge.
   bool showsOtherwise(const LayerPair& pair, int32_t cell_edge) const;
   std::shared_ptr<const Changes> changesIn(uint32_t pair, Int3 cell) const;
   Changes compare(const LayerPair& pair, Int3 cell) const;
@@ -48,10 +48,10 @@ class FieldChange {
   const std::shared_ptr<const WorldField> from_;
   const std::shared_ptr<const WorldField> to_;
   const bool sharp_;
-  bool everything_ = false;  ///< the domain itself differs, or layers that have changed places
+  bool everything_ = false;  ///< the domain differs, or the order of layers
   std::vector<LayerPair> layers_;
-  std::vector<HostField> hosts_;  ///< of either, that the other does not have
-  mutable std::mutex mutex_;      ///< guards what follows
+  std::vector<HostField> hosts_;  ///< host fields that only one of the two has
+  mutable std::mutex mutex_;      ///< guards the following
   mutable std::map<std::pair<uint32_t, Int3>, std::shared_ptr<const Changes>> known_;
 };
 

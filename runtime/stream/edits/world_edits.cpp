@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-/// Changes that nobody has asked about are joined past this number: a world without viewers may be edited for ever.
+/// Above this number unread changes are joined: a world without viewers may be edited for ever.
 constexpr size_t kMostChanges = 4096;
 
 }  // namespace
@@ -29,7 +29,7 @@ Result<std::string> WorldEdits::open(const std::filesystem::path& path, const Wo
   return std::move(opened->message);
 }
 
-// So that a change that was made is told: nothing after the log's own change can fail.
+// Reserves first, so that every change of the log is reported: nothing after it can fail.
 void WorldEdits::makeRoom(size_t more) {
   if (changes_.size() + more > kMostChanges) {
     WorldChange all;
@@ -68,7 +68,7 @@ Result<void> WorldEdits::merge(const Merge& from) {
       changed(*boxes);
     }
   } catch (const std::bad_alloc&) {
-    // A part may have been merged, and nobody knows which.
+    // An unknown part may have been merged.
     changed({&everything, 1});
     throw;
   }
@@ -140,7 +140,7 @@ std::vector<WorldChange> WorldEdits::changedSince(uint64_t number) const {
 }
 
 void WorldEdits::forget(uint64_t number) {
-  std::vector<WorldChange> forgotten;  // freed after the mutex: a change of field holds much
+  std::vector<WorldChange> forgotten;  // freed after the mutex: a change of field is large
   const std::lock_guard lock(mutex_);
   const auto kept = std::stable_partition(changes_.begin(), changes_.end(),
                                           [number](const WorldChange& change) { return change.number <= number; });

@@ -35,16 +35,16 @@ std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, co
   return FoundBaked{std::move(*found), stored->is_far};
 }
 
-/// Of a store that is far away, what is worth more than a look at its record.
+/// Stores a part from a server in the disk cache, if it is worth more than a lookup of its record.
 void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const ChunkPart& found,
                std::pmr::memory_resource* memory) try {
   if (found.mesh.indices.empty()) return;
   cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, found.mesh, found.anchors, found.voids, memory));
 } catch (const std::bad_alloc&) {
-  // It is asked for again the next time.
+  // The part is fetched again the next time.
 }
 
-/// Of the disk cache and the stores first what is nearer.
+/// Searches the disk cache and the stores, the nearer one first.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
                                 const ChunkPartInputs& inputs, int part, Reach reach,
                                 std::pmr::memory_resource* memory) {
@@ -70,8 +70,8 @@ void leaveOut(int part, ChunkRequest& request) {
   }
 }
 
-/// Keeps what the request asks for: of a chunk that was not sampled, but proven solid or void as a whole, no part
-/// without triangles. That proof takes no longer than a file takes to read, and a tenth of what it takes to write.
+/// Stores the requested parts. If the chunk was proven solid or void without samples, empty parts are not stored: that
+/// proof takes as long as reading a file, and a tenth of writing one.
 void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& request, const PlacedChunk& chunk,
           const VoidComponents& voids, bool sampled, std::pmr::memory_resource* memory) try {
   const MeshParts meshes = partsOf(chunk.mesh);
@@ -82,7 +82,7 @@ void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& r
     cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, mesh, chunk.anchors, voids, memory));
   }
 } catch (const std::bad_alloc&) {
-  // It is meshed again the next time.
+  // The chunk is meshed again the next time.
 }
 
 void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& voids) {
@@ -103,7 +103,7 @@ ChunkRequest completed(ChunkRequest request, bool sharp) {
   return request;
 }
 
-/// None where nothing is kept of such a request.
+/// nullopt if such requests are not stored.
 std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRequest& request,
                                         const EditSnapshot* edits) {
   if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return {};
@@ -124,7 +124,7 @@ Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach rea
   return found;
 }
 
-/// What of it is what would be found now; what is not is found near.
+/// The found parts whose inputs are unchanged; the others are searched near.
 Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartInputs& inputs) {
   Parts still;
   std::optional<Parts> near;
@@ -138,9 +138,9 @@ Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartI
   return still;
 }
 
-/// One order between what there was and what is handed out.
+/// An order in progress.
 struct InWork {
-  ChunkRequest request, rest;  ///< rest: without what was found
+  ChunkRequest request, rest;  ///< rest: the parts that were not found
   const ChunkSurface* before;
   std::optional<ChunkPartInputs> inputs;
   Parts found;
@@ -173,7 +173,7 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   }
 }
 
-/// Those of the numbers, together; where that fails each half, so that one fails alone.
+/// Meshes these orders together; if that fails, each half separately, so that only the failing order gets the error.
 void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<const size_t> numbers,
               const Progress& progress, std::vector<InWork>& work) {
   if (numbers.empty()) return;
@@ -197,12 +197,12 @@ void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<co
   }
 }
 
-/// What was not there is kept, and what was there joins it.
+/// Stores the meshed parts and adds the found ones.
 void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
-    // A body from the cache was sampled, and a chunk that is drawn most likely.
+    // A body from the cache was sampled, and so, most likely, was a drawn chunk.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
     if (work.inputs && mesher.cache != nullptr)
       keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
@@ -212,8 +212,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   }
 }
 
-/// Brings to the device what it has not meshed itself: what comes from the disk, and what the CPU has meshed for it.
-/// Where it cannot, it is not there.
+/// Uploads parts that the device has not meshed itself: those from the disk, and those that the CPU has meshed for it.
+/// If that fails, they are not on the device.
 void bring(Backend& backend, std::span<InWork> all) {
   std::vector<const MeshPart*> parts;
   std::vector<std::shared_ptr<const DevicePart>*> places;
@@ -247,7 +247,7 @@ MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   return result;
 }
 
-/// For those without an error, on the job system; who is out of memory has one then.
+/// Runs the body for orders without an error, on the job system; sets out_of_memory if it throws bad_alloc.
 template <class Body>
 void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
   parallelFor(jobs, work.size(), [&](size_t i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kKeptFarther = 1.25;
 
-/// Twice the area's vector, in 1/256 of a cell, is exact in 64 bits.
+/// Twice the area vector, in 1/256 of a cell, is exact in 64 bits.
 bool hasArea(const Vertex& a, const Vertex& b, const Vertex& c) {
   const int64_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int64_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -30,7 +30,7 @@ uint64_t hashOf(const Collider& collider) {
   return hash.value();
 }
 
-/// Of what a collider is made of: chunks of which this is equal need not be looked at.
+/// A hash of the input of a collider: if it is equal, the chunk need not be processed.
 uint64_t hashOfParts(const DrawnChunk& chunk) {
   uint64_t hash = 0;
   for (size_t part = 0; part < chunk.surface->mesh.ranges.size(); ++part) {
@@ -41,7 +41,7 @@ uint64_t hashOfParts(const DrawnChunk& chunk) {
   return hash;
 }
 
-/// Chunks, and what lies in the same place at other levels.
+/// Chunks, for tests whether another chunk overlaps one of them at any level.
 class Overlaps {
  public:
   explicit Overlaps(int top) : top_(top) {}
@@ -61,7 +61,7 @@ class Overlaps {
 
  private:
   int top_;
-  ChunkSet chunks_, around_;  ///< around_: the chunks and all that hold them
+  ChunkSet chunks_, around_;  ///< around_: the chunks and all their ancestors
 };
 
 }  // namespace
@@ -131,7 +131,7 @@ bool Colliders::update(const DrawnFrame& frame, const ViewerIndex& viewers, size
     given->second = {wanted.parts, made->hash, made->bytes()};
     if (!same) changes.push_back({chunk.key, std::move(made)});
   }
-  // Nothing falls through what is replaced by chunks of another level.
+  // Keep old colliders until their replacements at another level exist, so that nothing falls through.
   Overlaps late(frame.tree.top());
   for (const Wanted& wanted : std::span(missing).subspan(count)) late.add(wanted.chunk->key);
   for (const auto& [key, given] : given_) {

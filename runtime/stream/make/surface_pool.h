@@ -1,8 +1,8 @@
 #pragma once
-// The surfaces that are alive: counted in bytes, and freed off the engine's thread.
+// Counts the bytes of living surfaces, and frees them outside of the engine's thread.
 //
-// An engine lets go of a mesh at its own point of the frame, where freeing hundreds of arrays would be felt. The last
-// owner only puts the surface on a list, which the world's jobs empty.
+// An engine releases a mesh at its own point of the frame, where freeing hundreds of arrays would be noticeable. The
+// last owner only puts the surface on a list, which the world's jobs empty.
 
 #include <atomic>
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Any thread. Lives until the last of its surfaces.
+/// Thread-safe. Lives as long as its last surface.
 class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
  public:
   explicit SurfacePool(std::pmr::memory_resource* memory) : memory_(memory) {}
@@ -21,12 +21,12 @@ class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
   /// Throws std::bad_alloc.
   std::shared_ptr<const ChunkSurface> add(ChunkSurface&& surface);
 
-  /// Frees what nobody owns any more. Returns how many.
+  /// Frees surfaces without an owner. Returns their number.
   size_t collect();
-  /// Nobody will collect any more: from now on the last owner frees.
+  /// Announces that collect() will not be called any more: from now on the last owner frees.
   void close();
 
-  size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }  ///< of all that is not freed
+  size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }  ///< of all surfaces that are not freed
   size_t peakBytes() const { return peak_bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A set of chunk names, for the octree's split nodes: asked about some hundred thousand times a plan, where
-// std::unordered_set took two thirds of the time.
+// A set of chunk keys, for the octree's split nodes. It is searched some hundred thousand times a plan, and
+// std::unordered_set took two thirds of that time.
 
 #include <algorithm>
 #include <vector>
@@ -20,7 +20,7 @@ class ChunkSet {
     }
   }
 
-  /// Whether it was not there before. Precondition: the key's level is not negative.
+  /// Returns whether the key is new. Precondition: its level is not negative.
   bool insert(const ChunkKey& key) {
     if (2 * (size_ + 1) > keys_.size()) grow();
     for (size_t i = home(key);; i = next(i)) {
@@ -32,12 +32,12 @@ class ChunkSet {
     }
   }
 
-  /// Whether it was there.
+  /// Returns whether the key was present.
   bool erase(const ChunkKey& key) {
     if (!contains(key)) return false;
     size_t hole = home(key);
     while (keys_[hole] != key) hole = next(hole);
-    // What was pushed past the hole moves back, so that no search ends too early.
+    // Move back entries that were displaced past the hole, so that no search ends too early.
     for (size_t i = next(hole); keys_[i].level != kFree; i = next(i)) {
       const size_t from_home = (i - home(keys_[i])) & (keys_.size() - 1);
       const size_t from_hole = (i - hole) & (keys_.size() - 1);
@@ -53,7 +53,7 @@ class ChunkSet {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
 
-  /// In an order that must not be seen outside.
+  /// No result may depend on the order.
   std::vector<ChunkKey> unordered() const {
     std::vector<ChunkKey> found;
     found.reserve(size_);
@@ -85,7 +85,7 @@ class ChunkSet {
     }
   }
 
-  std::vector<ChunkKey> keys_;  ///< as many as a power of two
+  std::vector<ChunkKey> keys_;  ///< the size is a power of two
   size_t size_ = 0;
 };
 

@@ -6,9 +6,9 @@ namespace sgm {
 
 namespace {
 
-/// The tree is put together from what is ready; then whatever breaks a rule, or lacks a seam, is undone. Undoing puts
-/// back committed nodes, which stay from then on, or takes away nodes that were not committed, which do not come back:
-/// so it ends, at the latest with the committed tree, in which nothing is broken.
+/// Builds the tree from everything that is ready; then undoes changes that break a rule or lack a seam. Undoing
+/// restores committed nodes, which then stay, or removes uncommitted nodes, which do not return. So it ends, at the
+/// latest with the committed tree, which breaks no rule.
 class StepSearch {
  public:
   StepSearch(const Octree& committed, const Octree& target, const Readiness& ready)
@@ -38,7 +38,7 @@ class StepSearch {
   bool isVirtual(const ChunkKey& node) const { return node.level > target_.top(); }
   bool canBeLeaf(const ChunkKey& node) const { return isVirtual(node) || ready_.body(node); }
 
-  /// Whether the target's part in this node could be drawn, with coarser chunks standing in where they are ready.
+  /// Whether the target's part in this node can be drawn, with ready coarser chunks as stand-ins.
   bool canPlace(const ChunkKey& node) const {
     if (committed_.isSplit(node) || canBeLeaf(node)) return true;
     return target_.isSplit(node) && canPlaceChildren(node);
@@ -51,7 +51,7 @@ class StepSearch {
     return true;
   }
 
-  /// Precondition: canPlace(node), and all that hold it are split in the plan.
+  /// Precondition: canPlace(node), and all ancestors are split in the plan.
   void place(const ChunkKey& node) {
     Octree& tree = plan_.tree;
     if (target_.isSplit(node) && canPlaceChildren(node)) {
@@ -59,12 +59,12 @@ class StepSearch {
       for (int i = 0; node.level > 1 && i < 8; ++i) place(childOf(node, i));
       return;
     }
-    // Wanted whole, but not there yet: what is drawn stays. Wanted split, but not all there: likewise, or the stand-in.
+    // A wanted leaf is not ready: the drawn chunks stay. A wanted split is not complete: they stay too, or a stand-in.
     const bool keeps = target_.isSplit(node) ? committed_.isSplit(node) : !canBeLeaf(node);
     if (!keeps) tree.merge(node);
   }
 
-  /// Puts back what is committed at the highest node, holding this one, that the plan has merged.
+  /// Restores the committed content of the highest merged ancestor of this node.
   void restore(ChunkKey node) {
     while (!isVirtual(node) && !plan_.tree.isSplit(parentOf(node))) node = parentOf(node);
     restoreBelow(node);
@@ -76,7 +76,7 @@ class StepSearch {
     for (int i = 0; node.level > 1 && i < 8; ++i) restoreBelow(childOf(node, i));
   }
 
-  /// Takes away an uncommitted split: the nearest node that holds it and can be drawn whole becomes a leaf.
+  /// Removes an uncommitted split: the nearest ancestor that can be drawn as a leaf becomes one.
   void coarsen(ChunkKey node) {
     while (!canBeLeaf(node)) node = parentOf(node);
     plan_.tree.merge(node);
@@ -114,7 +114,7 @@ class StepSearch {
       plan_.missing.push_back({leaf, missing});
       if (!committed_.isLeaf(leaf)) {
         undone = true;
-        // New here: by a split above it, or by a merge of what is drawn.
+        // This leaf is new: by a split above it, or by a merge of drawn chunks.
         if (committed_.isSplit(leaf)) {
           restore(leaf);
         } else {
@@ -122,7 +122,7 @@ class StepSearch {
         }
         continue;
       }
-      // Drawn already: across a face something was merged.
+      // This leaf is drawn already: a merge happened across one of its faces.
       for (int face = 0; face < 6; ++face) {
         if (!(missing >> face & 1)) continue;
         ChunkKey neighbour = leaf;

@@ -1,5 +1,5 @@
 #pragma once
-// The next frame: as much of the wanted octree as can be drawn now, closed by its seams, and nothing half done.
+// The next frame: as much of the wanted octree as can be drawn now, closed by its seams, with no partial change.
 
 #include <functional>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// What is there to draw. Asked about chunks of the committed tree, of the target and of what lies between them;
-/// answers must not change during one call.
+/// Tells what can be drawn. Called for chunks of the committed tree, of the target, and between them; answers must not
+/// change during one call of planCommit.
 struct Readiness {
   std::function<bool(const ChunkKey&)> body;
   /// The seams of a ready chunk that can be drawn, bit (1 << Face).
@@ -22,14 +22,14 @@ struct MissingSeams {
 };
 
 struct CommitPlan {
-  Octree tree;  ///< closed under the rules; every leaf's body and needed seams are ready
-  /// Seams that kept something from being committed.
+  Octree tree;  ///< satisfies the rules; the body and needed seams of every leaf are ready
+  /// Seams whose absence prevented a commit.
   std::vector<MissingSeams> missing;
 };
 
-/// The octree nearest to the target that can replace the committed one in one step. Wherever not everything is ready
-/// the committed chunks stay, or a coarser chunk that is ready stands in for finer ones that are not.
-/// Preconditions: both trees keep the rules and have the same top; the committed tree's leaves and seams are ready.
+/// Returns the octree nearest to the target that can replace the committed one in one step. Where something is not
+/// ready, the committed chunks stay, or a ready coarser chunk stands in for finer ones. Preconditions: both trees
+/// satisfy the rules and have the same top; the committed tree's leaves and seams are ready.
 CommitPlan planCommit(const Octree& committed, const Octree& target, const Readiness& ready);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes that an octree draws: each leaf's body, and the seams towards coarser leaves and the outer virtual ones.
+// The meshes of an octree: each leaf's body, and the seams towards coarser leaves and outer virtual nodes.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// One request a leaf, in the order of Octree::leaves(), each with exactly the seams that are drawn. What comes of them
-/// is together a closed surface: the outer faces are cut off against the domain's own state.
+/// Returns one request for each leaf, in the order of Octree::leaves(), with exactly the drawn seams. Together the
+/// meshes form a closed surface: the outer faces are closed against the domain's own state.
 std::vector<ChunkRequest> frameRequests(const Octree& tree);
 
 }  // namespace sgm

@@ -14,11 +14,11 @@ double edgeOf(int level, int32_t finest_cell) {
   return static_cast<double>(int64_t{kChunkCells} * finest_cell << level);
 }
 
-/// Splits what viewers want split. Each node is asked for those viewers alone that are near enough to want something in
-/// it: found once for a virtual node, and fewer from level to level.
+/// Splits the nodes that viewers want split. Each node tests only the viewers near enough to want detail in it: these
+/// are found once for a virtual node, and filtered from level to level.
 class TargetBuilder {
  public:
-  /// near: the distance within which all levels are split; 0: each has its own.
+  /// near: the distance within which all levels are split; 0: each level has its own.
   TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, double near,
                 const ChunkSet* finest)
       : tree_(tree), viewers_(viewers), settings_(settings), near_(near), finest_(finest) {}
@@ -65,7 +65,7 @@ class TargetBuilder {
     }
   }
 
-  /// Within which distance a node of this level must not be drawn whole.
+  /// The distance within which a node of this level must be split.
   double splitDistance(int level) const {
     if (near_ > 0) return near_;
     if (level > settings_.top) return settings_.view_distance;
@@ -77,7 +77,7 @@ class TargetBuilder {
     return distanceToChunk(of.position, node, settings_.finest_cell) < within * of.reach;
   }
 
-  /// By one of the askers from this place on.
+  /// Whether one of the askers from this index on wants the node split.
   bool wanted(const ChunkKey& node, size_t first) const {
     if (node.level == 1 && finest_ != nullptr && !finest_->contains(node)) return false;
     const double within = splitDistance(node.level);
@@ -105,7 +105,7 @@ class TargetBuilder {
   const LodSettings& settings_;
   double near_;
   const ChunkSet* finest_;
-  std::vector<uint32_t> askers_;  ///< of the node at work, behind those of the nodes that hold it
+  std::vector<uint32_t> askers_;  ///< viewers of the current node, after those of its ancestors
 };
 
 /// near: as TargetBuilder's.
@@ -116,7 +116,7 @@ Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings,
   return tree;
 }
 
-/// How many cubes of an edge a ball meets, at most.
+/// An upper bound of the number of cubes with this edge that a ball meets.
 double cubesInBall(double radius, double edge) {
   constexpr double kHalfDiagonal = 0.8660254;
   return 4.0 / 3.0 * 3.141592653589793 * std::pow(radius / edge + kHalfDiagonal, 3);

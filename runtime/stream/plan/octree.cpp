@@ -99,7 +99,7 @@ void refineToRules(Octree& tree) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const ChunkKey& node : tree.splitNodes()) {
-      if (!tree.isSplit(node)) continue;  // merged on the way
+      if (!tree.isSplit(node)) continue;  // merged meanwhile
       broken.clear();
       findBrokenRules(tree, node, broken);
       for (const BrokenRule& rule : broken) {

@@ -1,13 +1,13 @@
 #pragma once
-// Which chunks are drawn: an octree of chunks that keeps the two rules under which seams close it.
+// The octree of drawn chunks. It keeps two rules under which seams close the surface.
 //
-// Nodes are named as chunks are. A node of level l is split where chunks finer than l are drawn in its place. The
-// coarsest meshes are of level `top`; one level above stand the virtual nodes, which fill the whole world, have no mesh
-// and whose field is the domain's own state, everywhere the same. A virtual node that is not split is the outer
-// neighbour of what is drawn: the seam to it closes the outer faces, by the very rule that joins two levels.
+// Nodes have chunk keys. A node of level l is split if finer chunks are drawn in its place. The coarsest meshes have
+// level `top`. One level above are the virtual nodes, which fill the whole world and have no mesh; their field is the
+// domain's own state, the same everywhere. An unsplit virtual node is an outer neighbour of the drawn chunks: the seam
+// towards it closes the outer faces by the rule that joins two levels.
 //
-// The rules (mesh/seam.h): chunks that share a face differ by one level at most, and around an edge of the grid of a
-// level split and unsplit nodes never stand crosswise.
+// The rules (mesh/seam.h): the levels of chunks that share a face differ by at most one, and around an edge of a
+// level's grid split and unsplit nodes never alternate crosswise.
 
 #include <vector>
 
@@ -27,18 +27,18 @@ class Octree {
   bool isSplit(const ChunkKey& node) const { return split_.contains(node); }
   /// Whether this chunk is drawn.
   bool isLeaf(const ChunkKey& node) const { return node.level <= top_ && isSplit(parentOf(node)) && !isSplit(node); }
-  /// The chunk drawn at a place, units; of the top level where the virtual node there is not split.
+  /// The chunk drawn at a place, units; of the top level if the virtual node there is not split.
   ChunkKey leafAt(Int3 place) const;
   /// Whether split() would accept the node.
   bool canSplit(const ChunkKey& node) const;
   bool empty() const { return split_.empty(); }
 
-  /// Splits a node and all that hold it. False, and nothing changes, where canSplit() says no.
+  /// Splits a node and all its ancestors. If canSplit() is false, returns false and changes nothing.
   bool split(ChunkKey node);
-  /// Unsplits a node and all nodes in it.
+  /// Unsplits a node and all its descendants.
   void merge(const ChunkKey& node);
 
-  /// The chunks drawn, by virtual node, then in the order of childOf().
+  /// The drawn chunks, by virtual node, then in the order of childOf().
   std::vector<ChunkKey> leaves() const;
   /// The split nodes, coarsest first, then by place.
   std::vector<ChunkKey> splitNodes() const;
@@ -48,12 +48,12 @@ class Octree {
  private:
   int top_;
   int32_t finest_cell_;                            ///< units
-  int32_t first_virtual_ = 0, last_virtual_ = -1;  ///< places, on every axis, of virtual nodes inside the world
+  int32_t first_virtual_ = 0, last_virtual_ = -1;  ///< coordinates, on every axis, of virtual nodes inside the world
   ChunkSet split_;
 };
 
-/// What breaks a rule next to a split node: `needed` would have to be split too. Around an edge, `or_else` would do as
-/// well, or not to split `across`; where two faces meet they are all the same node.
+/// A broken rule next to a split node: `needed` should be split, too. Around an edge it would also help to split
+/// `or_else` or to unsplit `across`; for two faces all three are the same node.
 struct BrokenRule {
   ChunkKey needed, or_else, across;
 };
@@ -61,14 +61,14 @@ struct BrokenRule {
 /// Appends the rules that a split node breaks.
 void findBrokenRules(const Octree& tree, const ChunkKey& node, std::vector<BrokenRule>& broken);
 
-/// Splits further nodes until both rules hold; where the world's end forbids that, merges the finer side.
+/// Splits further nodes until both rules hold; if the world's end prevents that, merges the finer side.
 void refineToRules(Octree& tree);
 
-/// Faces of a drawn chunk across which a coarser one lies, virtual ones included: those whose seam is drawn.
+/// The faces of a drawn chunk that border a coarser one, including virtual nodes: their seams are drawn.
 /// Bit (1 << Face).
 uint8_t coarserFaces(const Octree& tree, const ChunkKey& leaf);
 
-/// The blocks around a drawn chunk that belong to coarser ones, virtual ones included.
+/// The blocks around a drawn chunk that belong to coarser chunks, including virtual nodes.
 Neighbourhood coarserBlocks(const Octree& tree, const ChunkKey& leaf);
 
 }  // namespace sgm

@@ -8,27 +8,27 @@ namespace sgm {
 
 namespace {
 
-/// The share of the memory's cap up to which surfaces are kept that nobody uses now.
+/// The share of the memory limit up to which unused surfaces are kept.
 constexpr double kKeptShare = 0.6;
-/// Of what is used: above this share detail is lowered, below that one it comes back. Their ratio is more than what one
-/// step changes, so that detail does not swing.
+/// Shares of the memory limit that the used surfaces take: above the first, detail is lowered; below the second, it is
+/// raised again. Their ratio exceeds the effect of one step, so that detail does not oscillate.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
-/// Above this share edits wait, for what is drawn has no room to be there twice, before them and after.
+/// Above this share edits wait, since drawn chunks have no room for both their old and new version.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
-/// Of what viewers ask for in vain, where it cannot be planned for.
+/// The least factor on the requested reach, if it cannot be planned for.
 constexpr double kLeastReach = 1e-6;
-/// Of the finest distance, where no collider says what is near.
+/// The share of the finest distance that is near, if there are no colliders.
 constexpr double kNearShare = 2.0 / 3;
-/// Plans from one count of what is wanted to the next, where memory is not scarce.
+/// Plans between two counts of the wanted chunks, while memory is not short.
 constexpr uint64_t kPlansToTally = 16;
-/// With so many nodes to stand on, a first picture of all comes before them: half a second's work and more. It has
-/// cells of level kPictureLevel, and so a 64th of the chunks.
+/// With this many nodes needed to stand on (half a second of work and more), a coarse picture of all comes first. It
+/// has cells of level kPictureLevel, and so a 64th of the chunks.
 constexpr size_t kCrowd = 1024;
 constexpr int kPictureLevel = 3;
-/// Chunks that nobody wants are kept up to twice as many as are wanted, and so many more.
+/// Up to twice as many chunks as wanted are kept, and this many more.
 constexpr size_t kKeptBeside = 1024;
-/// Plans after a change of detail before the next.
+/// Plans between two changes of detail.
 constexpr uint64_t kPlansToSettle = 20;
 
 }  // namespace
@@ -102,7 +102,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
     KnownChunk& record = store_.at(leaf);
     if (edits_drawn_ == edits_.number) {
       record = knownOfDrawn(leaf);
-    } else {  // which of them are out of date is forgotten
+    } else {  // it is unknown which chunks are out of date
       record.edited = edits_.number;
       record.ever_drawn = true;
     }
@@ -127,7 +127,7 @@ void Planner::learnApplied(uint64_t number) {
   offered_.clear();
   step_ = nullptr;
   changed_ = true;
-  // Of a step that was taken late something may have been forgotten since.
+  // If the step was taken late, some of its records may have been forgotten.
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
     KnownChunk& record = store_.at(leaf);
     record.ever_drawn = true;
@@ -156,14 +156,14 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
       continue;
     }
     if (chunk.error) {
-      // Scarce memory may come back; anything else would fail again.
+      // Memory may become available; any other error would recur.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
       record.failed = true;
       ++stats_.failed;
       plan.failed.push_back({chunk.request.key, std::move(*chunk.error)});
       continue;
     }
-    // After a restart two may be on their way: the later one knows nothing of what the earlier one brought.
+    // After a restart two results may arrive: the later one does not include the earlier one.
     if (chunk.request.body ? record.body : record.surface != chunk.before) continue;
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
@@ -218,7 +218,7 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
     places.push_back(viewer.position);
     reach = std::max(reach, viewer.reach);
   }
-  // A node is split as a whole: chunks of it lie farther away than the node does.
+  // A node is split as a whole: some of its chunks lie farther away than the node itself.
   const double radius = lod.finest_distance * reach + 2.0 * kChunkCells * lod.finest_cell;
   const VoidLookup voids = [this](const ChunkKey& key) -> const VoidComponents* {
     const KnownChunk* record = store_.find(key);
@@ -252,7 +252,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   const bool moves = tree && *tree != applied_->tree;
   if (!tree || (!moves && edits_drawn_ == edits_.number)) return nullptr;
   auto frame = std::make_shared<DrawnFrame>(drawFrame(*tree, [this](const ChunkKey& key, uint8_t seams) {
-    // What an engine has already it keeps, where it holds all that is drawn.
+    // Keep the engine's surface if it has all drawn content.
     std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
     const KnownChunk& record = *store_.find(key);
     const bool same = drawn != nullptr && (record.edited <= edits_drawn_ ||
@@ -263,7 +263,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   step->from = applied_->number;
   step->changes = changesBetween(*applied_, *frame);
   if (!moves && step->changes.empty()) {
-    edits_drawn_ = edits_.number;  // they have changed nothing that is drawn
+    edits_drawn_ = edits_.number;  // they changed nothing that is drawn
     return nullptr;
   }
   frame->number = ++frames_;
@@ -296,7 +296,7 @@ void Planner::requestCoarse(std::vector<WorkItem>& queue) {
   for (const OctreeNode& node : target_nodes_) {
     if (node.key.level < kPictureLevel || drawn.isSplit(node.key) || drawn.isLeaf(node.key)) continue;
     any = true;
-    // As far as others are drawn when it is.
+    // With the seams for the chunks that are drawn around it.
     request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::coarse, queue);
   }
   if (!any) return;
@@ -309,7 +309,7 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   if (near_nodes_.size() > kCrowd) requestCoarse(queue);
   for (const OctreeNode& node : near_nodes_) {
     if (node.split || drawn.isSplit(node.key)) continue;
-    // What stands in for finer chunks is worth its time only where what is drawn is coarser still.
+    // A stand-in for finer chunks is worth its time only if the drawn chunk is coarser still.
     const bool stands_in = target_.isSplit(node.key);
     if (!stands_in || !drawn.isLeaf(parentOf(node.key))) request(node.key, node.faces, Rank::near, queue);
   }
@@ -317,8 +317,8 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
     if (!node.split) {
       request(node.key, node.faces, Rank::other, queue);
     } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
-      // What is drawn leads to the target in steps: a node that is to be split, and is not even drawn whole, stands in
-      // until all that is in it is there.
+      // The tree goes from the drawn one to the target in steps: a node to be split that is not even drawn whole stands
+      // in until everything in it is ready.
       request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::other, queue);
     }
   }

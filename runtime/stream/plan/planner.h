@@ -1,8 +1,8 @@
 #pragma once
-// What a world does next: which chunks to mesh, in which order, and which frame to draw of those that are there.
+// Decides what a world does next: which chunks to mesh, in which order, and which of the finished chunks to draw.
 //
-// One thread at a time. Everything comes in by plan() and goes out by its answer; whoever calls it runs the jobs and
-// hands frames to the engine (world.h).
+// One thread at a time. plan() takes all input and returns all output; the caller runs the jobs and passes frames to
+// the engine (world.h).
 
 #include <array>
 #include <chrono>
@@ -21,35 +21,35 @@ namespace sgm {
 
 struct Look;
 
-/// A request handed out, and come back.
+/// A request for a chunk with its priority.
 struct WorkItem {
   ChunkRequest request;
-  std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
-  /// All of one rank come before those of the next.
+  std::shared_ptr<const ChunkSurface> before;  ///< for requests of seams only
+  /// All requests of one rank come before those of the next.
   enum class Rank : uint8_t {
-    edited,  ///< what is drawn of it is out of date
-    coarse,  ///< of many viewers' first picture, the coarsest level first
-    near,    ///< it takes this to stand where a viewer is
+    edited,  ///< the drawn version is out of date
+    coarse,  ///< coarse first picture for a crowd of viewers, coarsest level first
+    near,    ///< needed to stand where a viewer is
     other,
   };
   static constexpr size_t kRanks = 4;
   Rank rank = Rank::other;
   double urgency = 0;  ///< smaller first
 
-  // Where stores are far (work_queue.h).
-  std::shared_ptr<Look> look;                            ///< null: nobody has begun one
-  std::chrono::steady_clock::time_point in_sight_since;  ///< among those that are looked for
+  // For stores on a server (work_queue.h).
+  std::shared_ptr<Look> look;                            ///< null: no prefetch has begun
+  std::chrono::steady_clock::time_point in_sight_since;  ///< when it became one of the requests to prefetch
 };
 
 struct FinishedChunk {
   ChunkRequest request;
-  uint64_t edits = 0;                           ///< number of the state that it was meshed under
-  std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: what `surface` adds to
+  uint64_t edits = 0;                           ///< number of the state under which it was meshed
+  std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: the surface that `surface` extends
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
-  std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
-  uint32_t rounded = 0;                         ///< cells whose sharp features the body does not have
-  bool from_disk = false;                       ///< all that the request asks for came from the disk cache
-  std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
+  std::unique_ptr<const VoidComponents> voids;  ///< if the request asks for signs
+  uint32_t rounded = 0;                         ///< cells whose sharp features are missing in the body
+  bool from_disk = false;                       ///< everything requested came from the disk cache
+  std::optional<Error> error;                   ///< cancelled: it never began, and may be requested again
 };
 
 struct FailedChunk {
@@ -59,7 +59,7 @@ struct FailedChunk {
 
 /// One atomic step of what is drawn.
 struct FrameStep {
-  uint64_t from = 0;  ///< number of the frame that it starts from
+  uint64_t from = 0;  ///< number of the frame before the step
   std::shared_ptr<const DrawnFrame> to;
   std::vector<FrameChange> changes;
 };
@@ -69,64 +69,64 @@ struct PlanInput {
   std::vector<FinishedChunk> finished;
   std::vector<ChunkKey> begun;  ///< handed out since the last plan
   uint64_t applied = 0;         ///< number of the frame that the engine draws
-  /// Numbers of frames, 0: none, that it may be about to draw, beside that of the last plan's step.
+  /// Numbers of frames (0: none) that the engine may be about to draw, beside that of the last plan's step.
   std::array<uint64_t, 2> in_hand{};
-  WorldState edits;                 ///< the latest
-  std::vector<WorldChange> edited;  ///< what has changed since Planner::edits()
-  size_t live_bytes = 0;            ///< of all surfaces, the engine's own included
-  size_t collider_bytes = 0;        ///< that come on top
+  WorldState edits;                 ///< the current state
+  std::vector<WorldChange> edited;  ///< changes since Planner::edits()
+  size_t live_bytes = 0;            ///< of all surfaces, including the engine's
+  size_t collider_bytes = 0;        ///< in addition to live_bytes
 };
 
 struct Plan {
-  std::vector<WorkItem> queue;            ///< everything to be meshed that is not being meshed, the most urgent last
-  WorldState edits;                       ///< to mesh the queue under
-  std::shared_ptr<const FrameStep> step;  ///< the next frame; null where what is drawn is the best there is
+  std::vector<WorkItem> queue;            ///< all chunks to mesh that are not in work, most urgent last
+  WorldState edits;                       ///< the state under which to mesh the queue
+  std::shared_ptr<const FrameStep> step;  ///< the next frame; null if the drawn one is the best possible
   std::vector<FailedChunk> failed;        ///< since the last plan
-  bool idle = false;                      ///< nothing to mesh, nothing to draw: what the viewers want is there
+  bool idle = false;                      ///< nothing to mesh or draw: everything that the viewers want is there
 };
 
 struct PlannerSettings {
   LodSettings lod;
-  size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
-  double all_around = 0;                  ///< as urgencyFor()'s: where colliders are wanted
-  bool by_reach = true;                   ///< level 0 only where a viewer's void leads to (reachability.h)
+  size_t mesh_bytes = size_t{256} << 20;  ///< limit for surfaces
+  double all_around = 0;                  ///< as in urgencyFor(): the distance for colliders
+  bool by_reach = true;                   ///< level 0 only where a viewer's void leads (reachability.h)
   bool sharp = false;                     ///< chunks have sharp features
 };
 
 struct PlannerStats {
   uint64_t meshed = 0;       ///< chunks whose body came back
   uint64_t finest = 0;       ///< of these, those of level 0
-  uint64_t rounded = 0;      ///< cells of theirs that keep rounded edges
-  uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
-  uint64_t outdated = 0;     ///< chunks that were there, and that a change had meshed again
-  uint64_t edited = 0;       ///< requests that came back after edits had changed their chunk
-  uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
+  uint64_t rounded = 0;      ///< cells of all these that keep rounded edges
+  uint64_t seam_jobs = 0;    ///< finished requests for seams only
+  uint64_t outdated = 0;     ///< chunks that a change had meshed again
+  uint64_t edited = 0;       ///< requests that finished after edits had changed their chunk
+  uint64_t never_drawn = 0;  ///< meshed chunks that were never drawn, and are not wanted
   uint64_t failed = 0;
   size_t records = 0;         ///< chunks known
-  size_t record_bytes = 0;    ///< of what is known of them, without their surfaces
-  size_t drawn = 0;           ///< chunks drawn that have triangles
-  uint64_t edits_drawn = 0;   ///< number of the state that is drawn
-  uint64_t edits_failed = 0;  ///< of one that cannot be drawn, as a chunk of it cannot be made; 0: none
-  double detail = 1;          ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
+  size_t record_bytes = 0;    ///< memory of their records, without surfaces
+  size_t drawn = 0;           ///< drawn chunks with triangles
+  uint64_t edits_drawn = 0;   ///< number of the drawn state
+  uint64_t edits_failed = 0;  ///< number of a state that cannot be drawn, since a chunk of it failed; 0: none
+  double detail = 1;          ///< factor on the distances for detail: below 1 if memory is short
 };
 
 class Planner {
  public:
   explicit Planner(const PlannerSettings& settings, WorldState first = {});
 
-  /// Throws std::bad_alloc; then what it knows is not whole any more, and restart() must come before the next plan.
+  /// Throws std::bad_alloc; then the planner's data is inconsistent, and restart() must come before the next plan.
   Plan plan(PlanInput&& input);
-  /// Forgets everything but what is drawn.
+  /// Forgets everything except the drawn frame.
   void restart(std::shared_ptr<const DrawnFrame> drawn);
 
   const PlannerStats& stats() const { return stats_; }
   const DrawnFrame& applied() const { return *applied_; }
-  /// The state that chunks are meshed under now.
+  /// The state under which chunks are meshed now.
   const WorldState& edits() const { return edits_; }
 
  private:
   using Rank = WorkItem::Rank;
-  /// A node that has a mesh, and its seams if it is drawn.
+  /// A node with a mesh, and its seams if it is drawn.
   struct OctreeNode {
     ChunkKey key;
     uint8_t faces = 0;
@@ -134,25 +134,25 @@ class Planner {
   };
 
   void learnApplied(uint64_t number);
-  /// Forgets steps that were offered, and that nobody can take any more.
+  /// Forgets offered steps that can no longer be taken.
   void forgetOffers(const std::array<uint64_t, 2>& in_hand);
-  /// Edits are taken up state by state: the next one when the one before is drawn, and a step that was offered is
-  /// taken. So a frame shows one state, a change waits for two frames of changes at most, and however many there are,
-  /// what is to be meshed again is what is drawn. While nothing is drawn they wait for the first frame: each of them
-  /// would have its coarsest chunks meshed again, and it would never come.
+  /// Takes up edits state by state: the next state when the previous one is drawn and no offered step is open. So a
+  /// frame shows one state, a change waits for at most two frames of changes, and only drawn chunks are meshed again,
+  /// however many edits there are. Before the first frame edits wait, since each would have the coarsest chunks meshed
+  /// again, and the frame would never come.
   void takeUpEdits(PlanInput& input);
-  /// Goes back to the state that is drawn.
+  /// Returns to the drawn state.
   void giveEditsBack();
-  /// For want of memory to mesh what is drawn once more: until less detail is drawn.
+  /// Waits with the edits until less detail is drawn, since memory is too short to mesh the drawn chunks again.
   void postponeEdits();
   void invalidate(std::span<const WorldChange> changes);
   void findOutdated();
   bool isReady(const ChunkKey& chunk, uint8_t seams) const;
-  /// What comes nearest to the target of what is ready; none: what is drawn must stay.
+  /// The ready tree that is nearest to the target; nullopt: the drawn tree must stay.
   std::optional<Octree> nextTree();
   void take(std::vector<FinishedChunk>& finished, Plan& plan);
   bool canLowerDetail() const;
-  /// Whether detail must be lowered yet.
+  /// Returns whether detail must still be lowered.
   bool keepToBudget(size_t live_bytes, size_t collider_bytes);
   void retarget(std::span<const Viewer> viewers);
   ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
@@ -161,44 +161,44 @@ class Planner {
   void requestCoarse(std::vector<WorkItem>& queue);
   double nearDistance() const;
   static void listNodes(const Octree& tree, std::vector<OctreeNode>& nodes);
-  /// Asks for what is not there yet, with what this plan asks for it already.
+  /// Requests the missing parts of a chunk; combines them with a request of this plan.
   void request(const ChunkKey& key, int seams, Rank rank, std::vector<WorkItem>& queue);
-  /// What is known of a chunk that is drawn.
+  /// The record of a drawn chunk.
   KnownChunk knownOfDrawn(const ChunkKey& leaf) const;
-  /// Counts what is wanted now, and what is not.
+  /// Counts the chunks that are wanted now, and those that are not.
   void tally();
-  /// Forgets chunks that nobody wants until so many bytes are freed, and they are not many more than those wanted.
-  /// Precondition: tally() comes before.
+  /// Forgets unwanted chunks until this many bytes are freed and few more chunks than the wanted ones are left.
+  /// Precondition: tally() was called.
   void forget(size_t bytes);
 
   PlannerSettings settings_;
   ChunkStore store_;
   ViewerIndex viewers_;
-  std::vector<LodViewer> targeted_;  ///< what target_ was made for
+  std::vector<LodViewer> targeted_;  ///< the viewers of target_
   double targeted_detail_ = 0;
-  ChunkSet reached_;            ///< level-1 nodes with chunks that the viewers' void leads to
-  bool voids_changed_ = false;  ///< since reached_ was found
+  ChunkSet reached_;            ///< level-1 nodes with chunks reachable through the viewers' void
+  bool voids_changed_ = false;  ///< since reached_ was computed
   Octree target_;
   std::vector<OctreeNode> target_nodes_, near_nodes_;
   std::shared_ptr<const DrawnFrame> applied_;
-  std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
-  std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to that may be taken
+  std::shared_ptr<const FrameStep> step_;                   ///< the last offered step, not known to be taken
+  std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< frames of steps from applied_ that may still be taken
   std::vector<MissingSeams> missing_;
   WorldState edits_;
   uint64_t edits_drawn_ = 0;        ///< the state that applied_ shows
-  uint64_t oldest_edits_ = 0;       ///< what was meshed under an earlier state is not taken
-  std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
-  WorldState edits_before_;         ///< before edits_ was taken up
+  uint64_t oldest_edits_ = 0;       ///< results meshed under an earlier state are rejected
+  std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not yet as in edits_
+  WorldState edits_before_;         ///< the state before edits_ was taken up
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
-  double room_beside_ = 0;          ///< the share of memory that this may take then
-  uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made
-  bool awaited_ = false;            ///< the last plan had a chunk to mesh, one in work or a step to be drawn
-  bool edited_first_ = false;       ///< while the first frame was awaited, edits were taken up
-  bool changed_ = true;             ///< since the last step was looked for
+  double room_beside_ = 0;          ///< the share of memory that the drawn chunks may take then
+  uint64_t edits_failed_ = 0;       ///< a state that is not drawn, since a chunk of it failed
+  bool awaited_ = false;            ///< the last plan had a chunk to mesh, one in work, or a step to draw
+  bool edited_first_ = false;       ///< edits were taken up while the first frame was awaited
+  bool changed_ = true;             ///< since the last search for a step
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
-  size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for
-  size_t wanted_ = 0;        ///< how many chunks that is
+  size_t wanted_bytes_ = 0;  ///< of the chunks that the last plan used
+  size_t wanted_ = 0;        ///< number of these chunks
   PlannerStats stats_;
 };
 

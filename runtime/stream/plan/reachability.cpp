@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kUnreached = std::numeric_limits<uint32_t>::max();
 
-/// One viewer's flood, over the cube of chunks that holds its ball.
+/// Flood fill from one viewer, over the cube of chunks around its ball.
 class VoidFlood {
  public:
   VoidFlood(const std::array<double, 3>& viewer, double radius, int32_t finest_cell, const VoidLookup& voids)
@@ -61,10 +61,10 @@ class VoidFlood {
   struct Void {
     Int3 at;
     int number = 0;
-    uint32_t steps = 0;  ///< of this void, not of its chunk, which may have another that is nearer
+    uint32_t steps = 0;  ///< to this void; another void of its chunk may be nearer
   };
 
-  /// The last chunk of the world, which its end cuts off, is not there; nor is anything beyond.
+  /// The world's last chunk is cut off by its end and omitted, as is everything beyond.
   int32_t placeOf(double units) const {
     const double first = -std::floor(2147483648.0 / static_cast<double>(edge_));
     const double last = std::floor(2147483647.0 / static_cast<double>(edge_)) - 1;
@@ -72,7 +72,7 @@ class VoidFlood {
   }
   ChunkKey keyAt(Int3 at) const { return {0, {first_.x + at.x, first_.y + at.y, first_.z + at.z}}; }
 
-  /// Null beyond the ball.
+  /// Null outside of the ball.
   Chunk* chunkAt(Int3 place) {
     const Int3 at{place.x - first_.x, place.y - first_.y, place.z - first_.z};
     if (std::min({at.x, at.y, at.z}) < 0 || at.x >= size_.x || at.y >= size_.y || at.z >= size_.z) return nullptr;

@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-constexpr double kOutOfSight = 4;  ///< factor on how wide a cell may look that the picture does not show
+constexpr double kOutOfSight = 4;  ///< factor on cell_angle for nodes outside of the picture
 
 class ViewTree {
  public:

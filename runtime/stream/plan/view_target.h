@@ -1,5 +1,5 @@
 #pragma once
-// Which octree a single picture wants: cells that look equally large at every distance.
+// The octree for a single picture: cells look equally large at every distance.
 
 #include <array>
 
@@ -7,21 +7,21 @@
 
 namespace sgm {
 
-/// A camera that takes one picture. Units, from the world's origin; everything finite.
+/// The camera of one picture. In units from the world's origin; all values are finite.
 struct PictureView {
   std::array<double, 3> position{};
   std::array<double, 3> direction{0, 0, -1};  ///< of any length above 0
-  double half_angle = 0.6;                    ///< radians, above 0: from the direction to the picture's corners
-  double cell_angle = 0.003;                  ///< radians, above 0: the widest that a cell may look
+  double half_angle = 0.6;                    ///< radians, above 0: between the direction and the picture's corners
+  double cell_angle = 0.003;                  ///< radians, above 0: the largest angle under which a cell may appear
 };
 
-/// How often cells of `coarsest` units are halved, so that one at `nearest` units from the camera looks no wider than
-/// the view asks. The halved cells are at least `finest` units wide. 0..kMaxLevel.
+/// How often to halve cells of `coarsest` units so that a cell at `nearest` units from the camera appears no larger
+/// than the view allows. The halved cells are at least `finest` units wide. 0..kMaxLevel.
 int halvingsFor(const PictureView& view, int32_t coarsest, int32_t finest, double nearest);
 
-/// The tree that has split all virtual nodes that meet the region or touch one that does, and in the region all nodes
-/// whose cells look too wide; those that the picture does not show may look four times as wide, since light and
-/// reflections alone find them. top: level of the coarsest chunks; finest_cell: edge of a level-0 cell, units.
+/// Returns the tree with all virtual nodes split that meet the region or touch such a node, and all nodes in the region
+/// split whose cells appear too large. Nodes outside of the picture may appear four times as large, since only light
+/// and reflections reach them. top: level of the coarsest chunks; finest_cell: edge of a level-0 cell, units.
 Octree viewTarget(const PictureView& view, const IntBox& region, int top, int32_t finest_cell);
 
 }  // namespace sgm

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFastest = 10000.0 * kUnitsPerMetre;
 constexpr int kStepsOfChunk = 8;
-/// How much longer what lies straight behind a viewer waits than what it looks at.
+/// How much longer a chunk straight behind a viewer waits than one straight ahead.
 constexpr double kBehind = 3;
 
 bool finite(const Vector3& v) {
@@ -31,7 +31,7 @@ Vector3 ahead(const Viewer& viewer) {
   return p;
 }
 
-/// From the chunk's box to the way from `from` to `to`, by three places on it.
+/// The distance from the chunk's box to the path from `from` to `to`, sampled at three places.
 double distanceToWay(const Vector3& from, const Vector3& to, const ChunkKey& key, int32_t finest_cell) {
   double least = distanceToChunk(from, key, finest_cell);
   if (from == to) return least;
@@ -45,22 +45,22 @@ double distanceToWay(const Vector3& from, const Vector3& to, const ChunkKey& key
 Result<void> checkViewer(const Viewer& viewer) {
   if (!finite(viewer.position) || !finite(viewer.direction) || !finite(viewer.velocity) || !std::isfinite(viewer.fov) ||
       !std::isfinite(viewer.weight)) {
-    return Error{Code::invalid_argument, "a viewer holds a value that is not finite"};
+    return Error{Code::invalid_argument, "a viewer has a value that is not finite"};
   }
   constexpr double lowest = std::numeric_limits<int32_t>::min(), highest = std::numeric_limits<int32_t>::max();
   for (const double p : viewer.position) {
     if (p < lowest || p > highest) {
-      return Error{Code::range, "a viewer stands outside the world, which ends about 2,097 km from the origin"};
+      return Error{Code::range, "a viewer is outside the world, which ends about 2,097 km from the origin"};
     }
   }
   if (dot(viewer.velocity, viewer.velocity) > kFastest * kFastest) {
     return Error{Code::range, "a viewer moves faster than 10,000 m/s: move it without velocity, as a teleport"};
   }
   if (viewer.weight < 0.01 || viewer.weight > 100) {
-    return Error{Code::invalid_argument, "a viewer's weight is not 0.01 to 100"};
+    return Error{Code::invalid_argument, "a viewer's weight is not between 0.01 and 100"};
   }
   if (viewer.fov < 0 || viewer.fov > 3) {
-    return Error{Code::invalid_argument, "a viewer's field of view is not 0 to 3 radians"};
+    return Error{Code::invalid_argument, "a viewer's field of view is not between 0 and 3 radians"};
   }
   return {};
 }
@@ -90,7 +90,7 @@ double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& se
   const Vector3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
                         (key.at.z + 0.5) * edge - viewer.position[2]};
   const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
-  // Around the viewer itself there is no behind: it may turn.
+  // Near the viewer there is no behind: it may turn.
   if (lengths == 0 || away <= all_around) return waits;
   return waits * (1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2);
 }

@@ -11,7 +11,7 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kMostInLeaf = 4;
-/// Halving at most kMostViewers of them goes no deeper.
+/// Halving at most kMostViewers viewers goes no deeper.
 constexpr size_t kDeepest = 32;
 
 double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>& high, const ChunkKey& key,
@@ -26,7 +26,7 @@ double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>
   return std::sqrt(squares);
 }
 
-/// So that what is rounded on the way leaves a bound a bound.
+/// A factor that keeps lower bounds valid despite rounding.
 constexpr double kCareful = 1 - 1e-9;
 
 }  // namespace

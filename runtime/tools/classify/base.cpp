@@ -24,10 +24,10 @@ using measure::MasterLimits;
 constexpr int64_t kApplication = 0x53474D4D;  // "SGMM"
 constexpr int64_t kSchemaVersion = 1;
 constexpr int64_t kMostMasters = 100'000;
-/// Bytes of one value or statement: more than any of ours, so that a crafted file cannot ask for gigabytes.
+/// Maximum of bytes of a value or statement: enough for ours, and a crafted file cannot request gigabytes.
 constexpr int kMostBytes = 1 << 20;
 
-// The tables are known by these very texts, which SQLite keeps.
+// Tables are recognized by these exact texts, which SQLite stores.
 constexpr const char* kKeysTable =
     "CREATE TABLE keys(id INTEGER PRIMARY KEY, bins INTEGER NOT NULL, mode TEXT NOT NULL, length REAL NOT NULL, "
     "density REAL NOT NULL, version INTEGER NOT NULL, limit_mse REAL NOT NULL, limit_emd REAL NOT NULL, "
@@ -35,11 +35,11 @@ constexpr const char* kKeysTable =
 constexpr const char* kMastersTable =
     "CREATE TABLE masters(id INTEGER PRIMARY KEY, key INTEGER NOT NULL REFERENCES keys(id), class TEXT NOT NULL, "
     "name TEXT NOT NULL, models INTEGER NOT NULL, shares BLOB NOT NULL, checksum INTEGER NOT NULL) STRICT";
-/// What all rows add up to: one that is lost is missed.
+/// The sum of all rows, to detect a lost one.
 constexpr const char* kSealTable =
     "CREATE TABLE seal(id INTEGER PRIMARY KEY, rows INTEGER NOT NULL, checksum INTEGER NOT NULL) STRICT";
 
-/// Of everything in a row, so that a flipped bit anywhere in it shows.
+/// A checksum of all columns of a row, to detect any flipped bit.
 class RowSum {
  public:
   template <class T>
@@ -93,7 +93,7 @@ ReadBase failed(const Database& database) {
 
 ReadBase damaged(const std::string& what) { return {{}, Damage::damaged, what}; }
 
-/// Null, with SQLite's code, where it cannot be opened.
+/// Null, with SQLite's code, if it cannot be opened.
 Database openFile(const std::string& name, int flags, int& code) {
   sqlite3* raw = nullptr;
   code = sqlite3_open_v2(name.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, nullptr);
@@ -106,7 +106,7 @@ Database openFile(const std::string& name, int flags, int& code) {
   return database;
 }
 
-/// The file's URI for SQLite, with what follows the path.
+/// The file's URI for SQLite, followed by a query.
 std::string uriOf(const std::filesystem::path& file, const std::string& query) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -120,8 +120,8 @@ std::string uriOf(const std::filesystem::path& file, const std::string& query) {
   return uri + query;
 }
 
-/// For reading. A log that a killed writer left is played back. Where nothing may be written, the file is taken as one
-/// that does not change: SQLite would else want to make its own files beside it.
+/// Replays the log of a killed writer. Without write permission, opens the file as immutable: otherwise SQLite would
+/// create its own files beside it.
 Database openForReading(const std::filesystem::path& file, int& code) {
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   if (access(file.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0) {
@@ -136,21 +136,22 @@ std::optional<int64_t> pragma(const Database& database, const char* text) {
   return statement.whole(0);
 }
 
-/// Nothing, or what is wrong with what SQLite itself can see.
+/// nullopt, or the problem that SQLite itself finds.
 std::optional<ReadBase> unsound(const Database& database) {
   const std::optional<int64_t> application = pragma(database, "PRAGMA application_id");
   const std::optional<int64_t> version = pragma(database, "PRAGMA user_version");
   if (!application || !version) return failed(database);
-  if (*application != kApplication) return damaged("it is a database, but not of masters");
+  if (*application != kApplication) return damaged("it is a database, but not of reference histograms");
   if (*version > kSchemaVersion) return ReadBase{{}, Damage::newer, "it was written by a later version of sgm"};
   Statement check(database, "PRAGMA quick_check(1)");
   if (!check.step()) return failed(database);
-  if (const std::string said = check.text(0); said != "ok") return damaged("quick_check says: " + said);
+  if (const std::string said = check.text(0); said != "ok") return damaged("PRAGMA quick_check reports: " + said);
   Statement tables(database, "SELECT sql FROM sqlite_schema ORDER BY name");
   for (const char* wanted : {kKeysTable, kMastersTable, kSealTable}) {
-    if (!tables.step() || tables.text(0) != wanted) return damaged("its tables are not those of a base of masters");
+    if (!tables.step() || tables.text(0) != wanted)
+      return damaged("its tables are not those of a database of reference histograms");
   }
-  if (tables.step()) return damaged("it has more than the tables of a base of masters");
+  if (tables.step()) return damaged("it has tables beside those of a database of reference histograms");
   return std::nullopt;
 }
 
@@ -178,7 +179,7 @@ ReadBase readRows(const Database& database) {
   while (keys.step()) {
     const std::optional<HistogramMode> mode = measure::modeNamed(keys.text(2));
     const int64_t bins = keys.whole(1);
-    if (!mode || bins < 1 || bins > 4096) return damaged("a key is none");
+    if (!mode || bins < 1 || bins > 4096) return damaged("a key is invalid");
     MasterLimits limits;
     limits.key = {static_cast<uint32_t>(bins), *mode, keys.real(3), keys.real(4), static_cast<uint32_t>(keys.whole(5))};
     limits.mse = keys.real(6);
@@ -194,7 +195,7 @@ ReadBase readRows(const Database& database) {
   Statement masters(database, "SELECT key, class, name, models, shares, checksum FROM masters ORDER BY id");
   while (masters.step()) {
     const auto id = std::ranges::find(ids, masters.whole(0));
-    if (id == ids.end()) return damaged("a master has no key");
+    if (id == ids.end()) return damaged("a reference histogram has no key");
     Master master;
     master.class_name = masters.text(1);
     master.name = masters.text(2);
@@ -203,16 +204,17 @@ ReadBase readRows(const Database& database) {
     master.shares = doublesOf(masters.blob(4));
     const uint64_t row = sumOf(*id, master);
     if (row != static_cast<uint64_t>(masters.whole(5)) || !isShares(master.shares, master.key)) {
-      return damaged("the checksum of a master is wrong");
+      return damaged("the checksum of a reference histogram is wrong");
     }
     sum += row;
     set.masters.push_back(std::move(master));
-    if (++rows > kMostMasters) return damaged("it has too many masters");
+    if (++rows > kMostMasters) return damaged("it has too many reference histograms");
   }
   if (masters.code() != SQLITE_OK) return failed(database);
   Statement seal(database, "SELECT rows, checksum FROM seal");
-  if (!seal.step()) return seal.code() == SQLITE_OK ? damaged("it is not complete") : failed(database);
-  if (seal.whole(0) != rows || static_cast<uint64_t>(seal.whole(1)) != sum) return damaged("some of it is missing");
+  if (!seal.step()) return seal.code() == SQLITE_OK ? damaged("it is incomplete") : failed(database);
+  if (seal.whole(0) != rows || static_cast<uint64_t>(seal.whole(1)) != sum)
+    return damaged("some of its rows are missing");
   ReadBase read;
   read.set = std::move(set);
   return read;
@@ -222,7 +224,7 @@ Error cannotWrite(const std::filesystem::path& file, const Database& database) {
   return {Code::io, "cannot write " + file.string() + ": " + sqlite3_errmsg(database.get())};
 }
 
-/// Into empty tables. Whether all went well.
+/// Inserts into empty tables. Returns whether it succeeded.
 bool insertRows(const Database& database, const MasterSet& set) {
   uint64_t sum = 0;
   Statement key(database, "INSERT INTO keys VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
@@ -248,7 +250,7 @@ bool insertRows(const Database& database, const MasterSet& set) {
   return key.code() == SQLITE_OK && master.code() == SQLITE_OK && seal.code() == SQLITE_OK;
 }
 
-/// In memory first, so that the file takes its name as a whole.
+/// Built in memory first, so that the file appears completely.
 Result<void> writeNew(const std::filesystem::path& file, const MasterSet& set) {
   int code = SQLITE_OK;
   const Database database = openFile(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
@@ -268,7 +270,7 @@ Result<void> writeNew(const std::filesystem::path& file, const MasterSet& set) {
   if (!writer) return writer.error();
   writer->write(bytes.get(), static_cast<size_t>(size));
   if (Result<void> done = writer->commit(); !done) return done;
-  // From now on readers and one writer do not wait for each other. What cannot be so is still a base.
+  // Lets readers and one writer work concurrently. If this fails, it is still a valid base.
   if (const Database made = openFile(file.string(), SQLITE_OPEN_READWRITE, code)) {
     execute(made, "PRAGMA journal_mode = WAL");
   }
@@ -306,7 +308,7 @@ ReadBase readBase(const std::filesystem::path& file) {
   int code = SQLITE_OK;
   const Database database = openForReading(file, code);
   if (!database) return failed(code, sqlite3_errstr(code));
-  // One transaction: what is read together was written together.
+  // One transaction, so that all rows come from the same write.
   if (execute(database, "BEGIN") != SQLITE_OK) return failed(database);
   if (std::optional<ReadBase> wrong = unsound(database)) return *wrong;
   return readRows(database);
@@ -322,8 +324,8 @@ Result<void> checkWritable(const std::filesystem::path& file) {
   const ReadBase there = readBase(file);
   if (there.damage == Damage::io) return Error{Code::io, "cannot read " + file.string() + ": " + there.what};
   if (there.damage != Damage::none) {
-    return Error{Code::bad_input, file.string() + " is there, and is no base that can be written to: " + there.what +
-                                      "; move it away, or name another file"};
+    return Error{Code::bad_input, file.string() + " exists and is not a writable database of reference histograms: " +
+                                      there.what + "; move it, or name another file"};
   }
   return {};
 }

@@ -21,7 +21,7 @@ using Shares = std::vector<double>;
 
 constexpr double kMillion = 1e6;
 
-/// One histogram, and of what.
+/// A histogram and its family.
 struct Member {
   const Family* family;
   const Shares* shares;
@@ -49,7 +49,7 @@ size_t nearestOf(HistogramMode mode, const Shares& shares, std::span<const Share
   return nearest;
 }
 
-/// Lloyd's algorithm, from members that lie far from each other: without chance.
+/// Lloyd's algorithm, started with members that lie far apart: deterministic.
 std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const Member> members) {
   std::vector<Shares> centres{*members.front().shares};
   while (centres.size() < std::min(mastersAGrammar(mode), members.size())) {
@@ -69,7 +69,7 @@ std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const 
   return clusters;
 }
 
-/// Whole millionths that add up to one: exact in the source that sourceOf() writes.
+/// Integral millionths that add up to one, so that sourceOf() writes exact values.
 Shares rounded(const Shares& shares) {
   std::vector<double> parts(shares.size());
   std::vector<size_t> order(shares.size());
@@ -97,7 +97,7 @@ std::vector<Master> mastersFor(const MasterKey& key, std::span<const Member> mem
   return masters;
 }
 
-/// Three digits, so that it is exact in the source too.
+/// Three digits, also exact in the source.
 double toThreeDigits(double value) {
   const std::string text = generalText(value, 3);
   double out = value;
@@ -168,7 +168,7 @@ Result<std::vector<Specimen>> specimensOf(std::span<const Family> families, uint
       }
       specimens.push_back(std::move(specimen));
       if (progress && !progress(specimens.size(), families.size() * models)) {
-        return Error{Code::cancelled, "building masters was stopped"};
+        return Error{Code::cancelled, "the building of reference histograms was cancelled"};
       }
     }
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Masters, made of a corpus of models.
+// Builds reference histograms from reference models.
 
 #include <functional>
 #include <optional>
@@ -11,41 +11,42 @@
 
 namespace sgm::masters {
 
-/// What masters are made for: curvature at any density, and the paper's own two modes at one and two cells per metre,
-/// for which there are models of every class.
+/// The keys of the reference histograms: curvature at any density, and the paper's two modes at one and two cells per
+/// metre, for which there are models of every class.
 std::vector<measure::MasterKey> masterKeys();
 
 /// The default of `sgm classify`: curvature by 65 bins, L = 1 m.
 measure::MasterKey defaultKey();
 
-/// Masters of a grammar and key, at most. Of models of other seeds 1 for each density has 95 % right by curvature, 4 a
-/// grammar have 97.8 %, 6 have 98.3 % and 8 have 98.7 %; as many as 6 a grammar, but by clusters of all of a class,
-/// have less, since a rare kind takes masters from those that are many. The paper's modes have fewer.
+/// Maximum of reference histograms for a grammar and key. Of models with other seeds, curvature classifies 95 %
+/// correctly with 1 for each density, 97.8 % with 4 a grammar, 98.3 % with 6 and 98.7 % with 8. As many as 6 a grammar,
+/// but from clusters of a whole class, classify fewer, since frequent kinds displace rare ones. The paper's modes have
+/// fewer.
 size_t mastersAGrammar(measure::HistogramMode mode);
 
-/// One model, measured.
+/// A measured model.
 struct Specimen {
   const Family* family = nullptr;
   uint64_t seed = 0;
-  std::vector<std::vector<double>> shares;  ///< by masterKeys(); empty where the family has another density
+  std::vector<std::vector<double>> shares;  ///< by masterKeys(); empty for another density than the family's
 };
 
-/// Told after every model; false stops the work.
+/// Called after every model; false cancels the work.
 using BuildProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
-/// So many models of each family, the first ones of a seed. No two seeds have a model in common, nor its parameters.
-/// Errors: those of ModelMaker; cancelled.
+/// The first `models` models of each family for a seed. Different seeds share neither models nor parameters. Errors:
+/// those of ModelMaker; cancelled.
 Result<std::vector<Specimen>> specimensOf(std::span<const Family> families, uint64_t models, uint64_t seed,
                                           Backend& backend, JobSystem& jobs, const BuildProgress& progress = {});
 
-/// For each key and grammar the means of mastersAGrammar() clusters. Limits come from the specimens too, without noise:
-/// masters of every second one are held against the others, and the other way round; the limits are kLimitSlack times
-/// the distances that 99 of 100 keep within. Contract: the specimens have models of every class for each key.
+/// The means of mastersAGrammar() clusters for each key and grammar. The limits also come from the specimens, without
+/// noise: histograms built from one half are compared with the other half, and vice versa; a limit is kLimitSlack times
+/// the 99th percentile of these distances. Contract: the specimens have models of every class for each key.
 MasterSet mastersOf(std::span<const Specimen> specimens);
-/// Of models of other seeds less than one in a hundred is past 1.25 times; masters of noise find what is nearer.
+/// Fewer than 1 % of models with other seeds exceed 1.25 times that distance; noise classes catch nearer histograms.
 inline constexpr double kLimitSlack = 2;
 
-/// The set as built_in_masters.inc; command: how it was made.
+/// The set in the form of built_in_masters.inc; command: the command that made it.
 std::string sourceOf(const MasterSet& set, const std::string& command);
 
 }  // namespace sgm::masters

@@ -1,4 +1,4 @@
-// The masters that are there where no base is.
+// The built-in reference histograms.
 
 #include <array>
 

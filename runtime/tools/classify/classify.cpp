@@ -16,11 +16,12 @@ std::string densityOf(const MasterKey& key) {
 
 Result<void> fits(const Master& master, const MasterKey& key) {
   if (const std::string difference = differenceOf(key, master.key); !difference.empty()) {
-    return Error{Code::invalid_argument,
-                 "the histogram cannot be compared with master " + master.name + ": it has " + difference};
+    return Error{Code::invalid_argument, "the histogram cannot be compared with the reference histogram " +
+                                             master.name + ": it has " + difference};
   }
   if (master.shares.size() != binsOf(key.settings())) {
-    return Error{Code::invalid_argument, "master " + master.name + " has not the bins that its key says"};
+    return Error{Code::invalid_argument,
+                 "the reference histogram " + master.name + " does not have as many bins as its key says"};
   }
   return {};
 }
@@ -37,9 +38,10 @@ void nearer(ClassDistance& of, const Master& master, std::span<const double> sha
 std::string whyUnknown(const ClassDistance& nearest, double least_emd, const MasterLimits& limits) {
   if (nearest.class_name == kNoise) return "it is most like " + nearest.nearest;
   if (nearest.mse > limits.mse) {
-    return "the mean squared error to every master is more than " + number(limits.mse);
+    return "the mean squared error to every reference histogram is more than " + number(limits.mse);
   }
-  if (least_emd > limits.emd) return "the earth mover's distance to every master is more than " + number(limits.emd);
+  if (least_emd > limits.emd)
+    return "the earth mover's distance to every reference histogram is more than " + number(limits.emd);
   return {};
 }
 
@@ -95,13 +97,14 @@ double earthMoversDistance(std::span<const double> a, std::span<const double> b)
 Result<Classification> classify(std::span<const double> shares, const MasterKey& key, std::span<const Master> masters,
                                 const MasterLimits& limits) {
   if (masters.empty()) {
-    return Error{Code::invalid_argument, "there are no masters to compare with: sgm masters build makes some"};
+    return Error{Code::invalid_argument,
+                 "there are no reference histograms to compare with: make some with sgm masters build"};
   }
   if (shares.size() != binsOf(key.settings())) {
-    return Error{Code::invalid_argument, "the histogram has not the bins that its key says"};
+    return Error{Code::invalid_argument, "the histogram does not have as many bins as its key says"};
   }
   if (const std::string difference = differenceOf(key, limits.key); !difference.empty()) {
-    return Error{Code::invalid_argument, "the limits are not the histogram's: it has " + difference};
+    return Error{Code::invalid_argument, "the limits are for another key than the histogram's: it has " + difference};
   }
   Classification result;
   for (const Master& master : masters) {

@@ -18,14 +18,14 @@ namespace {
 
 constexpr uint64_t kMostChunks = 8192;
 constexpr size_t kCellBytes = size_t{256} << 20;
-/// Cells on an edge of the world's part that is searched for a surface.
+/// Cells on an edge of the part of the world that is searched for a surface.
 constexpr int64_t kSearchCells = 64;
-/// The most of a normal of length 1 that points up or down where a surface is steep: 60 degrees.
+/// Limit of the vertical component of a steep surface's unit normal: 60 degrees.
 constexpr double kSteep = 0.5;
 constexpr size_t kFewestTriangles = 1000;
 constexpr uint64_t kAttempts = 10;
 
-/// Contract: it is there; of a constant another one is an error of the compiler.
+/// Contract: the file exists; for a constant, the compiler reports a missing one.
 constexpr std::string_view embedded(std::string_view file) {
   for (const EmbeddedGrammar& grammar : kEmbeddedGrammars)
     if (grammar.file == file) return grammar.text;
@@ -52,7 +52,7 @@ rule Tree(h) weight 1 { plant.Spruce(h); }
 rule Tree(h) weight 1 { plant.Broadleaf(h); }
 )sgm";
 
-/// Cells and cubes that show as much as a model needs and cost little: at most 96 cells on an edge.
+/// Cells and cubes that show enough of a model at low cost: at most 96 cells on an edge.
 struct Scale {
   double cell = 0, edge = 0;
 };
@@ -69,7 +69,7 @@ struct Kind {
   std::string_view class_name;
   std::span<const Scale> scales;
   std::string_view file;
-  double middle = 0;  ///< what is farther out is the ground that a building stands on, and where that ends
+  double middle = 0;  ///< excludes the ground around a building, and its border
   std::string_view text = embedded(file);
 };
 constexpr std::array kKinds{
@@ -134,7 +134,7 @@ constexpr auto kFamilies = [] {
   return all;
 }();
 
-/// The box of that edge about a point, lo <= p < hi.
+/// The box with that edge around a point, lo <= p < hi.
 IntBox cubeAround(const measure::Point& p, double edge) {
   IntBox cube;
   for (int axis = 0; axis < 3; ++axis) {
@@ -144,7 +144,7 @@ IntBox cubeAround(const measure::Point& p, double edge) {
   return cube;
 }
 
-/// A column in the middle of a box, that wide along x and z.
+/// A column in the middle of a box, `wide` metres along x and z.
 IntBox middleOf(const IntBox& box, double wide) {
   IntBox middle = box;
   for (const int axis : {0, 2}) {
@@ -156,7 +156,7 @@ IntBox middleOf(const IntBox& box, double wide) {
   return middle;
 }
 
-/// How coarse a level may search a box.
+/// The coarsest level for searching a box.
 int searchLevel(const IntBox& box, int32_t cell) {
   int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, int64_t{box.hi[axis]} - box.lo[axis]);
@@ -172,9 +172,8 @@ bool contains(const IntBox& box, const measure::Point& p) {
   return true;
 }
 
-/// A point where the surface is steep, by a number from 0 to 1. A plain says nothing of what stands on it or lies under
-/// it, and most of a village's surface is one. Where nothing in the box is steep any point. Contract: the mesh has
-/// triangles.
+/// A point on a steep surface, chosen by `share`, 0..1: flat ground, most of a village's surface, tells nothing of the
+/// objects on or below it. If there is no steep surface in the box, any point. Contract: the mesh has triangles.
 measure::Point placeOn(const ModelMesh& mesh, const IntBox& box, double share) {
   std::vector<uint32_t> steep;
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -242,7 +241,7 @@ Result<ModelMesh> ModelMaker::make(uint64_t seed, Backend& backend, JobSystem& j
     Result<ModelMesh> mesh = draw(seed, attempt, backend, jobs);
     if (!mesh || mesh->triangles.size() >= kFewestTriangles) return mesh;
   }
-  return Error{Code::limit, std::string(family_->file) + ": ten draws give no surface that could be measured"};
+  return Error{Code::limit, std::string(family_->file) + ": ten draws gave no surface that could be measured"};
 }
 
 Result<ModelMesh> ModelMaker::draw(uint64_t seed, uint64_t attempt, Backend& backend, JobSystem& jobs) const {

@@ -1,7 +1,7 @@
 #pragma once
-// Models of known class: what masters are built from, and what classification is judged by. They are made from the
-// samples of today, and from the plain ones of tests/bench/grammars, which stay as they are. A model is a function of
-// its family and seed, and of the standard library.
+// Reference models of known class: reference histograms are built from them, and classification is tested with them.
+// They come from the current samples, and from simple grammars in tests/bench/grammars, which do not change. A model
+// depends only on its family, its seed, and the standard library.
 
 #include <memory>
 #include <span>
@@ -15,19 +15,19 @@
 
 namespace sgm::masters {
 
-/// The models of one grammar, at one density. Or noise: a plane's grid of quadrangles whose points are moved by chance,
-/// at most 0.4 to 2 edges of one, and voxels that are solid by chance.
+/// The models of one grammar, at one density; or noise: a plane grid of quadrangles whose points are moved randomly, by
+/// at most 0.4 to 2 edges, or randomly solid voxels.
 struct Family {
   std::string_view class_name;
-  std::string_view file;  ///< of samples/grammars, bench/... of tests/bench/grammars, or what else it shows
+  std::string_view file;  ///< in samples/grammars, bench/... in tests/bench/grammars, or a description
   std::string_view text;  ///< empty: the grid
-  double cell = 0;        ///< metres; of the grid the quadrangles' edge
-  double edge = 0;        ///< of the cube that is looked at, metres; 0: the whole world, which is finite
-  double middle = 0;      ///< how wide the middle of a finite world is in which cubes lie, metres; 0: all of it
+  double cell = 0;        ///< metres; of the grid, the quadrangles' edge
+  double edge = 0;        ///< of the examined cube, metres; 0: the whole world, which is finite
+  double middle = 0;      ///< width of the middle of a finite world that contains the cubes, metres; 0: all
 };
 std::span<const Family> families();
 
-/// All but noise, in the order of families().
+/// All classes but noise, in the order of families().
 std::vector<std::string_view> classNames();
 
 using ModelMesh = asset::TriangleMesh;
@@ -37,10 +37,10 @@ class ModelMaker {
  public:
   static Result<ModelMaker> create(const Family& family);
 
-  /// Parameters are drawn from their whole ranges, each seed's anew, and the world has that seed. Of a world that is
-  /// larger than the cube the part around a steep point of its surface, which the seed chooses too. Where there is next
-  /// to nothing (a sky without a cloud) the seed's next draw is tried. Errors: those of meshing; limit where ten draws
-  /// give nothing.
+  /// Each seed draws new parameters from their whole ranges, and is the world's seed. If the world is larger than the
+  /// cube, the model is the part around a steep point of its surface, also chosen by the seed. If the model is nearly
+  /// empty (a sky without a cloud), the seed's next draw is tried. Errors: those of meshing; limit if ten draws are
+  /// empty.
   Result<ModelMesh> make(uint64_t seed, Backend& backend, JobSystem& jobs) const;
 
   const Family& family() const { return *family_; }

@@ -1,4 +1,4 @@
-// The base at its own place, and what becomes of one that is damaged.
+// The default base, and the treatment of a damaged one.
 
 #include <sys/stat.h>
 
@@ -20,7 +20,8 @@ bool isThere(const std::string& file) {
   return lstat(file.c_str(), &about) == 0;
 }
 
-/// The new name, or an empty one with errno. The log goes first: one that stayed would be played into the next base.
+/// Returns the new name, or an empty one with errno. Moves the log first: otherwise SQLite would replay it into the
+/// next base.
 std::string moveAside(const std::string& file) {
   for (int i = 1; i <= kMostDamaged; ++i) {
     const std::string aside = file + ".damaged-" + std::to_string(i);
@@ -37,7 +38,7 @@ std::string moveAside(const std::string& file) {
 }  // namespace
 
 std::filesystem::path defaultBase() {
-  // A path that is not absolute counts as none (XDG Base Directory Specification).
+  // Relative paths are ignored (XDG Base Directory Specification).
   const auto absolute = [](const char* variable) {
     const char* text = std::getenv(variable);
     return text != nullptr && *text == '/' ? std::string(text) : std::string();
@@ -55,7 +56,7 @@ Result<OpenedBase> openBase(const std::filesystem::path& file) {
     case Damage::none:
       return OpenedBase{std::move(*read.set), name, {}};
     case Damage::newer:
-      return Error{Code::unsupported, name + ": " + read.what + ": use that one, or --masters FILE"};
+      return Error{Code::unsupported, name + ": " + read.what + ": use that version, or --masters FILE"};
     case Damage::io:
       return Error{Code::io, "cannot read " + name + ": " + read.what};
     case Damage::damaged:
@@ -65,15 +66,15 @@ Result<OpenedBase> openBase(const std::filesystem::path& file) {
   const std::string aside = moveAside(name);
   if (aside.empty()) {
     opened.notice = name + " is damaged (" + read.what + ") and cannot be moved aside (" + systemMessage(errno) +
-                    "): the masters that are built in are used";
+                    "): the built-in reference histograms are used";
     return opened;
   }
-  opened.notice = name + " was damaged (" + read.what + "): it is " + aside + " now";
+  opened.notice = name + " was damaged (" + read.what + "): it is named " + aside + " now";
   if (const Result<void> written = writeBase(file, opened.set); !written) {
-    opened.notice += ", and the masters that are built in are used: " + written.error().message;
+    opened.notice += ", and the built-in reference histograms are used: " + written.error().message;
     return opened;
   }
-  opened.notice += ", and the masters that are built in have taken its place";
+  opened.notice += ", and the built-in reference histograms have replaced it";
   opened.from = name;
   return opened;
 }

@@ -24,7 +24,7 @@ using measure::MasterLimits;
 constexpr size_t kLongestClass = 64, kLongestName = 256;
 constexpr double kMostLength = 1e9;
 
-/// Reads until something is wrong; what then follows says nothing.
+/// Reads until the first problem, and ignores later ones.
 class SetReader {
  public:
   ReadSet run(const JsonValue& json) {
@@ -51,21 +51,21 @@ class SetReader {
     pointer_ = pointer;
   }
 
-  /// An object of these members, each once; others may stand there.
+  /// An object with these members, each once; `passed_over` ones are optional.
   void members(const JsonValue& json, const std::string& at, std::initializer_list<std::string_view> wanted,
                std::initializer_list<std::string_view> passed_over = {}) {
-    if (json.kind != JsonValue::Kind::object) return fail("an object is wanted here", at);
+    if (json.kind != JsonValue::Kind::object) return fail("an object is expected here", at);
     const auto has = [](std::initializer_list<std::string_view> names, const std::string& name) {
       return std::ranges::find(names, name) != names.end();
     };
     for (size_t i = 0; i < json.names.size(); ++i) {
       const std::string& name = json.names[i];
       const bool known = has(wanted, name) || has(passed_over, name);
-      // The names of unknown members are not ours to repeat.
-      if (!known) return fail("a member that is not known", at);
+      // Do not repeat names of unknown members in messages.
+      if (!known) return fail("unknown member", at);
       if (std::find(json.names.begin(), json.names.begin() + static_cast<std::ptrdiff_t>(i), name) !=
           json.names.begin() + static_cast<std::ptrdiff_t>(i))
-        return fail("a member that is there twice", at + "/" + name);
+        return fail("duplicate member", at + "/" + name);
     }
     for (const std::string_view name : wanted)
       if (json.find(name) == nullptr) return fail("the member `" + std::string(name) + "` is missing", at);
@@ -74,12 +74,12 @@ class SetReader {
   std::span<const JsonValue> array(const JsonValue& json, const std::string& name, size_t least, size_t most) {
     if (wrong_) return {};
     if (json.find(name)->kind != JsonValue::Kind::array) {
-      fail("an array is wanted here", "/" + name);
+      fail("an array is expected here", "/" + name);
       return {};
     }
     const std::span<const JsonValue> items = json.list(name);
     if (items.size() < least || items.size() > most) {
-      fail("from " + std::to_string(least) + " to " + std::to_string(most) + " are wanted here, and there are " +
+      fail("from " + std::to_string(least) + " to " + std::to_string(most) + " elements are expected here, not " +
                std::to_string(items.size()),
            "/" + name);
       return {};
@@ -91,25 +91,25 @@ class SetReader {
     if (wrong_) return 0;
     const JsonValue& value = *json.find(name);
     const bool fits = value.kind == JsonValue::Kind::number && value.number >= least && value.number <= most;
-    if (!fits) fail("a number from " + textOf(least) + " to " + textOf(most) + " is wanted here", at + "/" + name);
+    if (!fits) fail("a number from " + textOf(least) + " to " + textOf(most) + " is expected here", at + "/" + name);
     return value.number;
   }
 
   uint32_t whole(const JsonValue& json, const std::string& name, const std::string& at, uint32_t least, uint32_t most) {
     const double value = number(json, name, at, least, most);
     if (wrong_) return least;
-    if (value != std::floor(value)) fail("a whole number is wanted here", at + "/" + name);
+    if (value != std::floor(value)) fail("a whole number is expected here", at + "/" + name);
     return static_cast<uint32_t>(value);
   }
 
   std::string text(const JsonValue& json, const std::string& name, const std::string& at, size_t longest) {
     if (wrong_) return {};
     const JsonValue& value = *json.find(name);
-    // The reader of JSON takes UTF-8 alone.
+    // The JSON reader accepts only UTF-8.
     const bool controls =
         std::ranges::any_of(value.text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
     if (value.kind != JsonValue::Kind::text || value.text.empty() || value.text.size() > longest || controls)
-      fail("a text of 1 to " + std::to_string(longest) + " bytes without control characters is wanted here",
+      fail("a string of 1 to " + std::to_string(longest) + " bytes without control characters is expected here",
            at + "/" + name);
     return value.text;
   }
@@ -121,7 +121,7 @@ class SetReader {
     const JsonValue& of = *json.find("key");
     members(of, at, {"mode", "bins", "length", "density", "version"});
     const std::optional<HistogramMode> mode = measure::modeNamed(text(of, "mode", at, kLongestName));
-    if (!mode) fail("no such mode: `printed`, `corrected` and `curvature` are", at + "/mode");
+    if (!mode) fail("unknown mode: use `printed`, `corrected` or `curvature`", at + "/mode");
     key.mode = mode.value_or(key.mode);
     key.bins = whole(of, "bins", at, 1, 4096);
     const bool curvature = key.mode == HistogramMode::curvature;
@@ -138,7 +138,7 @@ class SetReader {
     limits.key = key(json, at);
     limits.mse = number(json, "mse", at, 0, kMostLength);
     limits.emd = number(json, "emd", at, 0, kMostLength);
-    if (set.limitsOf(limits.key) != nullptr) fail("this key has limits already", at + "/key");
+    if (set.limitsOf(limits.key) != nullptr) fail("this key already has limits", at + "/key");
     set.limits.push_back(limits);
   }
 
@@ -148,31 +148,33 @@ class SetReader {
     if (wrong_) return;
     Master master;
     master.class_name = text(json, "class", at, kLongestClass);
-    if (master.class_name == measure::kUnknown) fail("`unknown` is what is like no master", at + "/class");
+    if (master.class_name == measure::kUnknown)
+      fail("`unknown` is not a class of reference histograms: name another class", at + "/class");
     master.name = text(json, "name", at, kLongestName);
     master.models = whole(json, "models", at, 0, std::numeric_limits<uint32_t>::max());
     master.key = key(json, at);
     const auto of = std::ranges::find(set.limits, master.key, &MasterLimits::key);
-    if (of == set.limits.end()) fail("this key is none of those that have limits", at + "/key");
+    if (of == set.limits.end()) fail("this key has no limits: add it to `limits`", at + "/key");
     if (wrong_) return;
     const auto number_of_key = of - set.limits.begin();
     with_masters_.insert(number_of_key);
     if (!names_.emplace(number_of_key, master.class_name, master.name).second)
-      fail("there is a master of this name, class and key already", at + "/name");
+      fail("this name, class and key are already those of another reference histogram", at + "/name");
     master.shares = shares(json, at + "/shares", measure::binsOf(master.key.settings()));
     set.masters.push_back(std::move(master));
   }
 
   std::vector<double> shares(const JsonValue& json, const std::string& at, size_t bins) {
     const std::span<const JsonValue> items = json.list("shares");
-    if (items.size() != bins) fail("an array of " + std::to_string(bins) + " shares is wanted here, as of the key", at);
+    if (items.size() != bins)
+      fail("an array of " + std::to_string(bins) + " shares is expected here, as the key says", at);
     std::vector<double> shares;
     for (size_t i = 0; !wrong_ && i < items.size(); ++i) {
       const bool fits = items[i].kind == JsonValue::Kind::number && items[i].number >= 0 && items[i].number <= 1;
-      if (!fits) fail("a number from 0 to 1 is wanted here", at + "/" + std::to_string(i));
+      if (!fits) fail("a number from 0 to 1 is expected here", at + "/" + std::to_string(i));
       shares.push_back(items[i].number);
     }
-    // As a base asks of what it reads.
+    // The same condition as for a base.
     if (!(std::fabs(std::accumulate(shares.begin(), shares.end(), 0.0) - 1) < 1e-9))
       fail("these shares do not add up to 1", at);
     return shares;
@@ -181,7 +183,7 @@ class SetReader {
   void everyKeyHasMasters(const MasterSet& set) {
     for (size_t i = 0; i < set.limits.size(); ++i)
       if (!with_masters_.contains(static_cast<std::ptrdiff_t>(i)))
-        return fail("there is no master of this key", "/limits/" + std::to_string(i) + "/key");
+        return fail("there is no reference histogram for this key", "/limits/" + std::to_string(i) + "/key");
   }
 
   static std::string textOf(double number) {
@@ -200,7 +202,7 @@ class SetReader {
 ReadSet readSet(std::string_view json) {
   ReadSet read;
   if (json.size() > kMostSetBytes) {
-    read.what = "masters are at most " + std::to_string(kMostSetBytes >> 20) + " MB of JSON";
+    read.what = "reference histograms may have at most " + std::to_string(kMostSetBytes >> 20) + " MB of JSON";
     return read;
   }
   const Result<JsonValue> value = readJson(json);

@@ -1,5 +1,5 @@
 #pragma once
-// Masters from outside, as JSON: all that a base holds, or nothing.
+// Reads external reference histograms from JSON, completely or not at all.
 
 #include <optional>
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace sgm::masters {
 
-/// Beside these, keys as binsOf() and checkHistogram() have them.
+/// In addition to these, keys have the limits of binsOf() and checkHistogram().
 inline constexpr size_t kMostSetBytes = size_t{4} << 20, kMostSetKeys = 256, kMostSetMasters = 10'000;
 
 struct ReadSet {
-  std::optional<MasterSet> set;  ///< there where nothing is wrong
-  bool malformed = false;        ///< it is no JSON at all
-  std::string what;              ///< is wrong first, in one line; of JSON that is well formed without the place
-  std::string pointer;           ///< the place (RFC 6901); "" is also the whole text
+  std::optional<MasterSet> set;  ///< set if there is no problem
+  bool malformed = false;        ///< the text is not JSON
+  std::string what;              ///< the first problem, in one line; for well-formed JSON without the place
+  std::string pointer;           ///< the place (RFC 6901); "" also means the whole text
 };
 
 /// {"masters": [{"class", "name", "models", "key", "shares"}, ...], "limits": [{"key", "mse", "emd"}, ...]}, each key
-/// {"mode", "bins", "length", "density", "version"}. What else `sgm inspect --list-masters` says is passed over, and
-/// any other member refused. A set is taken where every key has limits, once, and one master at least; names are short
-/// texts, unique in their class and key; and shares are what a histogram of that key may be. Linear in the text's size.
+/// {"mode", "bins", "length", "density", "version"}. Further members of `sgm inspect --list-masters` are ignored; any
+/// others are errors. Every key needs limits exactly once, and at least one reference histogram; names are short, and
+/// unique in their class and key; shares must be valid for a histogram of that key. Linear in the text's size.
 ReadSet readSet(std::string_view json);
 
 }  // namespace sgm::masters

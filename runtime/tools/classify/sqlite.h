@@ -1,5 +1,5 @@
 #pragma once
-// SQLite's C interface, with owners and with our errors.
+// SQLite's C interface, with RAII and our errors.
 
 #include <sqlite3.h>
 
@@ -18,8 +18,7 @@ struct CloseDatabase {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 
-/// One statement, run row by row. After a step that is neither row nor done, code() says why, and every later step does
-/// nothing.
+/// A statement, run row by row. After a failed step, code() is the reason, and further steps do nothing.
 class Statement {
  public:
   Statement(const Database& database, const char* text);
@@ -33,7 +32,7 @@ class Statement {
   Statement& bind(std::span<const std::byte> blob);
   /// Whether there is a row.
   bool step();
-  /// As step, then as new, with nothing bound.
+  /// As step, then resets the statement and its bindings.
   void run();
 
   int64_t whole(int column) const { return sqlite3_column_int64(statement_, column); }
@@ -49,7 +48,7 @@ class Statement {
   int code_ = SQLITE_OK;  // the first failure
 };
 
-/// Runs statements that give no rows. SQLite's code.
+/// Runs statements without results. Returns SQLite's code.
 int execute(const Database& database, const char* text);
 
 }  // namespace sgm::masters

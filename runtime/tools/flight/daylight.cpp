@@ -9,16 +9,17 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kColumns = 6, kRows = 4;  // of the rays over a picture; none in its very middle
-constexpr double kViewMetres = 256;        // what lies farther away takes up little of a picture
+constexpr size_t kColumns = 6, kRows = 4;  // of the rays over a picture; none in its exact centre
+constexpr double kViewMetres = 256;        // farther surfaces take up little of a picture
 constexpr double kGoldenAngle = 2.399963229728653;
-/// A ray up that meets nothing on this way has come to the sky: between solids, where those go on upwards without an
-/// end too, and out of rock, whose caves may be high. No farther than that: the world is derived along the ray.
+/// A ray upwards that hits nothing within this distance has reached the sky: between solids, for solids that go on
+/// upwards without end, and out of rock, whose caves may be high. It is limited because the world is derived along the
+/// ray.
 constexpr double kSkyMetres = 256, kEndlessSkyMetres = 128, kRockSkyMetres = 1024;
-/// So clearly must a look be for the other light.
+/// Thresholds for a look that clearly calls for the other light.
 constexpr double kClearlyMore = 1.5, kClearlyLess = 0.5;
 
-/// Straight up, and around at 30 degrees above the horizon. `turn` spreads the directions of many places.
+/// Straight up, and around at 30 degrees above the horizon. `turn` varies the directions between places.
 std::array<Metres3, 5> upwards(double turn) {
   std::array<Metres3, 5> directions{Metres3{0, 1, 0}};
   const double height = glm::radians(30.0);
@@ -33,7 +34,7 @@ bool letsThrough(const LitWorld& world, const RayEnd& end) {
   return end.material < world.translucent.size() && world.translucent[end.material];
 }
 
-/// The share of the directions upwards from a place in which light comes.
+/// The share of the upward directions in which light reaches a place.
 Result<double> openness(const LitWorld& world, const Metres3& place, double turn) {
   const std::array<Metres3, 5> directions = upwards(turn);
   int open = 0;
@@ -87,7 +88,7 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     sum += *open;
   }
   std::ranges::sort(distances);
-  // Between the median and the upper quartile: frames are near, what they frame is what matters.
+  // Between median and upper quartile: frames are near, but what they frame matters.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
   return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
-/// Without a pace the next frame comes when the world was planned anew, and so late at the most.
+/// Unpaced, the next frame comes after the world's next plan, or after this time.
 constexpr auto kLongestWait = std::chrono::milliseconds(4);
 constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
 constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
@@ -25,9 +25,9 @@ constexpr uint64_t kWholeCheckEvery = 500;
 constexpr int kRaysAFrame = 6;
 constexpr uint64_t kRaysToWalk = 48;
 constexpr uint64_t kFramesToForget = 2;
-/// Until digs that are not drawn are left to the wait for all.
+/// Frames to wait for undrawn digs, before the wait for idleness.
 constexpr int kFramesToDraw = 600;
-/// The wait needs room for meshes that the engine holds until it polls.
+/// The wait needs memory of meshes that the engine holds until it polls.
 constexpr int kWaits = 16;
 
 double threadMilliseconds() {
@@ -40,7 +40,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The n-th direction of a sequence that covers the sphere evenly, however many are taken.
+/// The n-th direction of a sequence of which any number covers the sphere evenly.
 Metres3 directionOf(uint64_t n) {
   const double index = static_cast<double>(n);
   const double z = 1 - 2 * std::fmod((index + 0.5) * 0.6180339887498949, 1.0);
@@ -49,12 +49,12 @@ Metres3 directionOf(uint64_t n) {
   return {side * std::cos(turn), z, side * std::sin(turn)};
 }
 
-/// Where the viewer is, frame by frame.
+/// The viewer's place, frame by frame.
 class Course {
  public:
   struct Stop {
     FlightPlace place;
-    bool leapt = false;  ///< from far away
+    bool leapt = false;  ///< teleported
   };
 
   Course(FlightPath& path, const FlightSettings& settings)
@@ -68,7 +68,7 @@ class Course {
     if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
       if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
       flown_ = 0;
-      // Stands for so long: what a moving viewer makes stale is not the leap's.
+      // Stands still for a while, so that only the teleport makes work stale, not the viewer's motion.
       stands_ = kFramesToForget;
       stop.leapt = true;
     }
@@ -86,7 +86,7 @@ class Course {
 
  private:
   FlightPath& path_;
-  const double step_;  ///< metres a frame
+  const double step_;  ///< metres per frame
   const uint64_t leg_, teleports_;
   uint64_t frame_ = 0, teleported_ = 0, stands_ = 0;
   double flown_ = 0;  ///< metres along the path
@@ -143,7 +143,7 @@ class Flight {
     return {};
   }
 
-  /// Frames that follow each other faster than anything is done would all show the same.
+  /// Frames faster than the world's work would all show the same.
   Result<void> awaitNews() const {
     const Clock::time_point latest = Clock::now() + kLongestWait;
     sgm_error error = SGM_ERROR_INIT;
@@ -155,7 +155,7 @@ class Flight {
     return {};
   }
 
-  /// What is there to be done for the place that is about to be left?
+  /// Records the work that is left for the previous place.
   void leap(uint64_t frame) {
     teleport_frame_ = frame;
     arrived_ = false;
@@ -179,8 +179,8 @@ class Flight {
     return engine_.checkFrame(frame % kWholeCheckEvery == kWholeCheckEvery - 1, report_.checked);
   }
 
-  /// Nothing is drawn yet where the flight has just come to. Where nothing happens any more, as with too little memory
-  /// for meshes, what is there must do.
+  /// Draws frames until the new place is drawn, or until nothing changes any more, as with too little memory for
+  /// meshes.
   Result<void> standUntilDrawn() {
     Clock::time_point changed = Clock::now();
     for (uint64_t made = 0; !arrived_ && Clock::now() < changed + kLongestStill;) {
@@ -198,7 +198,7 @@ class Flight {
     return {};
   }
 
-  /// The milliseconds that this took.
+  /// Returns the time in milliseconds.
   Result<double> drawFrame() {
     sgm_viewer viewer = SGM_VIEWER_INIT;
     for (int axis = 0; axis < 3; ++axis) {
@@ -229,7 +229,7 @@ class Flight {
     return time;
   }
 
-  /// Looks around: are the surfaces that can be seen nearby drawn at level 0?
+  /// Counts the visible surfaces nearby, and those drawn at level 0.
   Result<void> look(uint64_t frame) {
     if (report_.walkable_ms < 0) {
       const double now = since(start_);
@@ -238,7 +238,7 @@ class Flight {
       if (*walkable) report_.walkable_ms = now;
       return {};
     }
-    // Where a teleport has just led to everything is new.
+    // After a teleport everything is new.
     if (teleport_frame_ && frame < *teleport_frame_ + static_cast<uint64_t>(kFramesASecond)) return {};
     const Result<Sight> sight = see(settings_.finest_distance, kRaysAFrame);
     if (!sight) return sight.error();
@@ -249,8 +249,8 @@ class Flight {
     return {};
   }
 
-  /// Rays cost far more than frames do: what is not yet fine enough is looked at first in the next frame, lest the
-  /// question takes the time from the jobs that it is about.
+  /// Rays cost far more than frames. The next frame begins with the ray that failed, so that the test does not take
+  /// time from the jobs that it tests.
   Result<bool> isWalkable() {
     if (!engine_.collidesNear(place_.position, kWalkableDistance)) return false;
     bool seen = false;
@@ -280,7 +280,7 @@ class Flight {
   }
 
   enum class Surface { none, coarse, finest };
-  /// In what was built around the viewer there is nothing to see.
+  /// From inside a solid, such as one built around the viewer, nothing is visible.
   Result<Surface> surfaceAlong(uint64_t direction_number, double distance) const {
     const Metres3 direction = directionOf(direction_number);
     sgm_ray_desc ray = SGM_RAY_DESC_INIT;
@@ -309,7 +309,7 @@ class Flight {
   }
 
   Result<void> rest() {
-    // Frames go on, so that the last digs count like the others.
+    // Draw more frames, so that the last digs count like the others.
     for (int frame = 0; frame < kFramesToDraw && digger_ && digger_->waits(); ++frame) {
       std::this_thread::sleep_for(kFrame);
       if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
@@ -342,7 +342,7 @@ class Flight {
   std::vector<double> times_;
   uint64_t rays_ = 0, coarse_ray_ = 0, commits_ = 0;
   std::optional<uint64_t> teleport_frame_;
-  bool arrived_ = false;  ///< what is near has been drawn since the beginning, or the last leap
+  bool arrived_ = false;  ///< whether nearby surfaces have been drawn since the beginning or the last teleport
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ Result<sgm_parameter_info> findParameter(const sgm_grammar* grammar, const sgm_p
   for (uint32_t i = 0; i < sgm_grammar_parameter_count(grammar); ++i) {
     if (sgm_grammar_parameter(grammar, i, &info) == SGM_OK && name == info.name) return info;
   }
-  // Its message offers the nearest name.
+  // The error's message suggests the nearest name.
   double value = 0;
   sgm_error error = SGM_ERROR_INIT;
   static_cast<void>(sgm_parameters_get(parameters, name.c_str(), &value, &error));
@@ -36,9 +36,8 @@ Result<FlightAnimation> FlightAnimation::of(sgm_runtime* runtime, const sgm_fiel
     const Result<sgm_parameter_info> info = findParameter(field.grammar, parameters, name);
     if (!info) return info.error();
     if (!std::isfinite(info->minimum)) {
-      return Error{Code::invalid_argument, "--animate: the parameter `" + name +
-                                               "` has no range to be driven through; write `in LOW..HIGH` in the "
-                                               "grammar"};
+      return Error{Code::invalid_argument,
+                   "--animate: the parameter `" + name + "` has no range; write `in LOW..HIGH` in the grammar"};
     }
     drive(*info);
   }
@@ -71,7 +70,7 @@ Result<void> FlightAnimation::show(sgm_world* world, double seconds) {
   sgm_field* field = nullptr;
   if (sgm_field_create(runtime_, &field_, &field, &error) != SGM_OK) return errorOf(error);
   const sgm_result set = sgm_world_set_field(world, field, &error);
-  // The world keeps what it needs of it.
+  // The world keeps its own reference.
   static_cast<void>(sgm_field_destroy(field));
   if (set != SGM_OK) return errorOf(error);
   ++fields_;

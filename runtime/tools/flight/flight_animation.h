@@ -1,5 +1,5 @@
 #pragma once
-// Drives a grammar's parameters while a world streams, as a game does with a tide or a slider.
+// Animates a grammar's parameters while a world streams, as a game does with a tide or a slider.
 
 #include <sgm/sgm.h>
 
@@ -11,20 +11,20 @@
 
 namespace sgm::cli {
 
-/// Each parameter through its range, there and back in ten seconds, ten times a second. One thread at a time.
+/// Moves each parameter through its range and back in ten seconds, with ten updates a second. One thread at a time.
 class FlightAnimation {
  public:
-  /// Of the parameters named; none: of all that the grammar declares animated. field: what the world has; its
-  /// parameters are those to begin with. All of them must outlive the animation. Errors: invalid_argument, where there
-  /// is nothing to drive, or no range to drive it through.
+  /// Animates the named parameters, or all that the grammar declares animated if there are no names. field: the world's
+  /// current one, with the initial parameters. All arguments must outlive the animation. Errors: invalid_argument if
+  /// there is no parameter to animate, or one has no range.
   static Result<FlightAnimation> of(sgm_runtime* runtime, const sgm_field_desc& field, sgm_parameters* parameters,
                                     const std::vector<std::string>& names);
 
-  /// The field of that moment, where it is time for one. Errors: those of the public interface.
+  /// Sets the next field if it is due. Errors: those of the public interface.
   Result<void> show(sgm_world* world, double seconds);
 
   uint64_t fields() const { return fields_; }
-  /// How many of them were drawn, as far as show() has seen.
+  /// Number of these that were drawn, as seen by show().
   uint64_t drawn() const { return drawn_; }
 
  private:

@@ -11,7 +11,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kFrameRate = 60;
-constexpr double kReach = 24;  // metres to what is dug
+constexpr double kReach = 24;  // metres to the place of a dig
 constexpr int kGlances = 6;
 constexpr int32_t kHole = 2 * SGM_UNITS_PER_METRE, kLump = SGM_UNITS_PER_METRE;
 constexpr double kRoomForLump = 4;  // metres from the viewer
@@ -19,7 +19,7 @@ constexpr size_t kUndoable = 64;
 constexpr double kCuts = 0.75, kAdds = 0.15;  // shares; the rest are undos
 constexpr uint64_t kDrawsAGlance = 2;
 
-// Draws of a dig's key; those of its glances come after.
+// Draws of a dig's key; those of its glances follow.
 enum Draw : uint64_t { kKind, kAhead, kShape, kSmooth, kWhich, kGlance };
 
 Metres3 anyWay(const PathKey& key, uint64_t draw) {
@@ -28,7 +28,7 @@ Metres3 anyWay(const PathKey& key, uint64_t draw) {
   return {side * std::cos(turn), z, side * std::sin(turn)};
 }
 
-/// A hole of 4 m, of one of all shapes: a ball, hard or smooth, a box askew, or a burrow into the solid.
+/// A hole of 4 m in one of all shapes: a hard or smooth ball, a tilted box, or a burrow into the solid.
 sgm_brush holeAt(const sgm_surface_point& at, const PathKey& key) {
   sgm_brush brush = SGM_BRUSH_INIT;
   const double shape = key.unit(kShape);
@@ -103,7 +103,7 @@ Result<void> FlightDigger::plan(uint64_t frame, const FlightPlace& place) {
   const bool add = kind >= kCuts && kind < kCuts + kAdds;
   const Result<sgm_surface_point> at = surfaceNear(place, key, !add && key.unit(kAhead) < 0.75);
   if (!at) return at.error();
-  // Far from everything there is nothing to dig.
+  // Far from all surfaces there is nothing to dig.
   if (at->found == 0) return {};
   planned_.emplace().brush = add && at->distance > kRoomForLump ? lumpAt(*at) : holeAt(*at, key);
   return {};
@@ -130,7 +130,7 @@ Result<void> FlightDigger::dig() {
 }
 
 void FlightDigger::look(const sgm_world_stats& stats) {
-  // There is one dig a frame at most: the edits of now are those with it.
+  // There is at most one dig per frame, so the current edits are those with it.
   if (dug_) waiting_.push_back({stats.edits_state, commits_, *dug_});
   dug_.reset();
   commits_ += stats.frame != frame_;

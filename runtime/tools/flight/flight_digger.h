@@ -1,5 +1,5 @@
 #pragma once
-// Digs in a streamed world around a flight, and watches how soon each dig is drawn.
+// Digs in a streamed world around a flight, and measures how soon each dig is drawn.
 
 #include <sgm/sgm.h>
 
@@ -14,7 +14,7 @@
 
 namespace sgm::cli {
 
-/// Of a number of values: the one in the middle, the one that one in a hundred exceeds, the largest. All 0 for none.
+/// Median, 99th percentile and maximum of some values. All 0 for none.
 struct Spread {
   double p50 = 0, p99 = 0, max = 0;
 };
@@ -22,29 +22,29 @@ Spread spreadOf(std::vector<double> values);
 
 struct DigReport {
   uint64_t cuts = 0, adds = 0, undos = 0;
-  Spread frames;             ///< frames of changes from a dig until it is drawn
-  Spread milliseconds;       ///< likewise, on the wall
-  uint64_t most_queued = 0;  ///< chunks that waited to be meshed after any frame from the first dig on
+  Spread frames;             ///< frames with changes, from a dig until it is drawn
+  Spread milliseconds;       ///< the same in wall time
+  uint64_t most_queued = 0;  ///< maximum of chunks waiting for meshing after a frame, since the first dig
 
   uint64_t digs() const { return cuts + adds + undos; }
 };
 
-/// Most digs cut a hole of 4 m into the surface around the viewer, most of these ahead of it; some add a lump behind
-/// it, where it does not come soon; some undo one of the last. Where and what is a function of the seed, the world and
-/// the flight alone. One thread at a time.
+/// Most digs cut a hole of 4 m into the surface around the viewer, mostly ahead of it; some add a lump behind it, out
+/// of its way; some undo one of the last digs. Places and kinds depend only on the seed, the world and the flight. One
+/// thread at a time.
 class FlightDigger {
  public:
-  /// At most 60 digs a second of the path, the first after a second. The world must outlive the digger.
+  /// At most 60 digs per second of the path, the first after one second. The world must outlive the digger.
   FlightDigger(sgm_world* world, uint64_t seed, double digs_a_second);
 
-  /// Finds what to dig in this frame, if anything. Takes its time. Errors: those of the world's queries.
+  /// Chooses the dig of this frame, if one is due. Slow. Errors: those of the world's queries.
   Result<void> plan(uint64_t frame, const FlightPlace& place);
-  /// Digs that, as an engine does. Errors: those of sgm_world_edit.
+  /// Performs the chosen dig, as an engine does. Errors: those of sgm_world_edit.
   Result<void> dig();
-  /// After a frame, with what the world says then.
+  /// Call after each frame, with the world's current statistics.
   void look(const sgm_world_stats& stats);
 
-  /// Whether digs wait to be drawn.
+  /// Whether some digs are not drawn yet.
   bool waits() const { return !waiting_.empty(); }
   DigReport report() const;
 
@@ -53,10 +53,10 @@ class FlightDigger {
   struct Dig {
     bool undo = false;
     sgm_brush brush = SGM_BRUSH_INIT;
-    size_t undone = 0;  ///< of last_
+    size_t undone = 0;  ///< index into last_
   };
   struct Waiting {
-    uint64_t state, commits;  ///< of the edits with the dig; before it
+    uint64_t state, commits;  ///< of the edits including the dig; number of commits before it
     Clock::time_point since;
   };
 
@@ -66,11 +66,11 @@ class FlightDigger {
   PathKey key_;
   double a_frame_;
   std::optional<Dig> planned_;
-  std::optional<Clock::time_point> dug_;  ///< in this frame
-  std::deque<sgm_edit_id> last_;          ///< that can be undone; an undo among them is redone
+  std::optional<Clock::time_point> dug_;  ///< time of the dig in this frame
+  std::deque<sgm_edit_id> last_;          ///< edits that can be undone; undoing an undo redoes it
   std::deque<Waiting> waiting_;
-  uint64_t frame_ = 0;    ///< that was drawn after the last look
-  uint64_t commits_ = 0;  ///< changes of what is drawn: a frame's number may rise by more than one
+  uint64_t frame_ = 0;    ///< drawn at the last look
+  uint64_t commits_ = 0;  ///< changes of the picture: a frame's number may rise by more than one
   DigReport report_;
   std::vector<double> frames_, milliseconds_;
 };

@@ -29,7 +29,7 @@ Result<Metres3> readPathPoint(const nlohmann::json& json, const std::string& nam
   Metres3 point{0};
   for (int axis = 0; axis < 3; ++axis) {
     const nlohmann::json& value = json[static_cast<size_t>(axis)];
-    if (!value.is_number()) return wrong(name + " is not three numbers");
+    if (!value.is_number()) return wrong(name + " must be three numbers");
     point[axis] = value.get<double>();
     if (!(std::fabs(point[axis]) <= kFarthest)) return wrong(name + " is farther than 2,000 km from the origin");
   }
@@ -47,15 +47,16 @@ Result<PathPoints> readPathPoints(std::string_view text) {
   } catch (const nlohmann::json::out_of_range&) {
     return wrong("a number is too large");
   }
-  if (!json.is_object()) return wrong("a path is an object, {\"points\": [[x, y, z], ...]}");
+  if (!json.is_object()) return wrong("a path must be an object, {\"points\": [[x, y, z], ...]}");
   for (const auto& [name, value] : json.items())
-    if (name != "points" && name != "loop") return wrong("a path has \"points\" and \"loop\", and no \"" + name + "\"");
+    if (name != "points" && name != "loop")
+      return wrong("a path may have \"points\" and \"loop\", but not \"" + name + "\"");
   PathPoints path;
   if (json.contains("loop")) {
-    if (!json["loop"].is_boolean()) return wrong("\"loop\" is neither true nor false");
+    if (!json["loop"].is_boolean()) return wrong("\"loop\" must be true or false");
     path.loop = json["loop"].get<bool>();
   }
-  if (!json.contains("points") || !json["points"].is_array()) return wrong("a path has a list of \"points\"");
+  if (!json.contains("points") || !json["points"].is_array()) return wrong("a path must have a list of \"points\"");
   const nlohmann::json& points = json["points"];
   for (size_t i = 0; i < points.size(); ++i) {
     const Result<Metres3> point = readPathPoint(points[i], "points[" + std::to_string(i) + "]");
@@ -63,14 +64,14 @@ Result<PathPoints> readPathPoints(std::string_view text) {
     if (path.points.empty() || path.points.back() != *point) path.points.push_back(*point);
   }
   if (path.loop && path.points.size() > 1 && path.points.back() == path.points.front()) path.points.pop_back();
-  if (path.points.size() < 2) return wrong("a path has two different points or more");
+  if (path.points.size() < 2) return wrong("a path must have at least two different points");
   return path;
 }
 
 Result<FlightPath> FlightPath::ofFile(const std::string& file) {
   const Result<std::string> read = api::readTextFile(file, kMostPathBytes);
   if (!read && read.error().code == Code::limit)
-    return Error{Code::limit, file + ": a path is a file of 64 MiB at most"};
+    return Error{Code::limit, file + ": the file is larger than 64 MiB, the limit of a path"};
   if (!read) return read.error();
   const std::string& text = *read;
   const Result<PathPoints> path = readPathPoints(text);
@@ -90,7 +91,7 @@ FlightPath FlightPath::through(const PathPoints& path) {
   };
   const double finest = std::max(kFinest, lengthAlong(path.points) / kMostPlaces);
   const std::vector<Metres3> points = splinePoints(path.points, finest / 2, path.loop);
-  // A whole number of spacings, a hair too short, so that the last one is not lost and a loop closes.
+  // A whole number of spacings, minus a rounding margin, so that the last one is not lost and a loop closes.
   const double length = (1 - 1e-9) * lengthAlong(points);
   FlightPath flight(length / std::max(1.0, std::round(length / finest)));
   flight.loop_ = path.loop;
@@ -107,7 +108,7 @@ Result<FlightPath> FlightPath::automatic(sgm_field* field, const sgm_grammar* gr
 }
 
 Result<FlightPlace> FlightPath::at(double s) {
-  // The direction at a place asks for the one behind it.
+  // The direction at a place needs the next place.
   while (planner_ && curve_.length() < s + 2 * planner_->spacing()) {
     const Result<std::vector<Metres3>> piece = planner_->next();
     if (!piece) return piece.error();
@@ -122,7 +123,7 @@ std::optional<double> FlightPath::length() const {
 }
 
 Result<void> FlightPath::teleport(uint64_t number) {
-  if (!planner_) return Error{Code::unsupported, "a path from a file has no other places to go to"};
+  if (!planner_) return Error{Code::unsupported, "a path from a file has no places to leap to"};
   if (Result<void> ok = planner_->teleport(number); !ok) return ok.error();
   curve_ = FlightCurve(planner_->spacing());
   return {};

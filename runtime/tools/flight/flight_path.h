@@ -1,5 +1,5 @@
 #pragma once
-// Where a flight goes: along the points of a file, or on its own through the void of a field.
+// The path of a flight: along the points of a file, or planned through the void of a field.
 
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@ struct PathPoints {
   bool loop = false;
 };
 
-/// Errors: bad_input with line and column (not JSON), invalid_argument (anything else that is no path), each one line.
+/// Errors, each one line: bad_input with line and column for wrong JSON, invalid_argument for any other wrong content.
 Result<PathPoints> readPathPoints(std::string_view json);
 
 /// One thread at a time.
@@ -24,15 +24,16 @@ class FlightPath {
   /// The smooth curve through the points of a file. Errors: io, those of readPathPoints, after the file's name.
   static Result<FlightPath> ofFile(const std::string& file);
   static FlightPath through(const PathPoints& path);
-  /// A flight without an end that finds its own way. Field and grammar must outlive it. Errors: as FlightPlanner.
+  /// An endless flight that plans its own path. Field and grammar must outlive it. Errors: as FlightPlanner.
   static Result<FlightPath> automatic(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings);
 
-  /// The place at arc length s >= 0, in metres; plans as far as that where it must, which takes its time. Beyond its
-  /// end a path stands still; a loop begins anew. Errors: as FlightPlanner::next.
+  /// The place at arc length s >= 0, in metres. May plan up to there, which is slow. Beyond its end, a path stays
+  /// there; a loop starts again. Errors: as FlightPlanner::next.
   Result<FlightPlace> at(double s);
-  /// Nothing for a path that goes on for ever.
+  /// nullopt for an endless path.
   std::optional<double> length() const;
-  /// Goes on from another place (FlightPlanner::teleport), from where s counts anew. unsupported: a path of a file.
+  /// Continues from another place (FlightPlanner::teleport), where s restarts at 0. Error: unsupported for a path of a
+  /// file.
   Result<void> teleport(uint64_t number);
 
  private:

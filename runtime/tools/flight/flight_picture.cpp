@@ -11,9 +11,9 @@ namespace sgm::cli {
 namespace {
 
 constexpr int kMargin = 8;                                 // pixels
-constexpr std::array<uint8_t, 4> kSheet{24, 24, 26, 255};  // what shows between the pictures
+constexpr std::array<uint8_t, 4> kSheet{24, 24, 26, 255};  // background between the pictures
 
-/// From fine to coarse; then they begin anew.
+/// From fine to coarse, repeated.
 constexpr std::array<glm::vec3, 8> kLevelColours{{{0.75f, 0.75f, 0.72f},
                                                   {0.18f, 0.55f, 0.22f},
                                                   {0.14f, 0.38f, 0.75f},
@@ -71,7 +71,7 @@ struct PictureMesh {
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureWish& wish) {
   RenderScene scene;
-  // Near the camera, so that floats are fine wherever in the world it is.
+  // Near the camera, so that floats are precise anywhere in the world.
   for (int axis = 0; axis < 3; ++axis)
     scene.origin[axis] = saturate(std::llround(wish.camera.position[axis]) * kUnitsPerMetre);
   PictureMesh mesh;
@@ -96,7 +96,7 @@ Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, s
   view.depth = static_cast<float>(wish.depth);
   lightScene(view, wish.levels ? Light::lamp : wish.light, scene);
   if (wish.levels) {
-    // So that far levels show their colours too.
+    // Makes the colours of far levels visible.
     scene.ambient = 0.2f;
     scene.exposure = 1.6f;
     scene.fog_distance = 1e6f;

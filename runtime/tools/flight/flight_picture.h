@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of what a flight has drawn.
+// Pictures of the chunks that a flight has drawn.
 
 #include <sgm/sgm.h>
 
@@ -23,18 +23,19 @@ struct PictureWish {
   double fov_degrees = 68;  ///< across the picture's height
   int width = 640, height = 360;
   Light light = Light::sun;
-  double depth = 20;  ///< typical distance in metres to what is seen: how far the lamp reaches, and how thick haze is
-  /// Each level of detail in a colour of its own, brightly lit; else materials, in that light.
+  double depth = 20;  ///< typical distance in metres of visible surfaces: sets the reach of the lamp and the density of
+                      ///< haze
+  /// Draws each level of detail in its own colour, brightly lit; otherwise materials in `light`.
   bool levels = false;
 };
 
-/// The picture that the camera has of the chunks. Under Light::lamp the camera's own lamp is the only one: others would
-/// jump from picture to picture. Errors: those of Renderer::render.
+/// Draws the chunks from the camera. Under Light::lamp there is only the camera's own lamp, since others would jump
+/// from picture to picture. Errors: those of Renderer::render.
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureWish& wish);
 
-/// All images on one, row by row, with a margin between them; every one has the room of the largest. Precondition:
-/// columns is positive. No image for none.
+/// All images on one sheet, row by row, with margins; each has the space of the largest. Empty without images.
+/// Precondition: columns is positive.
 Image contactSheet(std::span<const Image> images, int columns);
 
 }  // namespace sgm::cli

@@ -13,15 +13,15 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int64_t kFirstLook = 1'000;      // cost of the ways looked at for a new place
-constexpr int64_t kFarthestLook = 81'000;  // and at most, before old places will do
-constexpr size_t kMostNodes = 1'000'000;   // looked at in any case
-constexpr int64_t kShortest = 240;         // cost of a way that is worth going
-constexpr size_t kWorthIt = 500;           // nodes that must lie around a beginning
-constexpr int kRegion = 16;                // steps: a place this near is not a new one
+constexpr int64_t kFirstLook = 1'000;      // cost limit of paths in the first search for a new place
+constexpr int64_t kFarthestLook = 81'000;  // final limit, before old places are accepted
+constexpr size_t kMostNodes = 1'000'000;   // limit of visited nodes
+constexpr int64_t kShortest = 240;         // minimal cost of a useful path
+constexpr size_t kWorthIt = 500;           // nodes that a start must reach
+constexpr int kRegion = 16;                // steps: places nearer than this count as the same
 constexpr int kTries = 40;                 // far places, waypoints
 constexpr int kGoals = 24;
-constexpr int kWays = 8;  // tried to one goal
+constexpr int kWays = 8;  // tried to each goal
 
 Metres3 metresOf(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
 
@@ -67,7 +67,7 @@ double FlightPlanner::spacing() const { return metres(grid_->step()) / 4; }
 Result<FlightPlanner> FlightPlanner::begin(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings) {
   std::optional<Error> error;
   AutoFlight narrower = settings;
-  // Where the world is to say how much room there is, there may be less of it.
+  // If the world chooses the room, half of it may do.
   for (int attempt = 0; attempt < (settings.room > 0 ? 1 : 2); ++attempt) {
     FlightPlanner planner(field, grammar, narrower);
     const Result<void> settled = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre);
@@ -98,18 +98,18 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     return false;
   };
   if (settleAt(domain_.solid != 0 ? anchorsNear(near, reach) : std::vector<Int3>{near})) return {};
-  // Without anchors, wherever there is void: farther off only where there is none here, as places cost a derivation.
+  // Without anchors, anywhere in the void: near places first, since each place costs a derivation.
   for (int32_t half = 32 * kUnitsPerMetre; domain_.solid != 0 && half <= reach; half *= 4) {
     const Result<std::vector<Int3>> found = voidsNear(near, half);
     if (!found) return found.error();
     if (settleAt(*found)) return {};
   }
   if (grid_->error()) return *grid_->error();
-  return noRoom(fmt::format("found no void to fly in, {} m wide, near {:.0f},{:.0f},{:.0f} m", metres(grid_->step()),
+  return noRoom(fmt::format("there is no void to fly in, {} m wide, near {:.0f},{:.0f},{:.0f} m", metres(grid_->step()),
                             metres(near.x), metres(near.y), metres(near.z)));
 }
 
-/// The 16 nearest of places up to `half` units away that are in the void.
+/// The 16 nearest places in the void, up to `half` units away.
 Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   constexpr size_t kMostPlaces = 16;
   std::vector<Int3> lattice;
@@ -123,7 +123,7 @@ Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   std::stable_sort(lattice.begin(), lattice.end(),
                    [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
   std::vector<Int3> places;
-  // Most often the first ones will do, of which there are not many cells to derive.
+  // The first batch usually suffices, and needs the derivation of few cells.
   constexpr size_t kAtOnce = 512;
   for (size_t first = 0; first < lattice.size() && places.size() < kMostPlaces; first += kAtOnce) {
     const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));
@@ -172,14 +172,14 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
     const Result<std::vector<Int3>> way = wayOn();
     if (!way) return way.error();
     if (attempt % kWays == kWays - 1) {
-      // Whatever is in the way is wider than a few nodes: somewhere else.
+      // The obstacle is wider than a few nodes: choose another goal.
       grid_->unblock();
       been_.insert(regionOf(way->back()));
       ++waypoint_;
       continue;
     }
     const int32_t room = attempt < kGoals * kWays / 2 ? grid_->step() / 2 : grid_->step() / 8;
-    // As smooth as there is room for: fewer controls, then the nodes themselves.
+    // As smooth as the room allows: fewer controls, then the nodes themselves.
     for (const size_t stride : {size_t{3}, size_t{1}}) {
       std::vector<Metres3> controls;
       for (size_t i = 0; i + 1 < way->size(); i += stride) controls.push_back(metresOf(grid_->placeOf((*way)[i])));
@@ -196,8 +196,8 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
       if (!tight) return tight.error();
       if (*tight && stride > 1) continue;
       if (*tight) {
-        // What the grid's nodes have not seen stands there: not that way again, for now. Right at the beginning it may
-        // be the turn that is too wide.
+        // An obstacle lies between the grid's nodes: block this path for now. At the start of a piece, the cause may be
+        // a turn that is too sharp.
         const auto nearest = std::min_element(way->begin(), way->end(), [&](Int3 a, Int3 b) {
           return distanceSquared(grid_->placeOf(a), **tight) < distanceSquared(grid_->placeOf(b), **tight);
         });
@@ -217,14 +217,14 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
       return points;
     }
   }
-  return noRoom("found no way on that is wide enough");
+  return noRoom("there is no continuation of the path that is wide enough");
 }
 
 Result<std::vector<Int3>> FlightPlanner::wayOn() { return domain_.solid != 0 ? wayToNew() : wayAround(); }
 
 Result<std::vector<Int3>> FlightPlanner::wayToNew() {
   for (int64_t look = kFirstLook;; look *= 3) {
-    // The farther the better; the seed moves that a little.
+    // Prefer far nodes; the seed varies the order.
     std::optional<Int3> best;
     double most = 0;
     const VoidSearch search(*grid_, node_, kMostNodes, {}, [&](Int3 node, int64_t cost) {
@@ -242,7 +242,7 @@ Result<std::vector<Int3>> FlightPlanner::wayToNew() {
     if (best) return search.wayTo(*best);
     if (look < kFarthestLook) continue;
     if (been_.size() <= 1) return noRoom("the void around the flight is too small");
-    // All of it is known: begin anew.
+    // Everything is visited: start again.
     been_.clear();
     look = kFirstLook / 3;
   }
@@ -267,7 +267,7 @@ Result<std::vector<Int3>> FlightPlanner::wayAround() {
     if (grid_->error()) return *grid_->error();
     if (there) return search.wayTo(*goal);
   }
-  return noRoom("found no way between the solids");
+  return noRoom("there is no path between the solids");
 }
 
 Result<void> FlightPlanner::findSolids(Int3 near) {
@@ -307,13 +307,13 @@ Result<void> FlightPlanner::findSolids(Int3 near) {
 }
 
 Int3 FlightPlanner::waypoint(int64_t number) const {
-  // A turn of the spiral is a scale wider than the one before, and its waypoints lie half a scale apart. Angle a is
-  // where the spiral is number half scales long: its length grows with the square.
+  // Each turn of the spiral is wider by `scale_`, and its waypoints lie half of that apart. At this angle the spiral's
+  // length is `number` halves of it: the length grows with the square of the angle.
   constexpr double kTurn = 2 * std::numbers::pi;
   const double angle = std::sqrt(kTurn * (1.0 + static_cast<double>(number)));
   double radius = scale_ * (0.25 + angle / kTurn);
   if (domain_.infinite == 0) {
-    // In and out of a finite world.
+    // Moves in and out of a finite world.
     const double widest = 2.5 * scale_;
     radius = std::fabs(std::remainder(radius, 2 * widest));
   }
@@ -377,7 +377,7 @@ Result<void> FlightPlanner::teleport(uint64_t number) {
     pieces_ = hashCombine(number, 1);
     return {};
   }
-  return noRoom("found no far place with room to fly");
+  return noRoom("there is no distant place with enough room to fly");
 }
 
 }  // namespace sgm::cli

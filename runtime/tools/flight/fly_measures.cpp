@@ -11,7 +11,7 @@ namespace {
 
 std::string nameOf(size_t kind) { return measure::defectName(static_cast<measure::Defect>(kind)); }
 
-/// "non-manifold edges" as a member's name: nonmanifold_edges.
+/// The JSON key of a kind: "non-manifold edges" becomes nonmanifold_edges.
 std::string keyOf(size_t kind) {
   std::string key;
   for (const char c : nameOf(kind)) {
@@ -54,10 +54,10 @@ Json toJson(const sgm_world_measures& measures) {
 void print(const sgm_world_measures& measures) {
   const sgm_chunk_sums &made = measures.made, &drawn = measures.drawn;
   fmt::print("  measures  {} bodies and {} seams, {} triangles: {}; {} slivers\n", made.bodies, made.seams,
-             made.triangles, defectOf(measures).value_or("nothing wrong"), made.sliver_triangles);
+             made.triangles, defectOf(measures).value_or("no defects"), made.sliver_triangles);
   fmt::print("            drawn at the end: {:.1f} m2 around {:.1f} m3 of {}\n", drawn.area, std::fabs(drawn.flux),
              drawn.flux < 0 ? "void" : "solid");
-  fmt::print("            took {:.0f} ms, {:.1f} % of the {:.0f} of meshing\n", 1e3 * measures.measuring_seconds,
+  fmt::print("            took {:.0f} ms, {:.1f} % of the {:.0f} ms of meshing\n", 1e3 * measures.measuring_seconds,
              100 * shareOf(measures), 1e3 * measures.meshing_seconds);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm fly --measure` says of the chunks that were streamed.
+// The part of `sgm fly --measure` on the streamed chunks.
 
 #include <sgm/sgm.h>
 
@@ -13,7 +13,7 @@ namespace sgm::cli {
 Json toJson(const sgm_world_measures& measures);
 void print(const sgm_world_measures& measures);
 
-/// What is wrong with the chunks that were made; nothing where none is.
+/// Lists the problems of the chunks; nullopt if there are none.
 std::optional<std::string> defectOf(const sgm_world_measures& measures);
 
 }  // namespace sgm::cli

@@ -17,13 +17,14 @@ ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key
 
 bool isFeature(const VertexPlace& v) { return (v.kind & SGM_VERTEX_FEATURE) != 0; }
 
-/// Whether no other chunk can have the vertex: no face of the chunk holds it. Features may lie off theirs.
+/// Whether the vertex lies on no face of its chunk, so that no other chunk can share it. Features may lie off their
+/// faces.
 bool isInside(const VertexPlace& v) {
   const auto inner = [](int16_t at) { return at != 0 && at != kChunkEdge; };
   return !isFeature(v) && inner(v.x) && inner(v.y) && inner(v.z);
 }
 
-/// Of a feature in a body, or in the seam over a face; nothing where it is none that these have.
+/// The key of a feature in a body, or in the seam over a face; nullopt if these cannot have it.
 std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
   const bool of_cell = (vertex.kind >> 14 & 1) != 0, coarser = (vertex.kind >> 13 & 1) != 0;
   if (seam == nullptr ? coarser : of_cell) return {};
@@ -61,7 +62,7 @@ void countUse(uint64_t forward, uint64_t backward, Counts& counts) {
   counts.nonmanifold += forward > 1 || backward > 1;
 }
 
-/// Calls use(from, to), indices both, for every edge of the triangles that have no vertex twice.
+/// Calls use(from, to), both indices, for every edge of the triangles without repeated vertices.
 template <class Use>
 void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
   for (size_t i = 0; i < indices.size(); i += 3) {
@@ -75,7 +76,7 @@ void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_
 
 bool samePlace(const VertexPlace& a, const VertexPlace& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Jobs are done where they are asked for: the flight's threads are the runtime's.
+/// Runs jobs in the calling thread: the runtime has the other threads.
 class NoThreads final : public JobSystem {
  public:
   unsigned concurrency() const override { return 1; }
@@ -137,7 +138,7 @@ size_t FrameChecker::Hash::operator()(const ChunkKey& key) const {
 
 Result<FrameChecker::Chunk> FrameChecker::copyOf(const sgm_mesh_view& mesh) {
   const ChunkKey key = keyOf(mesh.key);
-  if (key.level < 0 || key.level > kMaxLevel) return malformed(key, "has no such level");
+  if (key.level < 0 || key.level > kMaxLevel) return malformed(key, "has a level out of range");
   Chunk chunk;
   chunk.grid = {{mesh.origin[0], mesh.origin[1], mesh.origin[2]}, mesh.cell_units, key.level};
   for (size_t number = 0; number < chunk.parts.size(); ++number) {
@@ -145,14 +146,14 @@ Result<FrameChecker::Chunk> FrameChecker::copyOf(const sgm_mesh_view& mesh) {
     Part& part = chunk.parts[number];
     if (uint64_t{range.first_vertex} + range.vertex_count > mesh.vertex_count ||
         uint64_t{range.first_index} + range.index_count > mesh.index_count || range.index_count % 3 != 0)
-      return malformed(key, "has a range that its arrays do not hold");
+      return malformed(key, "has a range beyond its arrays");
     const SeamOf seam = seamOf({}, number);
     part.vertices.reserve(range.vertex_count);
     for (uint32_t i = 0; i < range.vertex_count; ++i) {
       const sgm_vertex v = elementAt(mesh.vertices, mesh.vertex_stride, range.first_vertex + i);
       part.vertices.push_back({v.x, v.y, v.z, v.kind});
       if (!vertexKey(chunk.grid, part.vertices.back(), number == 0 ? nullptr : &seam))
-        return malformed(key, "has a vertex that no key follows from: " + std::to_string(range.first_vertex + i));
+        return malformed(key, "has a vertex without a key: " + std::to_string(range.first_vertex + i));
     }
     part.indices.reserve(range.index_count);
     for (uint32_t i = 0; i < range.index_count; ++i) {
@@ -178,7 +179,7 @@ void FrameChecker::forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
 }
 
 void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) {
-  std::vector<std::pair<uint64_t, uint32_t>> edges;  // within the chunk; then the vertex's number
+  std::vector<std::pair<uint64_t, uint32_t>> edges;  // edge within the chunk, vertex number
   edges.reserve(part.vertices.size());
   for (const VertexPlace& v : part.vertices) {
     const auto number = static_cast<uint32_t>(edges.size());
@@ -189,7 +190,7 @@ void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) 
     }
     const uint64_t axis = v.x % kSubcell != 0 ? 0 : v.y % kSubcell != 0 ? 1 : 2;
     const uint64_t cell = (word(v.x) / kSubcell << 16) | (word(v.y) / kSubcell << 8) | word(v.z) / kSubcell;
-    // Below a feature's bit.
+    // Distinct from a feature's key, whose low bits are not 0.
     edges.push_back({(cell << 2 | axis) << 16, number});
   }
   std::sort(edges.begin(), edges.end());
@@ -216,7 +217,8 @@ Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& pa
   const auto at = chunks_.find(keyOf(key));
   if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
   Chunk& chunk = at->second;
-  // Only lateral vertices depend on the blocks around, but seams are small: one whose fans change goes and comes back.
+  // Only lateral vertices depend on neighbouring blocks, but seams are small: if its fans change, re-add the whole
+  // seam.
   std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
   forEachDrawn(chunk, [&](Part&, size_t number) {
     if (number == 0) return;
@@ -424,7 +426,7 @@ uint64_t FrameChecker::countBetweenParts() const {
     bool body;
   };
   std::vector<Owner> parts;
-  std::vector<uint32_t> owners;  // by triangle
+  std::vector<uint32_t> owners;  // part, by triangle
   std::vector<measure::Point> points;
   std::vector<measure::Triangle> triangles;
   if (chunks_.empty()) return 0;
@@ -435,7 +437,7 @@ uint64_t FrameChecker::countBetweenParts() const {
       for (const VertexPlace& v : part.vertices) {
         measure::Point& p = points.emplace_back();
         const std::array<int, 3> at{v.x, v.y, v.z};
-        // 1/256 unit: exact.
+        // In 1/256 unit, which is exact.
         for (int axis = 0; axis < 3; ++axis)
           p[axis] = static_cast<double>((int64_t{grid.origin[axis]} - origin[axis]) * kSubcell +
                                         int64_t{at[static_cast<size_t>(axis)]} * grid.cell);
@@ -459,7 +461,7 @@ uint64_t FrameChecker::countBetweenParts() const {
     tree.visitPairs(walk, UINT64_MAX, [&](uint32_t a, uint32_t b) {
       const Owner &first = parts[owners[a]], &second = parts[owners[b]];
       if (owners[a] == owners[b]) {
-        // A body's own pairs are counted with it; a seam's may lie upon each other.
+        // A body's own pairs are already counted; triangles of a seam may coincide.
         if (first.body) return;
       } else if (first.body && second.body && first.level == second.level) {
         pairs += measure::pairFault(cornersOf(a), cornersOf(b)) != PairFault::none;

@@ -15,7 +15,7 @@ constexpr size_t kMostBlocks = size_t{1} << 16;  // half a kilobyte each
 
 constexpr int32_t floorDivide(int32_t a, int32_t b) { return static_cast<int32_t>(floorDiv(a, b)); }
 
-/// Tenths of a step to a neighbour, by how many axes it is off.
+/// Tenths of a step to a neighbour, by the number of axes on which it differs.
 constexpr std::array<int64_t, 4> kStepCost{0, 10, 14, 17};
 
 }  // namespace
@@ -65,7 +65,7 @@ bool VoidGrid::isClear(Int3 node) {
 }
 
 const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
-  // Mostly the one that was asked for last.
+  // Usually the last requested block.
   if (latest_ != nullptr && latest_at_ == at) return *latest_;
   latest_at_ = at;
   const auto known = blocks_.find(at);
@@ -85,7 +85,7 @@ const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
     error_ = solid.error();
     return block;
   }
-  // A row, a slice, a cube of three without a solid, one axis after the other.
+  // Dilates by one node, one axis after the other.
   std::vector<bool> blocked = *solid;
   for (const int stride : {1, kSide, kSide * kSide}) {
     const std::vector<bool> before = blocked;
@@ -120,7 +120,7 @@ std::optional<Int3> VoidGrid::nearestClear(Int3 node, int radius) {
 
 VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
                        const std::function<bool(Int3, int64_t)>& visit) {
-  using Entry = std::tuple<int64_t, Int3>;  // cost with the guess; ties by place, so that the order is one
+  using Entry = std::tuple<int64_t, Int3>;  // cost plus guess; ties by place, for a deterministic order
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto left = [&](Int3 node) { return guess ? guess(node) : 0; };
   reached_[from] = {0, from, false};
@@ -134,7 +134,7 @@ VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::functi
     ++visited;
     const int64_t cost = here.cost;
     if (!visit(node, cost)) return;
-    // Ways along the walls cost twice as much, so that flights keep to the middle.
+    // Steps beside walls cost twice as much, so that flights keep to the middle.
     int walls = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {

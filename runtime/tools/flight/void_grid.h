@@ -1,5 +1,5 @@
 #pragma once
-// Where there is room to fly: a grid of places in the void of a field, sampled as it is asked for, and ways through it.
+// Finds room to fly: a grid of places in the void of a field, sampled on demand, and paths through it.
 
 #include <sgm/sgm.h>
 
@@ -21,12 +21,12 @@ struct PlaceHash {
   size_t operator()(const Int3& p) const;
 };
 
-/// Solid or void at points, in units, at level 0. Errors: those of sgm_field_sample.
+/// Whether points, in units, are in the solid at level 0. Errors: those of sgm_field_sample.
 Result<std::vector<bool>> solidAt(sgm_field* field, std::span<const Int3> points);
 
-/// Node (x, y, z) lies at that times the step, and five eighths of one farther: walls and floors like to lie on whole
-/// metres, where a node would be in the void on both sides. A node is clear where it and its 26 neighbours are in the
-/// void. The field must outlive the grid. After an error nothing is clear any more.
+/// Node (x, y, z) lies at (x, y, z) times the step plus five eighths of a step: walls and floors often lie on whole
+/// metres, where a node would be in the void on both sides. A node is clear if it and its 26 neighbours are in the
+/// void. The field must outlive the grid. After an error no node is clear.
 class VoidGrid {
  public:
   VoidGrid(sgm_field* field, int32_t step) : field_(field), step_(step) {}
@@ -36,7 +36,7 @@ class VoidGrid {
   Int3 nodeAt(Int3 place) const;
 
   bool isClear(Int3 node);
-  /// Something too thin for the grid is in the way: the node is not clear until unblock().
+  /// Marks an obstacle too thin for the grid: the node is not clear until unblock().
   void block(Int3 node) { blocked_.insert(node); }
   void unblock() { blocked_.clear(); }
   /// The clear node nearest to this one, at most `radius` steps away on each axis.
@@ -45,7 +45,7 @@ class VoidGrid {
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  static constexpr int kBlock = 16;  ///< nodes on each axis that are sampled together
+  static constexpr int kBlock = 16;  ///< nodes on each axis of a block, which are sampled together
   using Block = std::bitset<kBlock * kBlock * kBlock>;
   const Block& blockAt(Int3 at);
 
@@ -58,16 +58,16 @@ class VoidGrid {
   std::optional<Error> error_;
 };
 
-/// The nodes reached from one, nearest first.
+/// The nodes reached from a start node, nearest first.
 class VoidSearch {
  public:
-  /// `guess` of a node is about what is left of its way, in tenths of a step; null: 0 everywhere, and all ways are the
-  /// cheapest. Along walls ways cost twice their length. `visit` is called with each node as it is reached, and returns
-  /// false to stop. The search ends after `most` nodes.
+  /// `guess` estimates the remaining cost of a node, in tenths of a step; null: 0 everywhere, so that all paths are
+  /// optimal. Steps beside walls cost twice their length. `visit` is called with each node as it is reached, and
+  /// returns false to stop. The search ends after `most` nodes.
   VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
              const std::function<bool(Int3 node, int64_t cost)>& visit);
 
-  /// The way to a node that was visited, both ends included.
+  /// The path to a visited node, including both ends.
   std::vector<Int3> wayTo(Int3 node) const;
 
  private:

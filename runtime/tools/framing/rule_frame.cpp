@@ -14,12 +14,12 @@ namespace {
 
 constexpr size_t kMostUses = 50'000;
 constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // units
-constexpr int32_t kCellsAcross = 12;                                      // of a use, at least where cells allow
+constexpr int32_t kCellsAcross = 12;                                      // of a use, minimum where cell sizes allow
 constexpr int64_t kRegionCells = 352;                                     // on the region's longest edge
 
 Error refusal(std::string message) { return {Code::invalid_argument, std::move(message)}; }
 
-/// Modules by the names that the root's imports give them.
+/// Modules by their import names in the root.
 std::map<std::string, uint32_t> importsOf(const Program& program) {
   std::map<std::string, uint32_t> imports;
   for (const DeclaredName& declared : declarationsOf(program.modules[0].text).names) {
@@ -30,7 +30,7 @@ std::map<std::string, uint32_t> importsOf(const Program& program) {
   return imports;
 }
 
-/// The names that --frame takes, as the root would write them.
+/// The names that --frame accepts, as written in the root.
 std::map<std::string, uint32_t> namesOf(const Program& program) {
   std::map<std::string, uint32_t> names;
   const std::map<std::string, uint32_t> imports = importsOf(program);
@@ -43,7 +43,7 @@ std::map<std::string, uint32_t> namesOf(const Program& program) {
   return names;
 }
 
-/// Of those that are near, as they are written: with the import's name where the word lacks it.
+/// A similar name, as it is written: with the import's name if `wanted` lacks it.
 std::string nearName(const std::map<std::string, uint32_t>& names, const std::string& wanted) {
   Suggestion whole(wanted), bare(wanted);
   std::map<std::string, std::string> without;
@@ -85,14 +85,14 @@ double squareFromOrigin(const IntBox& box) {
 
 FrameRegion around(const IntBox& use) {
   const int64_t size = longestEdge(use);
-  // What is long and thin takes smaller cells.
+  // Long and thin uses need smaller cells.
   int64_t detail = size;
   for (int axis = 0; axis < 3; ++axis) detail = std::min(detail, int64_t{use.hi[axis]} - use.lo[axis]);
   detail = std::max(detail, size / kCellsAcross);
   FrameRegion frame;
   frame.cell = kLargestCell;
   while (frame.cell > kSmallestCell && frame.cell * kCellsAcross > detail) frame.cell /= 2;
-  // Room for the camera, and for what stands behind the use.
+  // Room for the camera, and for the background.
   const int64_t wanted = std::max<int64_t>(6 * size, int64_t{24} * kUnitsPerMetre);
   const int64_t half = std::max(std::min(wanted, kRegionCells / 2 * frame.cell), size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -116,7 +116,7 @@ Result<FramedRule> findFramedRule(const Program& program, std::string_view text)
   std::string name(last.name);
   if (!last.qualifier.empty()) name = fmt::format("{}.{}", last.qualifier, last.name);
   if (framed.by_path) {
-    // Names within imported files are those of their own imports: the path itself decides.
+    // Qualifiers in imported files are names of their own imports, so only the path decides.
     for (uint32_t rule = 0; rule < program.rules.size(); ++rule)
       if (program.text(program.rules[rule].name) == last.name) framed.rules.push_back(rule);
   } else if (const auto found = names.find(name); found != names.end()) {
@@ -125,7 +125,7 @@ Result<FramedRule> findFramedRule(const Program& program, std::string_view text)
   if (!framed.rules.empty()) return framed;
   const std::string near = nearName(names, name);
   return refusal(
-      fmt::format("--frame: rule '{}' is not there: {}", name,
+      fmt::format("--frame: there is no rule '{}': {}", name,
                   near.empty() ? "the grammar has " + listed(names) : fmt::format("did you mean '{}'?", near)));
 }
 
@@ -195,7 +195,7 @@ Result<FrameRegion> regionAround(const WorldField& world, const FramedRule& want
   }
   return refusal(fmt::format(
       "--frame: '{}' is not used {}: {}", wanted.text, domain.infinite ? "within 512 m of the origin" : "in this world",
-      domain.infinite ? "say where with --region, or take another --seed" : "take another --seed, or another rule"));
+      domain.infinite ? "choose a region with --region, or another --seed" : "choose another --seed, or another rule"));
 }
 
 }  // namespace sgm::cli

@@ -18,13 +18,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The protocol's numbers.
+// Error codes of the protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602,
               kServerNotInitialized = -32002;
 constexpr const char* kNotOpen = "this document is not open: send textDocument/didOpen first";
 constexpr int kErrorSeverity = 1, kWarningSeverity = 2;
 
-/// A part of the standard library is a document of its own, which editors ask for with sgm/standardText.
+/// Parts of the standard library are documents too, which editors request with sgm/standardText.
 constexpr std::string_view kStandardUri = "sgm-std:/";
 
 Json toJson(const TextPosition& p) { return {{"line", p.line}, {"character", p.character}}; }
@@ -38,7 +38,7 @@ uint32_t offsetAt(const DocumentText& text, const Json& params) {
   return text.offset({position.at("line").get<uint32_t>(), position.at("character").get<uint32_t>()});
 }
 
-/// The whole text was agreed, but a client may send the range that its text takes the place of.
+/// The server asked for whole texts, but a client may send the replaced range as well.
 DocumentText changed(const DocumentText& before, const Json& change) {
   std::string text = change.at("text").get<std::string>();
   if (!change.contains("range") || change.at("range").is_null()) return DocumentText(std::move(text));
@@ -54,7 +54,7 @@ std::string folderOf(const std::string& uri) {
   return std::filesystem::path(pathOfUri(uri)).parent_path().lexically_normal().string();
 }
 
-/// Open documents before files.
+/// Resolves imports to open documents first, then to files.
 class OpenImports : public ImportResolver {
  public:
   OpenImports(const std::map<std::string, DocumentText>& open, std::string folder)
@@ -73,7 +73,7 @@ class OpenImports : public ImportResolver {
   api::FolderImports files_;
 };
 
-/// The numbers that the protocol gives kinds of completions and symbols.
+/// The protocol's numbers for kinds of completions and symbols.
 struct KindNumbers {
   int completion, symbol;
 };
@@ -117,7 +117,7 @@ std::string hoverText(const DeclaredName& name) {
   return text;
 }
 
-/// Without the library's own name and number of the error.
+/// The message without the library's own name and error number.
 std::string reasonOf(const Json::exception& error) {
   const std::string_view text = error.what();
   const size_t end = text.starts_with('[') ? text.find("] ") : std::string_view::npos;
@@ -137,17 +137,17 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   const bool object = message.is_object();
   const Json id = object && message.contains("id") ? message.at("id") : Json();
   const bool request = object && message.contains("id");
-  // An answer to a request of ours: there is none.
+  // Ignore answers: this server sends no requests.
   if (object && !message.contains("method") && (message.contains("result") || message.contains("error"))) return out;
   if (!object || !message.contains("method") || !message.at("method").is_string() ||
       (request && !id.is_string() && !id.is_number_integer())) {
-    out.push_back(
-        errorAnswer(nullptr, {kInvalidRequest, "a message is an object with a method, and an id if it asks"}));
+    out.push_back(errorAnswer(
+        nullptr, {kInvalidRequest, "a message must be an object with a method, and its id a string or an integer"}));
     return out;
   }
   const std::string method = message.at("method");
   const Json params = message.contains("params") ? message.at("params") : Json::object();
-  // The library throws where params are not as the protocol says.
+  // The library throws if params do not follow the protocol.
   try {
     if (!request) {
       notify(method, params, out);
@@ -166,7 +166,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
 
 LanguageServer::Answer LanguageServer::answer(const std::string& method, const Json& params) {
   if (method == "initialize") {
-    if (state_ != State::fresh) return Refusal{kInvalidRequest, "initialize comes once, and first"};
+    if (state_ != State::fresh) return Refusal{kInvalidRequest, "initialize must be sent once, as the first request"};
     state_ = State::running;
     const Json told = {{"capabilities",
                         {{"positionEncoding", "utf-16"},
@@ -179,7 +179,7 @@ LanguageServer::Answer LanguageServer::answer(const std::string& method, const J
                        {"serverInfo", {{"name", "sgm"}, {"version", sgm_version_string()}}}};
     return told;
   }
-  if (state_ == State::fresh) return Refusal{kServerNotInitialized, "initialize comes first"};
+  if (state_ == State::fresh) return Refusal{kServerNotInitialized, "the first request must be initialize"};
   if (state_ != State::running) return Refusal{kInvalidRequest, "the server was shut down"};
   if (method == "shutdown") {
     state_ = State::shutdown;
@@ -192,7 +192,7 @@ LanguageServer::Answer LanguageServer::answer(const std::string& method, const J
   if (method == "textDocument/documentSymbol") return symbols(params);
   if (method == "textDocument/formatting") return format(params);
   if (method == "sgm/standardText") return standardText(params);
-  return Refusal{kMethodNotFound, "no method " + method};
+  return Refusal{kMethodNotFound, "unknown method " + method};
 }
 
 void LanguageServer::notify(const std::string& method, const Json& params, std::vector<Json>& out) {
@@ -210,7 +210,7 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
     const std::string uri = params.at("textDocument").at("uri");
     const Json& changes = params.at("contentChanges");
     if (!documents_.contains(uri) || changes.empty()) return;
-    // All of them or none: a change that is not as the protocol says throws.
+    // Apply all changes or none: an invalid change throws.
     DocumentText text = documents_[uri];
     for (const Json& change : changes) text = changed(text, change);
     documents_[uri] = std::move(text);
@@ -224,7 +224,7 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
   }
 }
 
-/// Those that import what was opened, changed or closed may be right or wrong now.
+/// Importers of the opened, changed or closed document may have become right or wrong.
 void LanguageServer::diagnoseAll(std::vector<Json>& out) {
   for (const auto& [open, text] : documents_) diagnose(open, out);
 }
@@ -264,7 +264,7 @@ void LanguageServer::diagnose(const std::string& uri, std::vector<Json>& out) {
     if (!of_file.contains(about) && !documents_.contains(about)) publish(about, Json::array(), out);
   before.clear();
   for (const auto& [about, diagnostics] : of_file) {
-    // An open document speaks for itself.
+    // An open document publishes its own diagnostics.
     if (about != uri && documents_.contains(about)) continue;
     publish(about, diagnostics, out);
     before.insert(about);
@@ -430,7 +430,7 @@ LanguageServer::Answer LanguageServer::format(const Json& params) const {
 LanguageServer::Answer LanguageServer::standardText(const Json& params) const {
   const std::string uri = params.at("uri");
   const std::optional<std::string> text = uri.starts_with(kStandardUri) ? textOf(uri) : std::nullopt;
-  if (!text) return Refusal{kInvalidParams, "no such part of the standard library: " + uri};
+  if (!text) return Refusal{kInvalidParams, "the standard library has no part " + uri};
   return *text;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The language server: one message in, those that answer it out. Transport is lsp.cpp's.
+// The language server: turns one message into its answers. lsp.cpp does the transport.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,15 +14,15 @@
 namespace sgm::cli {
 
 /// The Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols, formatting. Not
-/// thread-safe. What editors have open goes before what lies on disk; imports come from a document's folder.
+/// thread-safe. Open documents take precedence over files; imports come from a document's folder.
 class LanguageServer {
  public:
   using Json = nlohmann::json;
 
-  /// A message, whatever it is: a request that cannot be answered gets an error, a notification that is not known
-  /// nothing. May throw std::bad_alloc.
+  /// Handles any message: a request that cannot be answered gets an error, an unknown notification no answer. May throw
+  /// std::bad_alloc.
   std::vector<Json> handle(const Json& message);
-  /// What the protocol answers to bytes that are no JSON.
+  /// The protocol's answer to bytes that are not JSON.
   static Json answerToGarbage(const std::string& why);
 
   bool ended() const { return state_ == State::ended; }
@@ -31,19 +31,19 @@ class LanguageServer {
 
  private:
   enum class State { fresh, running, shutdown, ended };
-  /// A document of whichever file a name leads to.
+  /// A document, or the file of a URI.
   struct Source {
     std::string uri;
     DocumentText text;
     Declarations declarations;
   };
-  /// What a place means.
+  /// The meaning of a place.
   struct Target {
     Source source;
     DeclaredName name;
   };
 
-  /// A request that gets an error: one of the protocol's numbers, and why.
+  /// A request's error: one of the protocol's numbers, and the reason.
   struct Refusal {
     int code;
     std::string why;
@@ -67,13 +67,13 @@ class LanguageServer {
   std::vector<Target> targetsAt(const std::string& uri, uint32_t offset) const;
   std::optional<Source> imported(const std::string& from_uri, const std::string& path) const;
   std::optional<std::string> textOf(const std::string& uri) const;
-  /// Null where it is not open.
+  /// Null if it is not open.
   const DocumentText* document(const Json& params) const;
 
   State state_ = State::fresh;
   bool asked_to_end_ = false;
   std::map<std::string, DocumentText> documents_;           ///< by URI
-  std::map<std::string, std::set<std::string>> diagnosed_;  ///< of each: files that its diagnostics are about
+  std::map<std::string, std::set<std::string>> diagnosed_;  ///< for each, the files of its diagnostics
 };
 
 }  // namespace sgm::cli

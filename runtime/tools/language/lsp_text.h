@@ -1,5 +1,5 @@
 #pragma once
-// Places of a document as editors count them.
+// Conversion between offsets in a document and editors' positions.
 
 #include <cstdint>
 #include <string>
@@ -8,41 +8,41 @@
 
 namespace sgm::cli {
 
-/// A line and a character in it, both from 0; characters are UTF-16 code units, as the protocol has it.
+/// A line and a character in it, both from 0; characters are UTF-16 code units, as in the protocol.
 struct TextPosition {
   uint32_t line = 0, character = 0;
 };
 
-/// A text and where its lines begin.
+/// A text, and the starts of its lines.
 class DocumentText {
  public:
   explicit DocumentText(std::string text = {});
 
   const std::string& text() const { return text_; }
   TextPosition position(uint32_t offset) const;
-  /// Of a line beyond the end: the end; of a character beyond its line: the line's end.
+  /// Clamped: to the end of the text, or to the end of the line.
   uint32_t offset(TextPosition position) const;
   /// line and column as in Diagnostic: from 1, columns in bytes.
   uint32_t offsetOf(int line, int column) const;
 
  private:
   uint32_t endOf(const std::vector<uint32_t>& lines, uint32_t line) const;
-  /// One character on.
+  /// Advances by one character.
   void step(uint32_t& at, uint32_t& character) const;
 
-  /// A place in the text and its character in the line; one at the start of each line, and more in long ones, so that
-  /// no question costs a walk along all of a line.
+  /// A place in the text and its character in the line. Each line has one at its start, and more if it is long, so that
+  /// no query scans a whole line.
   struct Mark {
     uint32_t at, character;
   };
 
   std::string text_;
   std::vector<Mark> marks_;      ///< by place
-  std::vector<uint32_t> lines_;  ///< as editors count them: a \r alone ends one, too
-  std::vector<uint32_t> rows_;   ///< as the compiler counts them
+  std::vector<uint32_t> lines_;  ///< starts by editors' rules: a single \r also ends a line
+  std::vector<uint32_t> rows_;   ///< starts by the compiler's rules
 };
 
-/// "file:///a%20b.sgm" as "/a b.sgm"; empty where it is no file's.
+/// "file:///a%20b.sgm" becomes "/a b.sgm"; empty if it is not a file URI.
 std::string pathOfUri(std::string_view uri);
 std::string uriOfPath(std::string_view path);
 

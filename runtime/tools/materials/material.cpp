@@ -75,7 +75,7 @@ constexpr std::array<Named, 56> kTable{{
     {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.17f, 0.2f}},
 }};
 
-/// What a word behind a material's name makes of its colour: a share of the way to another one.
+/// The effect of a tint word on a colour: a share of the way to another colour.
 struct Tint {
   std::string_view word;
   Rgb colour;
@@ -97,7 +97,7 @@ constexpr std::array<Tint, 14> kTints{{{"white", rgb(0.80f, 0.79f, 0.76f), 0.85f
                                        {"dark", rgb(0.0f, 0.0f, 0.0f), 0.50f},
                                        {"pale", rgb(0.85f, 0.84f, 0.82f), 0.40f}}};
 
-/// Words that mean a material of the table, where a name has no other.
+/// Words that stand for a material of the table, in names without one.
 struct Synonym {
   std::string_view word, means;
 };
@@ -127,7 +127,7 @@ const MaterialLook* meant(std::string_view word) {
   return found == kSynonyms.end() ? nullptr : known(found->means);
 }
 
-constexpr float kSmoothest = 0.05f;  // the least roughness of MaterialLook
+constexpr float kSmoothest = 0.05f;  // the minimum of MaterialLook's roughness
 
 void wet(MaterialLook& look) {
   for (float& share : look.colour) share *= 0.55f;
@@ -152,8 +152,8 @@ std::optional<MaterialLook> tinted(std::string_view name) {
   return look;
 }
 
-/// The look of the first word that is a material, else of the first that means one, with the name's other words as
-/// tints: a wall of bricks is brick, a wall of which no more is said is plaster.
+/// The look of the first word that is a material, otherwise of the first synonym, with other words as tints: a brick
+/// wall is brick, a mere wall is plaster.
 std::optional<MaterialLook> byWords(std::string_view name) {
   const MaterialLook *named = nullptr, *meant_one = nullptr;
   bool is_wet = false;
@@ -178,7 +178,7 @@ std::optional<MaterialLook> byWords(std::string_view name) {
 }  // namespace
 
 std::optional<MaterialLook> findLook(std::string_view name) {
-  // Names come from grammars and have no longest length. A second `wet_` changes nothing.
+  // Names come from grammars and may have any length. A second `wet_` changes nothing.
   bool is_wet = false;
   for (; name.starts_with(kWetBefore); name.remove_prefix(kWetBefore.size())) is_wet = true;
   const MaterialLook* by_name = known(name);
@@ -189,10 +189,10 @@ std::optional<MaterialLook> findLook(std::string_view name) {
 
 MaterialLook lookOf(std::string_view name) {
   if (const std::optional<MaterialLook> found = findLook(name)) return *found;
-  // Shapes that have none are looked at for their form.
+  // A shape without a material gets a plain look, which shows its form.
   if (name.empty()) return {plain, rgb(0.50f, 0.48f, 0.44f), 0.9f, 0.5f};
   if (const std::optional<MaterialLook> found = byWords(name)) return *found;
-  uint32_t hash = 2166136261u;  // FNV-1a: the same name, the same tint, everywhere
+  uint32_t hash = 2166136261u;  // FNV-1a: the same tint for the same name on every machine
   for (const char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
   MaterialLook look;
   for (unsigned i = 0; i < 3; ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// The scale of one axis of a chart: how values become places along it, and where its marks stand.
+// The scale of a chart's axis: maps values to places, and chooses its marks.
 
 #include <optional>
 #include <span>
@@ -11,10 +11,10 @@ namespace sgm::cli {
 struct AxisStyle {
   std::string title;
   bool logarithmic = false;
-  bool from_zero = false;  ///< of a linear axis: 0 belongs to it
-  /// Ends that are kept to; without them the values' own, which are widened to the next mark where it is linear.
+  bool from_zero = false;  ///< of a linear axis: include 0
+  /// Fixed ends; otherwise the ends of the values, widened to the next mark on a linear axis.
   std::optional<double> low, high;
-  std::vector<double> marks{};  ///< where marks stand, rising, as far as there is room; none: at round numbers
+  std::vector<double> marks{};  ///< ascending places of marks, if there is room; empty: round numbers
 };
 
 struct Mark {
@@ -24,14 +24,14 @@ struct Mark {
 
 class Axis {
  public:
-  /// values: that it must hold; those that it cannot show (not finite, or on a logarithmic axis not above 0) do not
-  /// count. most: marks that there is room for, at least 2.
+  /// values: to be included, except those that the axis cannot show (not finite, or not above 0 on a logarithmic axis).
+  /// most: maximum of marks, at least 2.
   Axis(const AxisStyle& style, std::span<const double> values, int most);
 
   bool shows(double value) const;
-  /// 0 at its low end to 1 at its high one; of what lies beyond the nearer end. Contract: shows(value).
+  /// 0 at its low end to 1 at its high one, clamped. Contract: shows(value).
   double place(double value) const;
-  /// Rising, inside the axis.
+  /// Ascending, inside the axis.
   const std::vector<Mark>& marks() const { return marks_; }
 
  private:
@@ -43,7 +43,7 @@ class Axis {
   std::vector<Mark> marks_;
 };
 
-/// A number as a reader likes it: so many digits that count, no exponent from a thousandth to ten million.
+/// A readable number with that many significant digits, without an exponent from a thousandth to ten million.
 std::string shortNumber(double value, int digits = 4);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// sgm bench paper: the stages of the paper's tables on every backend.
+// sgm bench paper: measures the stages of the paper's tables on every backend.
 
 #include <fmt/core.h>
 
@@ -35,8 +35,8 @@ Exit benchPaper(const BenchOptions& options) {
   for (const StageModel& model : stageModels()) {
     const Result<int32_t> cell = cellOf(options, model);
     if (!cell) return complain(cell.error());
-    // Devices of its own, as in a process that generates this stage alone: software is made ready for the kinds of
-    // instruction that it has met so far, and each costs it time whether it is there or not.
+    // Fresh devices, as in a process that generates only this stage: software devices specialize for the kinds of
+    // instructions seen so far, and each costs time even where it is not used.
     const Result<std::vector<Contender>> contenders = makeContenders(options.backends, options.threads);
     if (!contenders) return complain(contenders.error());
     Result<StageResult> result = measure(options, model, *cell, *contenders);
@@ -48,7 +48,7 @@ Exit benchPaper(const BenchOptions& options) {
   } else {
     print(options, results);
   }
-  // What was asked for by name and is not here has its row, and is an error as it is for the other commands.
+  // A requested backend that is missing has its row, and is an error, as for other commands.
   Exit status = Exit::done;
   for (const StageRow& row : results.back().rows) {
     if (!row.measured() && !options.backends.empty())

@@ -9,17 +9,16 @@ namespace sgm::cli {
 namespace {
 
 constexpr const char* kMeasured =
-    "from derived cells to packed meshes: field programs compiled, pruned, sampled and meshed, by each backend in "
-    "turn. "
-    "The first run is told apart: it also derives the cells (what the paper's section 5 cannot measure) and makes a "
-    "device ready";
+    "from derived cells to packed meshes: field programs are compiled, pruned, sampled and meshed, by each backend in "
+    "turn. The first run is reported separately: it also derives the cells (which the paper's section 5 cannot "
+    "measure) and prepares the device";
 constexpr const char* kCounted =
-    "instructions of the field programs, pruned to bricks, times the samples and vertices at which they are evaluated: "
-    "a distance, a minimum, an octave of noise each. Counted in a run of its own on the CPU; one is many flop, and no "
-    "flop is counted";
-constexpr const char* kNoWorkers = "the device does not tell how many processors it has";
+    "instructions of the field programs, pruned to bricks, times the samples and vertices at which they are evaluated; "
+    "each is a distance, a minimum or an octave of noise. They are counted in a separate run on the CPU. One operation "
+    "is many flop; flop are not counted";
+constexpr const char* kNoWorkers = "the device does not report its number of processors";
 
-/// Of those that `sgm bench paper` is about.
+/// The contradictions that concern `sgm bench paper`.
 std::vector<std::string> inconsistencies() {
   std::vector<std::string> texts;
   for (const Contradiction& found : contradictions())
@@ -70,8 +69,9 @@ void printRow(const BenchOptions& options, const StageResult& result, const Stag
              figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : "-", figures.throughput / 1e9,
              result.triangles, hexHash(result));
   if (row.on_cpu > 0) {
-    fmt::print("  {:<17}left {} of {} chunks in all runs to the CPU: too large for it, or it has failed\n", "",
-               row.on_cpu, (options.runs + 1) * result.chunks);
+    fmt::print(
+        "  {:<17}left {} of {} chunks in all runs to the CPU: they were too large for the device, or it failed\n", "",
+        row.on_cpu, (options.runs + 1) * result.chunks);
   }
 }
 
@@ -83,8 +83,8 @@ void printPaper(const PaperStage& paper) {
 
 void printStage(const BenchOptions& options, const StageResult& result, const PaperStage& paper) {
   const StageModel& model = *result.model;
-  fmt::print("\n{}: {} m of {} with the seed {}, cells of {} m: {} chunks, {:.1f} million field operations\n",
-             model.name, model.edge, model.file, model.seed, metres(result.cell), result.chunks,
+  fmt::print("\n{}: {} m of {} with seed {}, cells of {} m: {} chunks, {:.1f} million field operations\n", model.name,
+             model.edge, model.file, model.seed, metres(result.cell), result.chunks,
              static_cast<double>(result.operations) / 1e6);
   fmt::print("  {:<17}{:>7}{:>10}{:>10}{:>9}{:>12}{:>9}{:>12}  {}\n", "", "workers", "first, s", "median, s", "speedup",
              "efficiency", "Gop/s", "triangles", "hash");
@@ -127,13 +127,14 @@ void print(const BenchOptions& options, std::span<const StageResult> results) {
   for (const StageRow& row : results.front().rows)
     if (row.measured()) fmt::print("  {:<17}{}\n", row.name, row.device);
   for (size_t s = 0; s < results.size(); ++s) printStage(options, results[s], kPaperStages[s]);
-  fmt::print("\nthroughput of the paper, one figure for all stages: {} Gflop/s sequential, {} parallel\n",
+  fmt::print("\nthroughput in the paper, one figure for all stages: {} Gflop/s sequential, {} parallel\n",
              kPaperSequentialThroughput, kPaperParallelThroughput);
   fmt::print("\nTimes:      {}.\nOperations: {}.\n", kMeasured, kCounted);
-  fmt::print("Workers:    threads of the CPU, the caller's included; -: {}, and so there is no efficiency.\n",
-             kNoWorkers);
-  fmt::print("Hash:       of a stage's meshes, the same in every run and on every backend, or the benchmark fails.\n");
-  fmt::print("\nThe paper's figures are no baseline. What does not agree in them:\n");
+  fmt::print("Workers:    threads of the CPU, including the caller's; -: {}, so there is no efficiency.\n", kNoWorkers);
+  fmt::print(
+      "Hash:       of the meshes of a stage; the benchmark fails unless it is the same in every run and on every "
+      "backend.\n");
+  fmt::print("\nThe paper's figures are not a baseline, because they contradict each other:\n");
   size_t number = 0;
   for (const std::string& text : inconsistencies()) fmt::print("  {}. {}\n", ++number, text);
 }

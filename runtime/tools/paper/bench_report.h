@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm bench paper` says: our figures, those that the paper prints, and what is wrong with the latter.
+// The output of `sgm bench paper`: our figures, the paper's, and the paper's contradictions.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-/// results: one a stage, in the order of kPaperStages; the first row is the sequential one, and measured.
+/// results: one for each stage, in the order of kPaperStages; the first row is sequential and measured.
 Json toJson(const BenchOptions& options, std::span<const StageResult> results);
 void print(const BenchOptions& options, std::span<const StageResult> results);
 

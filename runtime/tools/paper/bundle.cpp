@@ -19,13 +19,13 @@ class BundledImports final : public ImportResolver {
   explicit BundledImports(std::string_view of) : folder_(of.substr(0, of.rfind('/') + 1)) {}
   Result<std::string> read(std::string_view path, size_t limit) override {
     const BundledFile* file = bundled(folder_ + std::string(path));
-    if (file == nullptr) return Error{Code::io, fmt::format("the command has no file {}{}", folder_, path)};
+    if (file == nullptr) return Error{Code::io, fmt::format("there is no bundled file {}{}", folder_, path)};
     if (file->bytes.size() > limit) return Error{Code::limit, fmt::format("{} is too large", file->path)};
     return std::string(file->bytes);
   }
 
  private:
-  std::string folder_;  // empty, or with its slash
+  std::string folder_;  // empty, or with a final slash
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// The grammars that the paper is measured by, and the assets that they import: put into the command when it was
-// configured, for it may be far from its source.
+// The grammars that measure the paper, and their imported assets. They are embedded at configuration, since the command
+// may run far from its sources.
 
 #include <span>
 #include <string_view>
@@ -15,10 +15,10 @@ struct BundledFile {
 };
 std::span<const BundledFile> bundledFiles();
 
-/// Null where there is no such file.
+/// Null if there is no such file.
 const BundledFile* bundled(std::string_view path);
 
-/// Imports come from the bundle, beside the file. Contract: it is bundled.
+/// Imports come from the file's folder in the bundle. Contract: the file is in the bundle.
 CompileResult compileBundled(std::string_view path);
 
 }  // namespace sgm::cli

@@ -27,7 +27,7 @@ Markup line(double x0, double y0, double x1, double y1, std::string_view style) 
                       {{"x1", at(x0)}, {"y1", at(y0)}, {"x2", at(x1)}, {"y2", at(y1)}, {"class", std::string(style)}});
 }
 
-/// A form of its own for each series: colour alone does not tell them apart, on paper say.
+/// A different shape for each series, since colours may not be distinguishable, for example on paper.
 Markup pointMark(double x, double y, size_t series) {
   constexpr double kSize = 3.5;
   const std::string style = "mark " + colour(series);
@@ -47,7 +47,7 @@ Markup pointMark(double x, double y, size_t series) {
   }
 }
 
-/// The frame that both kinds of charts stand in: a legend above, marks left and below.
+/// The common frame of both kinds of charts: a legend above, marks on the left and below.
 struct Frame {
   double left = 0, right = 0, top = 0, bottom = 0;  ///< of the plot
   Markup legend;
@@ -125,7 +125,7 @@ Markup svg(const std::string& title, int width, int height, const Markup& conten
          Markup{"\n"};
 }
 
-/// The path through the points, of steps with the area under them.
+/// The path through the points; for steps, with the area below them.
 std::string pathOf(const std::vector<std::array<double, 2>>& places, Series::Style style, double floor) {
   std::string path;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -225,7 +225,7 @@ Markup drawn(const BarChart& chart) {
                                        {"width", at(0.94 * bar_width)},
                                        {"height", at(frame.bottom - top)},
                                        {"class", "bar " + colour(s)}});
-      // What would touch its neighbours is left to the marks.
+      // Omit numbers that would touch their neighbours.
       const std::string number = shortNumber(value, 3);
       if (textWidth(number) > bar_width) continue;
       const bool above = top - kOverBar > frame.top;

@@ -1,5 +1,5 @@
 #pragma once
-// Charts as inline SVG, whose colours and fonts are those of the page around them (report_style.h).
+// Charts as inline SVG, with the colours and fonts of the surrounding page (report_style.h).
 
 #include <array>
 #include <string>
@@ -10,33 +10,33 @@
 
 namespace sgm::cli {
 
-/// Colours that a page has for series; further ones begin anew.
+/// Number of series colours of a page; further series repeat them.
 inline constexpr size_t kSeriesColours = 6;
 
 struct Series {
   enum class Style {
     line,    ///< with a mark at each point
-    dashed,  ///< without marks: what is claimed, or a law
-    steps,   ///< from one point to the next at the height of the first, filled: a histogram
+    dashed,  ///< without marks: a claim, or a law
+    steps,   ///< a filled histogram: each value holds until the next point
   };
   std::string name;
-  std::vector<std::array<double, 2>> points;  ///< those that the axes cannot show are left out
+  std::vector<std::array<double, 2>> points;  ///< points that the axes cannot show are omitted
   Style style = Style::line;
 };
 
 struct LineChart {
-  std::string title;  ///< what is to be seen, for who cannot see it too
+  std::string title;  ///< description for readers who cannot see the chart
   AxisStyle x, y;
   std::vector<Series> series;
-  int width = 640, height = 360;  ///< of the view; the page scales it. At least 200 by 150
+  int width = 640, height = 360;  ///< of the view, which the page scales. At least 200 by 150
 };
 Markup drawn(const LineChart& chart);
 
-/// Bars side by side: one of each series in each group.
+/// Grouped bars: one bar of each series in each group.
 struct BarChart {
   struct Bars {
     std::string name;
-    std::vector<double> values;  ///< one a group, from 0 up; what is not finite has no bar
+    std::vector<double> values;  ///< one for each group, at least 0; non-finite ones have no bar
   };
   std::string title;
   AxisStyle y;
@@ -46,7 +46,7 @@ struct BarChart {
 };
 Markup drawn(const BarChart& chart);
 
-/// About how wide a text of a chart is, in units of its view.
+/// Approximate width of a text in a chart, in units of its view.
 double textWidth(std::string_view text);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The command that repeats what was done, as a reader would type it in the report's folder.
+// The command that repeats a measurement, to be run in the report's folder.
 
 #include <string>
 

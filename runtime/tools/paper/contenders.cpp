@@ -9,7 +9,7 @@
 namespace sgm::cli {
 namespace {
 
-/// named: the user has asked for it. A software device is not measured by itself, as `auto` does not choose it.
+/// named: requested by the user. An unnamed software device is not measured, as `auto` does not choose it.
 Result<Contender> makeContender(const std::string& name, const std::string& backend, bool named, unsigned threads) {
   Contender contender;
   contender.name = name;
@@ -25,7 +25,7 @@ Result<Contender> makeContender(const std::string& name, const std::string& back
   }
   const BackendCapabilities& capabilities = (*made)->capabilities();
   if (capabilities.software && !named) {
-    contender.reason = fmt::format("{} is software, which is measured only when asked for: --backend {}",
+    contender.reason = fmt::format("{} is software, which is measured only on request: use --backend {}",
                                    capabilities.device, backend);
     return contender;
   }

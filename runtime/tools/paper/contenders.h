@@ -1,5 +1,5 @@
 #pragma once
-// Who generates the stages of the paper's tables on this machine.
+// The backends of this machine that generate the stages of the paper's tables.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace sgm::cli {
 
-/// The sequential one first, then one a backend: of these names, and all of them where none is given. What is not here
-/// is among them with the reason, and so is a software device that nobody has named. threads: 0 is one a processor.
+/// The sequential one first, then one for each named backend, or for all without names. Missing backends are included
+/// with the reason, as are software devices that are not named. threads: 0: one for each processor.
 Result<std::vector<Contender>> makeContenders(const std::vector<std::string>& backends, unsigned threads);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// One figure or table of the paper in the report: what it prints, and ours beside.
+// A figure or table of the paper in the report: the printed one, and our reproduction.
 
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@
 namespace sgm::cli {
 
 struct Exhibit {
-  std::string id;                     ///< "figure-7": the place that contradictions name
+  std::string id;                     ///< "figure-7": referred to by contradictions
   std::string title;                  ///< "Figure 7. Clouds"
   std::vector<std::string> printed;   ///< quoted from its caption and text
-  Markup ours;                        ///< pictures, charts, tables, and what they show
-  std::string measured;               ///< how, a sentence or two
-  std::vector<std::string> commands;  ///< that repeat it alone
+  Markup ours;                        ///< pictures, charts and tables, with explanations
+  std::string measured;               ///< the method, in a sentence or two
+  std::vector<std::string> commands;  ///< that repeat only this one
   Json numbers;                       ///< an object
 };
 

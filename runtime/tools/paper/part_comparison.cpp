@@ -1,4 +1,4 @@
-// Table 4: one grammar a system, and a measurement for each YES.
+// Table 4: one grammar for each system, and a measurement for each YES.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@
 namespace sgm::cli {
 namespace {
 
-/// What is so here.
+/// Our own answer to a criterion.
 struct Finding {
   enum class Said { yes, no, none } said = Said::none;
   std::string what;
@@ -41,7 +41,7 @@ WorldOptions optionsFor(const Workshop& workshop, const ComparedSystem& system) 
 
 size_t trianglesOf(const WorldMesh& mesh) { return mesh.indices.size() / 3; }
 
-/// How a parameter's other value changes the mesh.
+/// The effect of a parameter's other value on the mesh.
 Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options, const Region& base, const char* set) {
   WorldOptions changed = options;
   changed.sets.emplace_back(set);
@@ -49,7 +49,7 @@ Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options,
   if (!region) return region.error();
   const bool another = region->meshed.hash != base.meshed.hash;
   return finding(another,
-                 fmt::format("{}: {} triangles become {}, the hash {}", set, trianglesOf(base.meshed.mesh),
+                 fmt::format("{}: {} triangles become {}, with {} hash", set, trianglesOf(base.meshed.mesh),
                              trianglesOf(region->meshed.mesh), another ? "another" : "the same"),
                  commandOf("mesh", changed));
 }
@@ -84,7 +84,7 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
   constexpr std::array<const char*, 3> kClasses = {"cloud", "building", "cave"};
   for (const Criterion kind : {kClouds, kArchitecture, kCaves}) {
     if (!saysYes(system.printed[kind])) {
-      found[kind].what = "not what this grammar makes";
+      found[kind].what = "this grammar makes no such models";
       continue;
     }
     WorldOptions looked_at = options;
@@ -117,15 +117,14 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
     if (!morph) return morph.error();
     found[kMorphing] = std::move(*morph);
   } else {
-    found[kMorphing].what = "not in this grammar; in any other by a morphic rule, as in figure 8";
+    found[kMorphing].what = "not in this grammar; any grammar can morph by a morphic rule, as in figure 8";
   }
   WorldOptions unwrapped = options;
   unwrapped.uv = true;
   const double density = region->texture->density.middle;
-  found[kTexture] =
-      finding(density >= 0.5 && density <= 2,
-              fmt::format("coordinates in tiles of 1 m, of {:.2f} of their length in the middle", density),
-              commandOf("mesh", unwrapped));
+  found[kTexture] = finding(density >= 0.5 && density <= 2,
+                            fmt::format("coordinates in tiles of 1 m, scaled by {:.2f} at the median", density),
+                            commandOf("mesh", unwrapped));
   MeasureOptions judged = workshop.on<MeasureOptions>(system.grammar);
   static_cast<WorldOptions&>(judged) = options;
   judged.no_self_intersections = true;
@@ -135,10 +134,10 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
               fmt::format("{} closed parts in the solid of others", measured->nesting.nested), commandOf(judged));
   found[kOverlapping] =
       finding(measured->welded_points == 0,
-              fmt::format("{} of {} vertices at the place of another", measured->welded_points, measured->points),
+              fmt::format("{} of {} vertices at the position of another", measured->welded_points, measured->points),
               commandOf(judged));
   const Topology topology = topologyOf(mesh, region->meshed.extent);
-  const char* closed = isCut(*region) ? "watertight but for the border" : "watertight";
+  const char* closed = isCut(*region) ? "watertight except at the border" : "watertight";
   found[kHoles] = finding(topology.watertight, topology.watertight ? closed : topology.leak, commandOf(judged));
   return found;
 }
@@ -155,7 +154,7 @@ const char* signOf(const Finding& finding) {
   return "";
 }
 
-/// A system's picture, the reasons, and the commands.
+/// The picture of a system, the reasons, and the commands.
 Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup& picture) {
   std::vector<std::vector<std::string>> rows{{"", "paper", "ours", "measured"}};
   Markup commands;
@@ -167,7 +166,8 @@ Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup&
   const Markup proof = element("div", {{"class", "words"}}, table(system.grammar, rows));
   return element("h3", fmt::format("{}: {}", system.name, system.grammar)) + Markup{"\n"} + picture +
          element("p", system.without) + Markup{"\n"} + proof +
-         element("details", element("summary", "Commands that repeat it") + element("pre", element("code", commands))) +
+         element("details", element("summary", "Commands that repeat the measurements") +
+                                element("pre", element("code", commands))) +
          Markup{"\n"};
 }
 
@@ -179,7 +179,7 @@ Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
   options.seed = system.view_seed;
   if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
   options.sharp = system.sharp;
-  // From inside more is to be seen.
+  // From inside, a wider angle shows more.
   options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
   options.size = workshop.pick("720x440", "400x250");
   const std::string file = Workshop::grammarOf(options);
@@ -226,15 +226,15 @@ Exhibits comparisonPart(Workshop& workshop) {
     }
     systems.push_back(std::move(json));
   }
-  exhibit.ours = table("What the paper says, and what was measured of our grammar of that kind", summary) + cards;
+  exhibit.ours = table("What the paper says, and the measurements of our grammar of that kind", summary) + cards;
   exhibit.measured =
-      "Each system has a grammar of its own, after the work that it stands for. Detail by meshing level 1, whose cells "
-      "have twice the edge; control and morphing by another value of a parameter; texture by the coordinates' density, "
-      "half to twice what it should be in the middle; surfaces, vertices and holes by sgm measure, as nested, "
-      "welded_points, and open_edges beyond cut_edges: where the region cuts an endless world its border is no hole. A "
-      "dash: nothing was measured, or there is nothing to measure. What a mesh is classified as depends on its cells: "
-      "finer "
-      "than those of the built-in masters, a cave may be unknown, and a house a cloud.";
+      "Each system has its own grammar, modelled on the work that it represents. Detail is measured by meshing level "
+      "1, whose cells have twice the edge; control and morphing by another value of a parameter; texture by the "
+      "density of the coordinates, whose median must be half to twice the nominal one; surfaces, vertices and holes by "
+      "sgm measure, as nested, welded_points, and open_edges in excess of cut_edges, since the border where the region "
+      "cuts an endless world is not a hole. A dash means that nothing was measured, or that there is nothing to "
+      "measure. The class of a mesh depends on its cells: if they are finer than those of the built-in reference "
+      "histograms, a cave may be unknown, and a house a cloud.";
   exhibit.commands = {commandOfPart(workshop.options(), "comparison")};
   exhibit.numbers = {{"systems", std::move(systems)}};
   return std::vector<Exhibit>{std::move(exhibit)};

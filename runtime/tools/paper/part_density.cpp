@@ -1,4 +1,4 @@
-// Figures 10 and 11: area and volume against the density of the mesh, and how fast they converge.
+// Figures 10 and 11: area and volume against the density of the mesh, and their convergence.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@
 namespace sgm::cli {
 namespace {
 
-/// A model at rising densities, each twice the one before.
+/// A model at increasing densities, each twice the previous.
 struct Model {
   const char *name, *grammar;
   uint64_t seed;
@@ -52,8 +52,8 @@ Result<Sampled> sample(Workshop& workshop, const Model& model, int steps, std::v
   return sampled;
 }
 
-/// log2 of how much smaller the last change is than the one before: 2 for convergence with the square of the cell, 0
-/// for a logarithm, whose changes are all equal. Nothing where the changes are none, or of two directions.
+/// log2 of the ratio of the last two changes: 2 for quadratic convergence in the cell size, 0 for a logarithm, whose
+/// changes are equal. nullopt if a change is 0, or they differ in sign.
 std::optional<double> observedOrder(std::span<const double> values) {
   if (values.size() < 3) return std::nullopt;
   const double a = values[values.size() - 3], b = values[values.size() - 2], c = values.back();
@@ -63,7 +63,7 @@ std::optional<double> observedOrder(std::span<const double> values) {
 }
 
 std::string orderText(const std::optional<double>& order) {
-  return order ? fmt::format("{:.2f}", *order) : "none: it went up and down";
+  return order ? fmt::format("{:.2f}", *order) : "none: the values rise and fall";
 }
 
 Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -74,11 +74,11 @@ std::vector<double> valuesOf(const Sampled& sampled, double Sample::*of) {
   return values;
 }
 
-/// The chart, the table and the numbers of one measure of all models.
+/// Adds the chart, table and numbers of one measure of all models.
 void compare(const std::vector<Sampled>& all, double Sample::*of, const std::string& what, const std::string& unit,
              Exhibit& exhibit) {
   LineChart chart;
-  chart.title = fmt::format("{} against the density of the mesh, as a share of that at the finest", what);
+  chart.title = fmt::format("{} against the density of the mesh, as a share of the value at the finest", what);
   chart.x = {"LD, as a multiple of the coarsest", true, false, {}, {}};
   chart.y.title = fmt::format("{}, % of the finest", what);
   const std::vector<Sample>& any = all.front().samples;
@@ -110,13 +110,13 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
                       {"order", orNull(order)}});
   }
   exhibit.ours += drawn(chart) + table(
-                                     "Each column has cells of half the edge; a logarithm would have equal changes "
-                                     "(order 0), a limit approached with the cell's square order 2",
+                                     "Each column halves the edge of the cells. A logarithm would have equal changes "
+                                     "(order 0); a limit approached with the square of the cell's edge has order 2",
                                      rows);
   exhibit.numbers["models"] = std::move(models);
 }
 
-/// A ball of 5 m, of which area and volume are known.
+/// A ball of 5 m, with known area and volume.
 struct BallErrors {
   double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;  ///< relative
 };
@@ -154,7 +154,7 @@ Markup ballChart(const std::vector<BallErrors>& errors, std::span<const Measured
   LineChart chart;
   chart.title = title;
   chart.x = {"LD, cells per metre", true, false, {}, {}};
-  chart.y = {"error, % of what is exact", true, false, {}, {}};
+  chart.y = {"error, % of the exact value", true, false, {}, {}};
   for (const BallErrors& e : errors) chart.x.marks.push_back(1 / e.cell);
   for (const Measured& m : measured) {
     Series series{m.name, {}, Series::Style::line};
@@ -195,12 +195,12 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
   compare(models, &Sample::area, "Area", "m²", exhibit);
   constexpr Measured kArea[] = {{"area (equation 7)", &BallErrors::area}};
   exhibit.ours += element("p",
-                          "Over a few densities growth may look like a logarithm, an order near 0: while windows, "
-                          "ledges or noise are still being found. Once they are, it ends.");
+                          "Over a few densities the growth may look like a logarithm (an order near 0), while finer "
+                          "cells still find windows, ledges or noise. Once these are resolved, the growth ends.");
   exhibit.ours += element("h3", "A smooth surface has a limit") +
                   ballChart(ball, kArea, "Error of the area of a ball over the density: it falls with its square") +
                   ballTable(ball, kArea);
-  exhibit.ours += element("h3", "What roughness does");
+  exhibit.ours += element("h3", "The effect of roughness");
   LineChart chart;
   chart.title = "Area of two tunnels through rock over the density, smooth and rough";
   chart.x = {"LD, cells per metre", true, false, {}, {}};
@@ -218,14 +218,14 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
   const double rugged = roughness[1].samples.back().area / roughness[1].samples.front().area - 1;
   exhibit.ours +=
       drawn(chart) +
-      element("p", fmt::format("Two tunnels of tunnels.sgm. From the coarsest cells to the finest the area of smooth "
-                               "walls changes by {:+.1f} %, of walls with fractal noise by {:+.1f} %: finer grids find "
-                               "more of the noise, until its smallest octave is resolved.",
+      element("p", fmt::format("Two tunnels of tunnels.sgm. From the coarsest to the finest cells, the area of smooth "
+                               "walls changes by {:+.1f} %, that of walls with fractal noise by {:+.1f} %: finer grids "
+                               "find more of the noise, until its smallest octave is resolved.",
                                100 * smooth, 100 * rugged));
   exhibit.measured =
-      "Equation 7 as S = Σ ½|(V2 − V1) × (V3 − V1)|, since what it prints is a vector, in double precision and in one "
-      "order. Area of the cave and of the cloud inside a region of a multiple of the largest chunk, without the faces "
-      "where the region cuts them.";
+      "Equation 7 is taken as S = Σ ½|(V2 − V1) × (V3 − V1)|, since the printed form is a vector; it is summed in "
+      "double precision and in a fixed order. The areas of the cave and of the cloud are those inside a region that is "
+      "a multiple of the largest chunk, without the faces where the region cuts them.";
   exhibit.numbers["ball_order"] = lastOrder(ball, &BallErrors::area);
   exhibit.numbers["roughness"] = std::move(rough);
   return exhibit;
@@ -245,17 +245,17 @@ Exhibit volumeExhibit(const std::vector<Sampled>& models, const std::vector<Ball
                                    {"cubes with all corners inside", &BallErrors::all},
                                    {"cubes with any corner inside", &BallErrors::any},
                                    {"cubes with their centre inside", &BallErrors::centre}};
-  exhibit.ours += element("h3", "What “inside” means") +
-                  ballChart(ball, kVolumes, "Error of the volume of a ball over the density, by four rules") +
-                  ballTable(ball, kVolumes) +
-                  element("p",
-                          "Equation 8 does not say which cubes are inside. By corners its error falls with the "
-                          "cell's edge, by centres faster but by fits and starts; the divergence theorem over the "
-                          "mesh has order 2.");
+  exhibit.ours +=
+      element("h3", "What “inside” means") +
+      ballChart(ball, kVolumes, "Error of the volume of a ball over the density, by four rules") +
+      ballTable(ball, kVolumes) +
+      element("p",
+              "Equation 8 does not say which cubes are inside. By corners, its error falls with the edge of the cells; "
+              "by centres, it falls faster but irregularly. The divergence theorem over the mesh has order 2.");
   exhibit.measured =
-      "Equation 8 with a cube around each sample, inside where the sample is. Of the ball also by the mesh: cubes of "
-      "the "
-      "cell's edge by three rules, and the divergence theorem. The cave's volume is that of its rock.";
+      "Equation 8 uses a cube around each sample, which is inside if the sample is. The volume of the ball is also "
+      "measured on its mesh, by cubes of the cell's edge under three rules, and by the divergence theorem. The volume "
+      "of the cave is that of its rock.";
   exhibit.numbers["ball_order"] = lastOrder(ball, &BallErrors::volume);
   exhibit.numbers["ball_order_all_corners"] = lastOrder(ball, &BallErrors::all);
   exhibit.numbers["ball_order_any_corner"] = lastOrder(ball, &BallErrors::any);
@@ -268,7 +268,7 @@ Exhibits densityPart(Workshop& workshop) {
   const std::vector<Model> models{{"cave", "cave.sgm", 7, "64,64,64:192,192,192", 2},
                                   {"cloud", "cloud.sgm", 3, "0,768,0:768,1536,768", 24},
                                   {"building", "storeys.sgm", 0, "", 1}};
-  // The block's surroundings alone: all of its world would be half a million chunks of the finest cells.
+  // Only the block's surroundings: its whole world would be half a million chunks of the finest cells.
   constexpr const char* kBlock = "-32,-32,-32:32,32,32";
   const std::vector<Model> tunnels{{"smooth walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0"}},
                                    {"rough walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0.8"}}};

@@ -1,5 +1,5 @@
-// Figures 14 and 15: histograms of bends against the density of the mesh, those of the main classes, and what
-// classification by them is worth.
+// Figures 14 and 15: histograms of dihedral angles against the density of the mesh, those of the main classes, and the
+// accuracy of classification by them.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -25,7 +25,7 @@ using measure::HistogramMode;
 
 constexpr HistogramMode kModes[] = {HistogramMode::printed, HistogramMode::corrected, HistogramMode::curvature};
 
-/// The histogram as steps over v, from which equation 14 makes bins.
+/// The histogram as steps over v, which equation 14 divides into bins.
 Series stepsOf(const std::string& name, std::span<const double> shares, int32_t first_bin, uint32_t bins) {
   Series series{name, {}, Series::Style::steps};
   for (size_t i = 0; i <= shares.size(); ++i) {
@@ -64,7 +64,7 @@ struct Density {
   std::string verdict;
 };
 
-/// By what `sgm classify` does without options, and the built-in masters.
+/// The result of `sgm classify` without options, with the built-in reference histograms.
 Result<std::string> verdictOf(const asset::TriangleMesh& mesh, const masters::MasterSet& set, JobSystem& jobs) {
   const measure::MasterKey key = masters::defaultKey();
   const Result<Histogram> histogram = measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), jobs);
@@ -169,24 +169,26 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
     numbers.push_back(std::move(of));
   }
   rows.insert(rows.end(), {below, triangles, verdicts});
-  exhibit.ours = Workshop::row(row) + Workshop::row(charts) + table("One house at three densities", rows) +
-                 element("p",
-                         "By angle, printed or corrected, the bars run together as the mesh becomes finer, for an "
-                         "edge half as long turns by half the angle: the paper's own remark. Curvature, the angle "
-                         "by the edge's length, keeps what bends where it is; its largest bar grows as well, since "
-                         "much of a house is flat and its corners have an ever smaller share of the edges. As "
-                         "printed, equation 13 gives v from −0.38 to 0.38, never the 0.5 of a flat edge, and "
-                         "equation 14 numbers of bins down to −12, in front of the array that the paper describes.");
+  exhibit.ours =
+      Workshop::row(row) + Workshop::row(charts) + table("One house at three densities", rows) +
+      element("p",
+              "By angle, printed or corrected, the bars move together as the mesh becomes finer, since an edge half as "
+              "long turns by half the angle, as the paper itself remarks. Curvature, the angle over the length of the "
+              "edge, keeps curved parts in their bins. Its largest bar grows as well, since much of a house is flat "
+              "and its corners have an ever smaller share of the edges. As printed, equation 13 gives v from −0.38 to "
+              "0.38, never the 0.5 of a flat edge, and equation 14 gives indices of bins down to −12, before the start "
+              "of the array that the paper describes.");
   exhibit.measured =
-      "storeys.sgm with three convex storeys. R = 33 bins, odd so that flat edges lie inside one; smooth normals that "
-      "point outward; every edge once a triangle. Classified by curvature with the built-in masters.";
+      "storeys.sgm with three convex storeys. R = 33 bins, an odd number, so that flat edges lie inside one bin; "
+      "smooth normals that point outward; every edge counts once per triangle. The classification uses curvature and "
+      "the built-in reference histograms.";
   exhibit.numbers = {{"densities", std::move(numbers)}};
   return exhibit;
 }
 
 // Figure 15.
 
-/// Models of other seeds than those that the built-in masters are made of.
+/// Models with other seeds than those of the built-in reference histograms.
 constexpr uint64_t kHeldOut = uint64_t{1} << 32;
 
 std::vector<masters::Family> familiesFor(const Workshop& workshop) {
@@ -212,11 +214,11 @@ Result<std::vector<masters::Specimen>> specimens(Workshop& workshop, std::span<c
                               });
 }
 
-/// How models of known class are classified by one key's masters.
+/// Classification of models of known class by one key's reference histograms.
 struct Judged {
   measure::MasterKey key;
   std::map<std::string, std::map<std::string, int>> verdicts;  ///< by true class
-  std::map<std::string, std::map<std::string, double>> mse;    ///< sums of the smallest of each class
+  std::map<std::string, std::map<std::string, double>> mse;    ///< sums of the smallest error of each class
   std::map<std::string, std::vector<double>> mean;             ///< histogram by true class
   std::map<std::string, int> models;
   int right = 0, all = 0;  ///< without noise
@@ -261,10 +263,10 @@ Markup confusion(const Judged& judged) {
   const std::string noise(measure::kNoise);
   const auto unknown = judged.verdicts.contains(noise) ? judged.verdicts.at(noise) : std::map<std::string, int>{};
   return table(
-      fmt::format("{}: {} of {} models of things right; {} of {} of noise, of which unknown is right{}",
+      fmt::format("{}: {} of {} models of things are classified correctly, and {} of {} models of noise as unknown{}",
                   textOf(judged.key), judged.right, judged.all, unknown.contains("unknown") ? unknown.at("unknown") : 0,
                   judged.models.contains(noise) ? judged.models.at(noise) : 0,
-                  judged.key.density == 0 ? "" : "; models with that many cells a metre alone"),
+                  judged.key.density == 0 ? "" : "; only models with this number of cells per metre"),
       rows);
 }
 
@@ -281,8 +283,8 @@ Markup errorTable(const Judged& judged) {
     }
   }
   return table(
-      "Mean squared error of the shares' roots to the nearest master of each class, in thousandths, mean over the "
-      "models",
+      "Mean squared error of the square roots of the shares to the nearest reference histogram of each class, in "
+      "thousandths, mean over the models",
       rows);
 }
 
@@ -302,7 +304,7 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   Markup charts, tables;
   Json judgements = Json::array();
   for (const HistogramMode mode : kModes) {
-    // Of the paper's own modes those of one cell a metre, which models of every class have.
+    // For the paper's own modes, one cell per metre, for which there are models of every class.
     const auto key = std::ranges::find_if(
         keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);
@@ -328,11 +330,12 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   const auto noise = std::ranges::count_if(
       *models, [](const masters::Specimen& s) { return s.family->class_name == measure::kNoise; });
   exhibit.measured = fmt::format(
-      "{} models, {} of them noise, the others of the classes {}, by {} grammars and "
-      "densities, with parameters drawn from their whole ranges and seeds of which the built-in masters know none. "
-      "Masters by clusters, {} a grammar at most, since caves of halls and caves of dripstone have no common mean. For "
-      "curvature the error is that of the shares' square roots, so that the bin of flat edges does not decide alone. "
-      "Past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
+      "{} models, {} of them noise, the others of the classes {}, from {} pairs of a grammar and a density. Their "
+      "parameters are drawn from the whole ranges, and the built-in reference histograms were made with other seeds. "
+      "Reference histograms are means of clusters, at most {} per grammar, since caves of halls and caves of dripstone "
+      "have no common mean. For curvature, the error is that of the square roots of the shares, so that the bin of "
+      "flat edges alone does not decide. If the error exceeds a limit, or noise is nearest, the answer is unknown; the "
+      "paper always answers.",
       models->size(), noise, fmt::join(masters::classNames(), ", "), families.size(),
       masters::mastersAGrammar(HistogramMode::curvature));
   exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",

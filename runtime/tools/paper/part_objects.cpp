@@ -17,7 +17,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kWanted = 10;      // "10 separate elements"
-constexpr uint64_t kMostClouds = 64;  // that are looked at for them
+constexpr uint64_t kMostClouds = 64;  // examined at most
 
 Result<uint64_t> objectsOf(Workshop& workshop, const WorldOptions& options) {
   const Result<Region> region = workshop.mesh(options);
@@ -36,7 +36,7 @@ constexpr Kind kKinds[] = {{"architecture", "building.sgm", "", 0.25, "balconies
                            {"caves", "cave.sgm", "0,0,0:192,192,192", 1.5, "boxy=0.3"},
                            {"clouds", "cloud.sgm", "0,768,0:2304,1536,2304", 24, "cover=80%"}};
 
-/// A scattered cloud of ten separate objects, of those that the seeds from the report's on give.
+/// A scattered cloud with ten separate objects, searched among the seeds from the report's own.
 Result<std::optional<RenderOptions>> cloudOfTen(Workshop& workshop) {
   RenderOptions options = workshop.on<RenderOptions>("paper/scattered.sgm");
   options.cell = workshop.pick(4.0, 8.0);
@@ -65,8 +65,8 @@ Exhibits objectsPart(Workshop& workshop) {
   single.title = "Share of models that are one object, by kind";
   single.y.title = "models that are one object, %";
   single.width = mean.width = 420;
-  mean.title = "Mean number of independent objects of a model, by kind";
-  mean.y.title = "objects a model, mean";
+  mean.title = "Mean number of independent objects per model, by kind";
+  mean.y.title = "objects per model, mean";
   BarChart::Bars shares{"share", {}}, means{"mean", {}};
   std::vector<std::vector<std::string>> rows{{"Kind", "models", "one object", "fewest", "median", "most"}};
   Json kinds = Json::array();
@@ -109,8 +109,9 @@ Exhibits objectsPart(Workshop& workshop) {
     options.size = workshop.pick("1120x560", "720x360");
     const Result<Markup> picture = workshop.picture(
         options, "cloud-of-ten", "A scattered cloud of ten separate parts",
-        fmt::format("What is right in the paper: a distributed cloud of {} separate objects, seed {} of scattered.sgm.",
-                    kWanted, options.seed),
+        fmt::format(
+            "As in the paper on the right: a distributed cloud of {} separate objects, seed {} of scattered.sgm.",
+            kWanted, options.seed),
         exhibit.commands);
     if (!picture) return picture.error();
     exhibit.ours += *picture;
@@ -118,10 +119,10 @@ Exhibits objectsPart(Workshop& workshop) {
     exhibit.ours += element("p", fmt::format("None of {} clouds had {} objects.", kMostClouds, kWanted));
   }
   exhibit.measured = fmt::format(
-      "Section 7.3: triangles that share a vertex are one object, by exact keys of vertices and union-find instead of "
-      "the paper's quadratic search. {} models a kind, seeds from {} on: whole buildings, cubes of 192 m of an endless "
-      "cave, and 2.3 km of sky. Where a region cuts a passage or a cloud its parts are objects of their own, so that "
-      "caves and clouds have more than they would have whole.",
+      "Section 7.3: triangles that share a vertex are one object. Exact keys of vertices and union-find replace the "
+      "paper's quadratic search. {} models of each kind, with seeds from {} on: whole buildings, cubes of 192 m of an "
+      "endless cave, and 2.3 km of sky. If a region cuts a passage or a cloud, its parts are separate objects, so that "
+      "caves and clouds have more objects than they would have as a whole.",
       models, workshop.options().seed);
   exhibit.commands.push_back(commandOfPart(workshop.options(), "objects"));
   exhibit.numbers = {

@@ -39,7 +39,7 @@ Exhibits cloudPart(Workshop& workshop) {
   for (const Panel& panel : {Panel{"cloud-surface", "Left: its surface, lit.",
                                    "A cumulus as a white surface under a blue sky", cell, false, false},
                              Panel{"cloud-mesh", "Middle: its mesh, with cells of 16 m.",
-                                   "The same cumulus as a mesh whose triangles can be told", 16, true, false},
+                                   "The same cumulus as a mesh whose triangles are visible", 16, true, false},
                              Panel{"cloud-fog", "Right: its density as fog, with scattered light.",
                                    "The same cumulus as soft fog", cell, false, true}}) {
     RenderOptions view = options;
@@ -59,18 +59,18 @@ Exhibits cloudPart(Workshop& workshop) {
   exhibit.commands.push_back(commandOf("mesh", measured));
   const uint64_t triangles = region->meshed.mesh.indices.size() / 3;
   exhibit.ours = Workshop::row(row) +
-                 element("p", fmt::format("The mesh in the middle has {} triangles. All three come from one field, a "
-                                          "sum of blobs upon blobs that noise displaces: fog is a function of the same "
-                                          "samples that the surface is cut from.",
+                 element("p", fmt::format("The mesh in the middle has {} triangles. All three pictures come from one "
+                                          "field, a sum of blobs on blobs displaced by noise: the fog is a function of "
+                                          "the same samples from which the surface is extracted.",
                                           triangles));
-  exhibit.measured = "One camera for all three; seed 3 of the sample grammar cloud.sgm.";
+  exhibit.measured = "All three have the same camera; seed 3 of the sample grammar cloud.sgm.";
   exhibit.numbers = {{"triangles", triangles}, {"cell", 16.0}};
   return std::vector<Exhibit>{std::move(exhibit)};
 }
 
 namespace {
 
-/// Volume and area of the hall for a morph's parameter.
+/// Volume and area of the hall for one value of the morph parameter.
 struct Morphed {
   double t = 0, volume = 0, area = 0;
 };
@@ -150,12 +150,11 @@ Exhibits cavePart(Workshop& workshop) {
   }
   chart.series.push_back({"the cube's", {{0, cube}, {1, cube}}, Series::Style::dashed});
   chart.series.push_back({"the ball's", {{0, ball}, {1, ball}}, Series::Style::dashed});
-  exhibit.ours =
-      Workshop::row(row) + *all + element("h3", "The morph in numbers") + drawn(chart) +
-      element("p", fmt::format("The hall alone, in steps of the parameter: from {:.1f} m³ ({:.1f} of the cube of 11 m, "
-                               "whose edges a mesh rounds off) to {:.1f} m³ ({:.1f} of the ball in it). Both ways are "
-                               "monotone, and neither leaves the cube.",
-                               linear->front().volume, cube, linear->back().volume, ball));
+  exhibit.ours = Workshop::row(row) + *all + element("h3", "The morph in numbers") + drawn(chart) +
+                 element("p", fmt::format("The hall alone, in steps of the parameter: from {:.1f} m³ (the cube of 11 m "
+                                          "has {:.1f}; the mesh rounds its edges off) to {:.1f} m³ (the ball in it has "
+                                          "{:.1f}). Both ways of morphing are monotone, and neither leaves the cube.",
+                                          linear->front().volume, cube, linear->back().volume, ball));
   exhibit.measured = fmt::format("Volumes by the divergence theorem, cells of {} m.", workshop.pick(0.125, 0.25));
   exhibit.numbers = {{"cube", cube}, {"ball", ball}, {"series", std::move(points)}};
   return std::vector<Exhibit>{std::move(exhibit)};
@@ -216,7 +215,7 @@ Exhibits architecturePart(Workshop& workshop) {
   exhibit.measured = fmt::format(
       "The grammar building.sgm, LD = {}{}: cells of {} m. Convexity morphs the walls of storeys from boxes to "
       "superquadrics.",
-      workshop.pick(10, 5), workshop.pick("", " for the paper's 10, to be quick"), workshop.pick(0.1, 0.2));
+      workshop.pick(10, 5), workshop.pick("", " instead of the paper's 10, to be quick"), workshop.pick(0.1, 0.2));
   exhibit.numbers = {{"ld", workshop.pick(10.0, 5.0)}, {"houses", std::move(houses)}};
   return std::vector<Exhibit>{std::move(exhibit)};
 }

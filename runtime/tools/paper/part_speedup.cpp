@@ -31,14 +31,14 @@ std::string whoIs(const StageRow& row) {
 
 constexpr double kCell = 0.5;  // metres
 
-/// What is measured for one number of position points.
+/// The measurement for one number of position points.
 struct PointsRun {
   int points = 0;
-  size_t nodes = 0, instructions = 0;  ///< of the program of all of them
+  size_t nodes = 0, instructions = 0;  ///< of the program of all points
   StageResult result;
 };
 
-/// Nodes and instructions of the world's program.
+/// Counts nodes and instructions of the world's program.
 Result<void> countNodes(PointsRun& run, bool hybrid) {
   const CompileResult compiled = compileBundled("paper/points.sgm");
   if (!compiled.program) return Error{Code::bad_input, renderDiagnostics(compiled)};
@@ -85,7 +85,7 @@ Result<std::vector<PointsRun>> measurePoints(Workshop& workshop, bool hybrid) {
   return all;
 }
 
-/// Per position point, from the fewest points to the most.
+/// Per position point, between the fewest points and the most.
 double slope(const std::vector<PointsRun>& runs, size_t PointsRun::*of) {
   return static_cast<double>(runs.back().*of - runs.front().*of) / (runs.back().points - runs.front().points);
 }
@@ -145,10 +145,9 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
   }
   exhibit.ours = Workshop::row(drawn(speedups) + drawn(times)) + table("By the number of position points", rows);
   exhibit.measured = fmt::format(
-      "At each point a ball on its way into a cube, {}. Medians of {} warm runs from derived cells to packed meshes, "
-      "64 "
-      "m in cells of {} m; every run and every contender made the same meshes, by hash.",
-      hybrid ? "collapsed by a morphic rule into one shape" : "both of them sampled and then blended",
+      "At each point, a ball that morphs into a cube, {}. Medians of {} warm runs from derived cells to packed meshes, "
+      "64 m in cells of {} m; every run on every backend made meshes of the same hash.",
+      hybrid ? "both collapsed into one shape by a morphic rule" : "both of them sampled and then blended",
       runs.front().result.rows[0].seconds.size(), kCell);
   exhibit.commands = {commandOfPart(workshop.options(), "speedup"),
                       fmt::format("sgm mesh grammars/paper/points.sgm --set points=700 --set hybrid={} --cell {}",
@@ -160,23 +159,24 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
   return exhibit;
 }
 
-/// What 14 against 41 is here.
+/// Our equivalent of the paper's 14 against 41.
 Markup nodesCompared(const std::vector<PointsRun>& morphing, const std::vector<PointsRun>& hybrid) {
   const double before = slope(morphing, &PointsRun::nodes), after = slope(hybrid, &PointsRun::nodes);
   BarChart chart;
-  chart.title = "Nodes and instructions a position point, morphing and hybrid";
-  chart.y.title = "a position point";
+  chart.title = "Nodes and instructions per position point, morphing and hybrid";
+  chart.y.title = "per position point";
   chart.groups = {"nodes", "instructions"};
   chart.series = {{"morphing", {before, slope(morphing, &PointsRun::instructions)}},
                   {"hybrid", {after, slope(hybrid, &PointsRun::instructions)}}};
   chart.width = 460;
   chart.height = 260;
   return element("h3", "14 against 41") + drawn(chart) +
-         element("p", fmt::format("The paper's two complexities differ by the factors 14 and 41 alone: {:.2f}. What a "
-                                  "morphic rule saves here is nodes: {:.2f} a point where it collapses two shapes into "
-                                  "one, for {:.2f} where both are there: {:.2f}. It need not save time: a superquadric "
-                                  "takes more than a ball and a box together.",
-                                  14.0 / 41, after, before, after / before));
+         element("p",
+                 fmt::format(
+                     "The paper's two complexities differ only by the factors 14 and 41: {:.2f}. Here a morphic rule "
+                     "saves nodes: {:.2f} per point if it collapses two shapes into one, and {:.2f} if both are kept: "
+                     "{:.2f}. It does not always save time: a superquadric costs more than a ball and a box together.",
+                     14.0 / 41, after, before, after / before));
 }
 
 // Tables 1 to 3.
@@ -200,7 +200,7 @@ Result<std::vector<StageResult>> measureStages(Workshop& workshop, const BenchOp
 
 constexpr std::array<const char*, 3> kStageNames = {"A – cave", "B – cloud", "C – building"};
 
-/// One row a contender, of one figure by stage; the paper's first.
+/// One row for each contender, of one figure by stage; the paper's first.
 Markup stageTable(const std::vector<StageResult>& results, const std::string& caption,
                   std::vector<std::vector<std::string>> rows,
                   const std::function<std::string(const StageResult&, const StageRow&)>& figure) {
@@ -270,7 +270,7 @@ Exhibit efficiencyTable(const std::vector<StageResult>& results) {
                 [](const PaperStage& s) { return fmt::format("{:.4f}", efficiency(s.speedup(), kPaperWorkers)); })},
       [](const StageResult& result, const StageRow& row) {
         const StageFigures figures = figuresOf(result, row);
-        return figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : std::string("workers not known");
+        return figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : std::string("workers unknown");
       });
   return exhibit;
 }
@@ -284,15 +284,15 @@ Exhibit throughputTable(const std::vector<StageResult>& results) {
       "20.61 "
       "Gflop/s, for all stages."};
   exhibit.ours = stageTable(
-      results, "Throughput (equation 4): 10⁹ field operations a second; the paper counts Gflop/s",
+      results, "Throughput (equation 4): 10⁹ field operations per second; the paper counts Gflop/s",
       {paperRow("paper, sequential", [](const PaperStage&) { return fmt::format("{}", kPaperSequentialThroughput); }),
        paperRow("paper, parallel", [](const PaperStage&) { return fmt::format("{}", kPaperParallelThroughput); })},
       [](const StageResult& result, const StageRow& row) {
         return fmt::format("{:.3f}", figuresOf(result, row).throughput / 1e9);
       });
   exhibit.ours += element("p",
-                          "A field operation is one instruction of a field program, pruned to where it matters, at "
-                          "one sample: a distance, a minimum, an octave of noise; many flop each.");
+                          "A field operation is one instruction of a pruned field program, at one sample: a distance, "
+                          "a minimum or an octave of noise. Each is many flop.");
   return exhibit;
 }
 
@@ -317,7 +317,7 @@ Exhibits speedupPart(Workshop& workshop) {
       fmt::format("Medians of {} warm runs of each stage from derived cells to packed meshes:", options.runs);
   for (const StageResult& result : *results) {
     measured +=
-        fmt::format(" {} m of {} with the seed {} in cells of {} m, {} triangles, hash {:016x};", result.model->edge,
+        fmt::format(" {} m of {} with seed {} in cells of {} m, {} triangles, hash {:016x};", result.model->edge,
                     result.model->file, result.model->seed, metres(result.cell), result.triangles, result.hash.value());
   }
   measured.back() = '.';

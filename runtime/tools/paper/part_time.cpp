@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The exponent e of y = c x^e that fits best.
+/// The exponent e of the best fit y = c x^e.
 double exponentOf(const std::vector<std::array<double, 2>>& points) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [a, b] : points) {
@@ -93,14 +93,16 @@ Exhibits timePart(Workshop& workshop) {
   triangles.series = by_triangles;
   exhibit.ours =
       Workshop::row(drawn(density) + drawn(triangles)) + table("64 m of the cave", rows) +
-      element("p",
-              fmt::format("Of one worker the time grows with the power {:.2f} of LD and {:.2f} of the number of "
-                          "triangles. Samples grow with the third power; but space that is proven to be all rock or "
-                          "all void is never sampled, so that the surface pays, which grows with the second.",
-                          by_ld, by_count));
+      element(
+          "p",
+          fmt::format(
+              "With one worker, the time grows with the power {:.2f} of LD and {:.2f} of the number of triangles. The "
+              "number of samples grows with the third power of LD; but space that is proven to be all rock or all void "
+              "is never sampled, so that the cost is that of the surface, which grows with the second power.",
+              by_ld, by_count));
   exhibit.measured = fmt::format(
-      "Medians of {} warm runs from derived cells to packed meshes, {} m of cave.sgm with the seed {}; the same meshes "
-      "by hash from everyone. The cave of figure 18 is not in the paper.",
+      "Medians of {} warm runs from derived cells to packed meshes, {} m of cave.sgm with seed {}; all runs made "
+      "meshes of the same hash. The cave of figure 18 is not in the paper.",
       runs, cave.edge, cave.seed);
   exhibit.commands = {commandOfPart(workshop.options(), "time")};
   exhibit.numbers = {

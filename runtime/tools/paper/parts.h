@@ -1,5 +1,5 @@
 #pragma once
-// The parts of the report, each of which can be made alone.
+// The parts of the report, each of which can be made separately.
 
 #include <vector>
 

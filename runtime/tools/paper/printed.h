@@ -1,6 +1,5 @@
 #pragma once
-// What the paper prints: tables 1 to 3, the formulas that they are said to follow from, and where it does not agree
-// with itself. Nothing here measures.
+// Printed figures of the paper: tables 1 to 3, their formulas, and its contradictions. Nothing here measures.
 
 #include <array>
 #include <string>
@@ -8,14 +7,14 @@
 
 namespace sgm::cli {
 
-/// Equation 2: how many times faster.
+/// Equation 2: the ratio of times.
 inline double speedup(double sequential, double parallel) { return sequential / parallel; }
-/// Equation 3, not held below 1: a worker more may bring a cache of its own.
+/// Equation 3, which may exceed 1: each further worker may bring its own cache.
 inline double efficiency(double speedup, double workers) { return speedup / workers; }
-/// Equation 4: what was computed a second.
+/// Equation 4: results per second.
 inline double throughput(double computed, double seconds) { return computed / seconds; }
 
-/// One column of the tables. Seconds of table 1, efficiency of table 2.
+/// A column of the tables. Seconds of table 1, efficiency of table 2.
 struct PaperStage {
   const char* name;
   double sequential, parallel;
@@ -30,13 +29,13 @@ inline constexpr double kPaperWorkers = 255;
 /// Table 3, one figure for all stages: Gflop/s.
 inline constexpr double kPaperSequentialThroughput = 0.8, kPaperParallelThroughput = 20.61;
 
-/// Where the paper contradicts itself, or leaves open what it means.
+/// A contradiction in the paper, or an ambiguity.
 struct Contradiction {
   std::string text;                 ///< a sentence or two
   std::vector<const char*> places;  ///< "figure-10", "table-1", "equation-7", "section-8"
-  bool of_tables = false;           ///< of what `sgm bench paper` measures
+  bool of_tables = false;           ///< concerns what `sgm bench paper` measures
 };
-/// All that were found, in one order for good: their numbers are their places in it, from 1 on.
+/// All known ones, in a fixed order: their numbers are their places in it, from 1.
 std::vector<Contradiction> contradictions();
 
 }  // namespace sgm::cli

@@ -20,7 +20,7 @@ bool isAt(const Contradiction& found, std::string_view place) {
   return std::ranges::any_of(found.places, [place](const char* at) { return at == place; });
 }
 
-/// "figure-10" as readers write it.
+/// "figure-10" in readable form.
 std::string placeName(std::string place) {
   std::ranges::replace(place, '-', ' ');
   return place;
@@ -89,25 +89,24 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
   head += element("title", kTitle) + element("style", Markup{kReportStyle});
 
   Markup body = element("h1", kTitle) + Markup{"\n"};
-  body += element("p", text("Figures and tables of ") +
-                           element("cite",
-                                   "Shape Metamorphosis – Automatic 3D Mesh Generation, Topology Verification "
-                                   "and Analysis") +
-                           text(", beside what this runtime makes of them. Every picture, chart and number of ours was "
-                                "made by the run that wrote this page. The paper's are quoted: what its captions, text "
-                                "and tables say."));
+  body +=
+      element("p", text("Figures and tables of ") +
+                       element("cite",
+                               "Shape Metamorphosis – Automatic 3D Mesh Generation, Topology Verification "
+                               "and Analysis") +
+                       text(", beside those of this runtime. The run that wrote this page made every picture, chart "
+                            "and number of ours. Those of the paper are quoted from its captions, text and tables."));
   if (facts.quick)
     body += element("p", element("strong", "A quick run: ") +
                              text("larger cells, fewer runs and models and smaller pictures than without --quick."));
-  if (!facts.pictures) body += paragraph("Made without pictures, as --no-pictures asks.");
-  if (!facts.whole) body += paragraph("Some parts alone, as --only asks.");
+  if (!facts.pictures) body += paragraph("There are no pictures, because --no-pictures was given.");
+  if (!facts.whole) body += paragraph("The report has only the parts that --only names.");
   Markup machine;
   for (const auto& [name, what] : facts.machine) machine += element("dt", name) + element("dd", what);
   body += element("dl", machine) + Markup{"\n"};
-  body += element("p", text("Commands are for this page's folder, where ") + element("code", "grammars") +
-                           text(" holds what they read; what they write goes beside it. All but times, and what "
-                                "follows from them, comes out the same "
-                                "again."));
+  body += element("p", text("Run the commands in the folder of this page. Its folder ") + element("code", "grammars") +
+                           text(" has their input; their output goes beside this folder. Everything is reproducible, "
+                                "except times and values that depend on them."));
   body += contents(exhibits);
   for (const Exhibit& exhibit : exhibits) body += sectionOf(exhibit);
   body += contradictionList(exhibits);

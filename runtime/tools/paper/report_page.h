@@ -1,5 +1,5 @@
 #pragma once
-// The report as one page that needs nothing beside its pictures: no network, no script.
+// The report as one self-contained page with pictures: no network, no script.
 
 #include <span>
 #include <string>
@@ -11,10 +11,10 @@
 namespace sgm::cli {
 
 struct ReportFacts {
-  std::vector<std::pair<std::string, std::string>> machine;  ///< what made it: a name and what it is
+  std::vector<std::pair<std::string, std::string>> machine;  ///< name and value of each property of the machine
   bool quick = false;
   bool pictures = true;
-  bool whole = true;  ///< not of some parts alone
+  bool whole = true;  ///< includes all parts
 };
 
 std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibits);

@@ -1,5 +1,5 @@
 #pragma once
-// How the report looks: by light, in the dark, on paper.
+// The report's style, for light and dark screens, and for paper.
 
 namespace sgm::cli {
 

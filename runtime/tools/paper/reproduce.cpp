@@ -1,4 +1,4 @@
-// sgm paper: the report, made part by part.
+// sgm paper: makes the report part by part.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Where an exhibit stands in the report: figures by number, then tables.
+/// An exhibit's order in the report: figures by number, then tables.
 std::pair<bool, int> orderOf(const Exhibit& exhibit) {
   return {exhibit.id.starts_with("table"), std::stoi(exhibit.id.substr(exhibit.id.find('-') + 1))};
 }
@@ -43,7 +43,7 @@ Result<std::vector<Exhibit>> makeExhibits(const PaperOptions& options, Workshop&
   return all;
 }
 
-/// The device that meshes; also whether what is asked for is here at all.
+/// The device that meshes; fails if the requested one is missing.
 Result<std::string> meshingDevice(const PaperOptions& options, JobSystem& jobs) {
   WorldOptions world;
   world.backend = options.backend;
@@ -70,7 +70,7 @@ std::vector<std::string> paperParts() {
 
 Exit reproducePaper(const PaperOptions& options) {
   const Stopwatch watch;
-  // What may be wrong is found out before minutes of work.
+  // Check for errors before minutes of work.
   if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
     return complain(writable.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
@@ -82,7 +82,7 @@ Exit reproducePaper(const PaperOptions& options) {
     Result<Renderer> made = Renderer::create();
     if (!made) {
       return complain(exitOf(made.error().code),
-                      fmt::format("{}; or leave the pictures out with --no-pictures", made.error().message));
+                      fmt::format("{}; or use --no-pictures for a report without pictures", made.error().message));
     }
     renderer.emplace(std::move(*made));
   }

@@ -20,7 +20,7 @@ namespace {
 constexpr uint64_t kMostChunks = 65536;
 constexpr size_t kDerivedBytes = size_t{512} << 20;  // more than the cells of any stage
 
-/// A stage that is ready to be generated any number of times.
+/// A stage that can be generated any number of times.
 struct StageScene {
   WorldFieldSettings settings;
   IntBox cube;
@@ -76,7 +76,7 @@ Result<StageRun> generate(const StageScene& scene, const WorldField& world, cons
   return run;
 }
 
-/// As the CPU meshes, by the evaluator that counts.
+/// Meshes as the CPU does, with the counting evaluator.
 Result<uint64_t> countOperations(const StageScene& scene, const WorldField& world, JobSystem& jobs) {
   const Result<std::pmr::vector<ChunkKey>> keys = scene.keys(world);
   if (!keys) return keys.error();
@@ -84,7 +84,7 @@ Result<uint64_t> countOperations(const StageScene& scene, const WorldField& worl
   std::vector<std::optional<Error>> errors(keys->size());
   parallelFor(jobs, keys->size(), [&](size_t i) {
     ChunkJob job;
-    // A run before has found every chunk inside the world.
+    // A previous run has checked that every chunk is inside the world.
     job.grid = *chunkGrid(world, (*keys)[i]);
     Result<std::shared_ptr<const FieldProgram>> field = world.compile(chunkBox(job.grid), 0);
     if (!field) {
@@ -146,7 +146,7 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
     row.reason = contender.reason;
     row.workers = contender.workers;
   }
-  // Each has a world of its own, and derives it in its first run.
+  // Each has its own world, and derives it in its first run.
   std::deque<WorldField> worlds;
   for (size_t i = 0; i < contenders.size(); ++i) worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());
   std::optional<size_t> first, last;
@@ -178,7 +178,7 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
       step();
     }
   }
-  if (!last) return Error{Code::invalid_argument, "none of the contenders can be measured"};
+  if (!last) return Error{Code::invalid_argument, "none of the backends can be measured"};
   const Result<uint64_t> operations = countOperations(*scene, worlds[*last], *contenders[*last].jobs);
   if (!operations) return operations.error();
   result.operations = *operations;

@@ -22,9 +22,9 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      true,
      "An endless city of towers",
-     "The grammar makes cities alone. It has no morphing, which the method's own paper does not describe either; in "
-     "this "
-     "language every rule may have it. Hidden surfaces are not there: towers are one solid with what stands in them."},
+     "The grammar makes only cities. It has no morphing, which the method's own paper does not describe either; in "
+     "this language every rule may have it. There are no hidden surfaces: towers and the shapes in them are one "
+     "solid."},
     {"Voxel method",
      {"NO", "NO", "YES", "YES (SZ)", "YES (Voxels)", "NO", "NO", "YES", "NO", "YES"},
      "table4/voxel.sgm",
@@ -41,8 +41,8 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      false,
      "A cave of a cellular automaton",
-     "The grammar makes caves alone. Texture coordinates come with every mesh, and vertices are shared by exact keys. "
-     "No built-in master is of an automaton's caves, so that the classifier may not know them."},
+     "The grammar makes only caves. Every mesh has texture coordinates, and vertices are shared by exact keys. The "
+     "built-in reference histograms include no caves of automata, so that the classifier may not recognise them."},
     {"Cui's method",
      {"NO", "NO", "YES", "YES (S)", "YES (Voxels)", "NO", "NO", "NO", "NO", "NO"},
      "table4/cui.sgm",
@@ -59,7 +59,7 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      false,
      "A cave with stalactites",
-     "The grammar makes caves alone. Its halls morph from round to square; the mesh has shared vertices, no hidden "
+     "The grammar makes only caves. Its halls morph from round to square; the mesh has shared vertices, no hidden "
      "surface and no hole, all of which the paper denies the method."},
     {"Birger's method",
      {"YES", "NO", "NO", "YES (SZ)", "YES (Noise)", "NO", "YES", kNone, kNone, kNone},
@@ -77,7 +77,7 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      false,
      "A deck of noise clouds from above",
-     "The grammar makes clouds alone, without morphing. As meshes they are closed; as fog there is nothing to close."},
+     "The grammar makes only clouds, without morphing. As meshes they are closed; as fog they have no surface."},
     {"Marson's method",
      {"NO", "YES", "NO", "YES (P)", "YES (Tree map)", "NO", "NO", "NO", "YES", "YES"},
      "table4/marson.sgm",
@@ -94,8 +94,8 @@ constexpr ComparedSystem kSystems[] = {
      "roofed=0",
      false,
      "A house's floor of rooms from above, without its roof",
-     "The grammar makes houses alone, without morphing. Texture coordinates come with every mesh, and walls are one "
-     "solid, so that none hides in another."},
+     "The grammar makes only houses, without morphing. Every mesh has texture coordinates, and the walls are one "
+     "solid, so that no wall hides another."},
     {"Lipp's method",
      {"NO", "YES", "NO", "YES(P)", "YES (Shape grammar)", "NO", "YES", "YES", "NO DATA", "YES"},
      "table4/lipp.sgm",
@@ -112,7 +112,7 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      true,
      "A palace with a gate and a balcony that were edited by hand",
-     "The grammar makes palaces alone, without morphing."},
+     "The grammar makes only palaces, without morphing."},
     {"Cabral's method",
      {"NO", "YES", "NO", "YES(P)", "YES (Edge and texture transformation)", "NO", "YES", "NO DATA", "YES", "YES"},
      "table4/cabral.sgm",
@@ -129,7 +129,7 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      true,
      "A street of two assets in many sizes",
-     "The grammar makes streets alone, without morphing."},
+     "The grammar makes only streets, without morphing."},
     {"Bouthor's method",
      {"YES", "NO", "NO", "YES(SZ)", "YES (Anisotropic diffusion)", "NO", "YES", "N/O", kNone, kNone},
      "table4/bouthors.sgm",
@@ -145,8 +145,8 @@ constexpr ComparedSystem kSystems[] = {
      0,
      nullptr,
      false,
-     "A cumulus of blobs upon blobs",
-     "The grammar makes clouds alone. Its blobs morph from round to wide."},
+     "A cumulus of blobs on blobs",
+     "The grammar makes only clouds. Its blobs morph from round to wide."},
     {"Mullera's method",
      {"NO", "YES", "NO", "YES(P)", "YES (Shape grammar)", "NO", "NO", "YES", "YES", "YES"},
      "table4/muller.sgm",
@@ -163,7 +163,7 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      true,
      "An office tower with balconies",
-     "The grammar makes towers alone, without morphing. Texture coordinates come with every mesh."},
+     "The grammar makes only towers, without morphing. Every mesh has texture coordinates."},
     {"System GK-M",
      {"YES", "YES", "YES", "YES (S)", "YES (Shape grammar, morphing, CSG)", "YES", "NO", "YES", "YES", "YES"},
      "table4/gkm.sgm",
@@ -180,11 +180,10 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      false,
      "Caves under ground, towers on it and clouds above",
-     "Texture mapping, the paper's own NO, is there. Each kind is classified by an excerpt of its own: the sky, a "
-     "tower, "
-     "the caves. What a few objects are classified as depends on the cells: the caves are told at 1 m, and taken for a "
-     "cloud at half of it; the clouds, of 20 m where those that the masters are made of have hundreds, are told at 4 m "
-     "alone, where all three look like clouds, and are taken for buildings at 1 m.",
+     "There is texture mapping, which the paper's own system lacks. Each kind is classified by a separate excerpt: the "
+     "sky, a tower, the caves. The class of a few objects depends on the cells. The caves are recognised at 1 m, and "
+     "taken for a cloud at half of it. The clouds are 20 m large, those of the reference histograms hundreds of "
+     "metres; they are recognised only at 4 m, where all three look like clouds, and taken for buildings at 1 m.",
      {{{"-48,36,-48:48,100,48", 1}, {"-16,-2,-16:16,34,16", 0.25}, {"-48,-64,-48:48,-6,48", 1}}}},
 };
 

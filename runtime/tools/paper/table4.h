@@ -1,5 +1,5 @@
 #pragma once
-// Table 4 of the paper as it is printed, and which grammar and which options stand for each of its systems here.
+// Table 4 of the paper as printed, and the grammar and options that represent each of its systems here.
 
 #include <array>
 #include <span>
@@ -32,9 +32,9 @@ inline constexpr std::array<const char*, kCriteria> kCriterionNames = {"Clouds",
                                                                        "Overlapping vertices removed",
                                                                        "No holes"};
 
-/// What is classified as one kind of a world that has several.
+/// The part of a world with several kinds of objects that is classified as one kind.
 struct Excerpt {
-  const char* region = nullptr;  ///< null: what is measured otherwise too
+  const char* region = nullptr;  ///< null: the measured region
   double cell = 0;
 };
 
@@ -42,18 +42,18 @@ struct ComparedSystem {
   const char* name;  ///< as printed
   std::array<const char*, kCriteria> printed;
   const char* grammar;
-  const char* region;  ///< that is measured; empty: all of a finite world
+  const char* region;  ///< the measured one; empty: all of a finite world
   double cell, quick_cell;
-  const char* control;  ///< another value of a parameter
-  const char* morph;    ///< of one that morphs; null where the grammar has none
-  // What is drawn.
-  const char *view_region, *camera;  ///< empty: as the renderer chooses
+  const char* control;  ///< a parameter with another value
+  const char* morph;    ///< the same for morphing; null if the grammar has none
+  // The picture.
+  const char *view_region, *camera;  ///< empty: the renderer's choice
   double view_cell, quick_view_cell;
   uint64_t view_seed;
   const char* view_set;  ///< null: none
   bool sharp;
   const char* alt;
-  const char* without;                ///< of what the paper says NO to, and of what is NO here: why
+  const char* without;                ///< reasons for a NO of the paper, and for a NO here
   std::array<Excerpt, 3> excerpts{};  ///< by the first three criteria
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the report work with: the bundled grammars, a renderer, and a place to put pictures.
+// Common resources of the report's parts: the bundled grammars, a renderer, and the pictures.
 
 #include <string>
 #include <vector>
@@ -18,18 +18,18 @@ namespace sgm::cli {
 
 class Workshop {
  public:
-  /// renderer: null where no picture is drawn; outlives the workshop, as do the options.
+  /// renderer: null if no pictures are drawn; outlives the workshop, as do the options.
   Workshop(const PaperOptions& options, JobSystem& jobs, const Renderer* renderer)
       : options_(options), jobs_(jobs), renderer_(renderer) {}
 
   const PaperOptions& options() const { return options_; }
   JobSystem& jobs() const { return jobs_; }
-  /// One of two, the second where it is to be quick.
+  /// Returns `quick` for a quick report, otherwise `full`.
   template <class T>
   T pick(T full, T quick) const {
     return options_.quick ? std::move(quick) : std::move(full);
   }
-  /// Beside progress bars, from now on.
+  /// Sets the text of the following progress bars.
   void begin(std::string doing) { doing_ = std::move(doing); }
   const std::string& doing() const { return doing_; }
 
@@ -42,16 +42,16 @@ class Workshop {
     options.threads = options_.threads;
     return options;
   }
-  /// The name of the bundled grammar that options of on() mean.
+  /// The name of the bundled grammar of options from on().
   static std::string grammarOf(const WorldOptions& options) { return options.file.substr(kGrammars.size()); }
 
-  /// texture: with texture coordinates. Errors: as meshProgram(), and where there is no surface bad_input.
+  /// texture: with texture coordinates. Errors: as meshProgram(); bad_input if there is no surface.
   Result<Region> mesh(const WorldOptions& options, bool texture = false) const;
-  /// The sampled region, its mesh welded, and what `sgm measure` says of it.
+  /// Measures of the sampled region's welded mesh, as in `sgm measure`.
   Result<measure::MeshMeasures> measure(const MeasureOptions& options) const;
 
-  /// Draws a picture and keeps it as pictures/NAME.png. The element with its caption and its command, which goes to
-  /// `commands` too; nothing where no pictures are drawn. alt: what is to be seen.
+  /// Draws a picture and keeps it as pictures/NAME.png. Returns its element with caption and command, which is also
+  /// added to `commands`; empty if no pictures are drawn. alt: description of the picture.
   Result<Markup> picture(RenderOptions options, const std::string& name, const std::string& alt,
                          const std::string& caption, std::vector<std::string>& commands);
   /// Side by side.
@@ -69,7 +69,7 @@ class Workshop {
   std::vector<FolderFile> pictures_;
 };
 
-/// The command that makes some of the report alone.
+/// The command that makes only this part of the report.
 std::string commandOfPart(const PaperOptions& options, const std::string& part);
 
 }  // namespace sgm::cli

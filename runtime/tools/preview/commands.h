@@ -6,7 +6,7 @@
 
 namespace sgm::cli {
 
-/// A window, until its user closes it. Of the options, those of one picture count.
+/// Shows a window until the user closes it. Uses the options for a single picture.
 Exit showPreview(const RenderOptions& options);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The panel of a preview: what a user sets, and what is said.
+// The panel of a preview: the user's controls, and messages.
 
 #include <optional>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace sgm::preview {
 
-/// The values that the panel shows; the window asks for a picture with them.
+/// The values in the panel; the window requests a picture with them.
 class Controls {
  public:
   explicit Controls(const cli::RenderOptions& options);
 
-  /// Takes over what a program declares. Values that a user has set stay, where they still fit.
+  /// Adopts a program's declarations. The user's values stay if they still fit.
   void adopt(const std::shared_ptr<const Program>& program);
-  /// Within a frame of Dear ImGui. Returns whether a value has changed.
+  /// To be called in a Dear ImGui frame. Returns whether a value has changed.
   bool draw(const Painted& last, bool at_work);
 
   uint64_t seed() const { return seed_; }
-  /// --light's name of what is chosen.
+  /// The chosen light, as for --light.
   std::string light() const;
-  /// As --set takes them: of parameters that differ from their defaults, and those of the command line that no
-  /// parameter of the program takes.
+  /// In the form of --set: parameters that differ from their defaults, and settings of the command line for which the
+  /// program has no parameter.
   std::vector<std::string> sets() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Whether files have been saved since somebody looked.
+// Tells whether files have been saved.
 
 #include <array>
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace sgm::preview {
 
-/// The files of one grammar, as they were when they were read last. One thread.
+/// The files of one grammar, in the state of the last read. One thread.
 class FileWatch {
  public:
-  /// Files that do not exist are watched too: they may come.
+  /// Also watches files that do not exist yet.
   void watch(std::vector<std::filesystem::path> files);
 
-  /// Whether a file differs from what it was at watch(), or at the last true answer, and has not changed since the
-  /// call before: an editor that writes in pieces is waited for.
+  /// Whether a file differs from its state at watch() or at the last true result, and has not changed since the
+  /// previous call. So it waits for editors that write in several steps.
   bool changed();
 
  private:
-  /// Of one file: the time of its last change, and one more than its size; zeros where the file does not exist.
+  /// Of one file: the time of its last change, and its size plus one; zeros if the file does not exist.
   using Stamp = std::array<int64_t, 2>;
 
   std::vector<Stamp> look() const;

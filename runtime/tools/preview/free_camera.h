@@ -1,28 +1,28 @@
 #pragma once
-// A camera that a mouse and keys move.
+// A camera moved by mouse and keys.
 
 #include <array>
 #include <glm/vec3.hpp>
 
 namespace sgm::preview {
 
-/// Looks from a place to a target, never upside down. Lengths are metres of the world, angles radians. In a hollow the
-/// place stays while the camera turns; from outside the camera goes round its target.
+/// Looks from a place to a target, never upside down. Lengths are metres of the world, angles radians. In a hollow, the
+/// camera turns in place; outside, it orbits its target.
 class FreeCamera {
  public:
-  using Gaze = std::array<std::array<double, 3>, 2>;  ///< from where and to where
+  using Gaze = std::array<std::array<double, 3>, 2>;  ///< position and target
 
-  /// Contract: the two points differ. inside: the camera stands in a hollow.
+  /// Contract: the two points differ. inside: the camera is in a hollow.
   FreeCamera(const Gaze& gaze, bool inside);
 
   Gaze gaze() const;
   bool isInside() const { return inside_; }
 
-  /// To the right and up, as the mouse drags the picture.
+  /// To the right and up, in the direction of a mouse drag.
   void turn(double right, double up);
-  /// Camera and target by so many metres along the picture's axes.
+  /// Moves camera and target along the picture's axes, in metres.
   void move(double right, double up, double forward);
-  /// Nearer to the target by a factor above 0; in a hollow forward by the share of the distance that goes.
+  /// Changes the distance to the target by a factor above 0; in a hollow, moves forward by the same length.
   void approach(double factor);
 
   double distance() const { return distance_; }
@@ -37,8 +37,8 @@ class FreeCamera {
   double pitch_ = 0;    ///< above the horizon
 };
 
-/// The direction, of any length, in which a camera with square pixels sees a place of its picture: x and y are 0..1
-/// from the top left corner, fov is the angle across the picture's height, aspect its width by its height. Contract:
+/// The direction, of any length, of the ray through a place of the picture of a camera with square pixels: x and y are
+/// 0..1 from the top left corner, fov is the angle across the picture's height, aspect is width by height. Contract:
 /// the gaze's two points differ.
 glm::dvec3 rayThrough(const FreeCamera::Gaze& gaze, double fov, double aspect, double x, double y);
 

@@ -24,8 +24,8 @@ using cli::Region;
 using cli::RegionScene;
 using cli::RenderOptions;
 
-constexpr uint64_t kChunks = 2048;      // at most, of a picture's region where --cell does not say
-constexpr uint64_t kDraftChunks = 256;  // of a draft's
+constexpr uint64_t kChunks = 2048;      // maximum for a picture's region without --cell
+constexpr uint64_t kDraftChunks = 256;  // for a draft
 constexpr int kCoarsestDraft = 4;       // levels above the picture's
 constexpr double kDraftPixels = 90'000;
 
@@ -35,7 +35,7 @@ std::string boxText(const IntBox& box) {
   return corner(box.lo) + ":" + corner(box.hi);
 }
 
-/// Whether a camera stands so far within a box that most of what it sees is there.
+/// Whether a camera is so far inside a box that most of its view is there too.
 bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   for (int axis = 0; axis < 3; ++axis) {
     const double margin = (metres(box.hi[axis]) - metres(box.lo[axis])) / 4, at = camera[static_cast<size_t>(axis)];
@@ -44,7 +44,7 @@ bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   return true;
 }
 
-/// A picture of the same shape with so many pixels at most.
+/// A size of the same shape with a limited number of pixels.
 std::string draftSize(const std::string& size) {
   const cli::PictureSize whole = *cli::readSize(size);
   const double smaller = std::max(1.0, std::sqrt(whole.width * (whole.height / kDraftPixels)));
@@ -52,7 +52,7 @@ std::string draftSize(const std::string& size) {
                      std::max(1, static_cast<int>(whole.height / smaller)));
 }
 
-/// The files that a grammar is made of, those of its folder and those of the library, which are nowhere.
+/// The files of a grammar in its folder, without those of the standard library, which are not on disk.
 std::vector<std::filesystem::path> filesOf(const std::string& file, const CompileResult& compiled) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::vector<std::filesystem::path> files{file};
@@ -62,13 +62,13 @@ std::vector<std::filesystem::path> filesOf(const std::string& file, const Compil
   return files;
 }
 
-/// What the options say of the world, but for those settings which the grammar does not take.
+/// The settings that the grammar accepts.
 std::vector<std::string> takenSets(const Program& program, const std::vector<std::string>& sets,
                                    std::string& messages) {
   std::vector<std::string> taken;
   for (const std::string& set : sets) {
     if (const Result<ParameterValues> fits = cli::parameterValues(program, {set}); !fits)
-      messages += fmt::format("note: {} is not used: {}\n", set, fits.error().message);
+      messages += fmt::format("note: {} is ignored: {}\n", set, fits.error().message);
     else
       taken.push_back(set);
   }
@@ -77,7 +77,7 @@ std::vector<std::string> takenSets(const Program& program, const std::vector<std
 
 }  // namespace
 
-/// The state of the thread that paints.
+/// The state of the painting thread.
 struct Painter::Worker {
   Painter& painter;
   Renderer renderer;
@@ -88,10 +88,10 @@ struct Painter::Worker {
   std::string compile_messages;
   std::vector<std::filesystem::path> files;  ///< not yet published
 
-  std::string world;          ///< what the regions below are made of, as text
-  std::optional<IntBox> box;  ///< of the world, that is drawn
+  std::string world;          ///< description of the world of the regions below
+  std::optional<IntBox> box;  ///< the drawn part of the world
   std::shared_ptr<const Region> draft, fine;
-  std::string home;  ///< the camera that was found where the wish had none
+  std::string home;  ///< the camera chosen for wishes without one
   Light light = Light::sun;
 
   Worker(Painter& owner, Renderer drawer, std::unique_ptr<JobSystem> threads)
@@ -100,7 +100,7 @@ struct Painter::Worker {
   void paint(const Wish& wish, uint64_t number);
 
  private:
-  /// One wish on its way.
+  /// A wish in progress.
   struct Task {
     const Wish& wish;
     uint64_t number;
@@ -176,13 +176,13 @@ Result<void> Painter::Worker::settle(Task& task) {
 
 Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, int level, bool draft_only) {
   RenderOptions options = task.options;
-  // Not a level of the picture's world, which derives and probes as finely as that: a coarser world is quick.
+  // Use a coarser world: a coarse level of the picture's world would still derive and probe at its fine cell size.
   options.cell = std::ldexp(*options.cell, level);
   std::optional<cli::RegionDensity> no_density;
   cli::RegionPlan plan = cli::picturePlan(options, no_density);
   plan.quiet = true;
   plan.notes = !draft_only;
-  // Anchors are places to look from: they are needed once.
+  // Anchors serve to choose the camera, so they are needed only once.
   plan.anchors = options.camera.empty() && home.empty();
   if (!draft_only) plan.go_on = [this, number = task.number] { return painter.isNewest(number); };
   Result<Region> made = cli::meshProgram(program, options, plan);
@@ -276,7 +276,7 @@ void Painter::Worker::paint(const Wish& wish, uint64_t number) {
   try {
     done = work();
   } catch (const std::bad_alloc&) {
-    done = Error{Code::out_of_memory, "out of memory: take larger cells (--cell) or a smaller --region"};
+    done = Error{Code::out_of_memory, "out of memory: choose larger cells (--cell) or a smaller --region"};
   }
   if (program != nullptr && (done || done.error().code == Code::cancelled)) return;
   if (!done) task.messages += "error: " + done.error().message + "\n";
@@ -293,7 +293,7 @@ Result<std::unique_ptr<Painter>> Painter::create() {
   try {
     painter->thread_ = std::thread([raw = painter.get()] { raw->run(); });
   } catch (const std::system_error&) {
-    return Error{Code::limit, "the system starts no further thread: end other programs and try again"};
+    return Error{Code::limit, "cannot start another thread: end other programs and try again"};
   }
   return painter;
 }
@@ -325,7 +325,7 @@ std::optional<Painted> Painter::take() {
 
 void Painter::publish(Painted painted) {
   const std::lock_guard lock(mutex_);
-  // Files are told once: a result that nobody has taken passes them on.
+  // Files are published once: pass on those of an untaken result.
   if (painted.files.empty() && result_) painted.files = std::move(result_->files);
   result_ = std::move(painted);
 }

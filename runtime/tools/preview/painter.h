@@ -17,34 +17,34 @@
 
 namespace sgm::preview {
 
-/// What a window asks for. The file is read again where `edition` differs from that of the wish before.
+/// A window's request. The file is read again if `edition` differs from the previous wish's.
 struct Wish {
-  cli::RenderOptions options;  ///< an empty camera: one is found; `out`, `frame`, `seeds`, `volume` are not looked at
+  cli::RenderOptions options;  ///< an empty camera: one is chosen; `out`, `frame`, `seeds`, `volume` are ignored
   uint64_t edition = 0;
 };
 
-/// What has become of a wish, so far.
+/// The current result of a wish.
 struct Painted {
-  uint64_t wish = 0;                         ///< as Painter::wish() counts them
-  std::shared_ptr<const Program> program;    ///< of the grammar; the last one that was right where the text is wrong
-  std::vector<std::filesystem::path> files;  ///< that the grammar is made of; empty where it was not read anew
+  uint64_t wish = 0;                         ///< its number from Painter::wish()
+  std::shared_ptr<const Program> program;    ///< of the grammar; while the text is wrong, the last correct one
+  std::vector<std::filesystem::path> files;  ///< of the grammar; empty if it was not read again
   bool text_is_wrong = false;
-  std::string messages;                       ///< lines for people; empty: all is well
-  std::shared_ptr<const cli::Region> region;  ///< that the picture shows; null: the picture before stays
-  std::string box;                            ///< of the picture, as --region takes it, not of a draft's coarse chunks
-  double cell = 0;                            ///< of the picture, metres; a draft has larger ones
+  std::string messages;                       ///< lines of text; empty: no problems
+  std::shared_ptr<const cli::Region> region;  ///< shown in the picture; null: the previous picture stays
+  std::string box;                            ///< of the picture, as for --region, without the draft's coarse chunks
+  double cell = 0;                            ///< of the picture, metres; a draft's are larger
   Image image;
   View view;
   Light light = Light::sun;
-  bool draft = false;  ///< a better picture of the same wish follows
-  double seconds = 0;  ///< since work on the wish began
+  bool draft = false;  ///< a better picture of the same wish will follow
+  double seconds = 0;  ///< since the start of work on the wish
 };
 
-/// Takes wishes and paints the newest: first a draft of coarse cells in plain colours, then the picture as `sgm render`
-/// draws it. A newer wish stops the work on an older one. All functions may be called from one thread.
+/// Paints the newest wish: first a draft with coarse cells in plain colours, then the picture as in `sgm render`. A
+/// newer wish cancels the work on an older one. All functions must be called from one thread.
 class Painter {
  public:
-  /// Errors: those of Renderer::create; limit, if no thread can be started.
+  /// Errors: those of Renderer::create; limit if no thread can be started.
   static Result<std::unique_ptr<Painter>> create();
   ~Painter();
 

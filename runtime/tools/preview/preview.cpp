@@ -1,4 +1,4 @@
-// sgm preview: a window that shows a grammar while it is written.
+// sgm preview: shows a grammar in a window while it is being written.
 
 #include "tools/preview/commands.h"
 #include "tools/preview/session.h"
@@ -9,7 +9,7 @@
 namespace sgm::cli {
 
 Exit showPreview(const RenderOptions& options) {
-  // A wrong command line is told at once; what is wrong in the text is told in the window.
+  // A wrong command line is reported immediately, errors in the text in the window.
   if (const Result<std::string> text = readGrammarText(options.file); !text) return complain(text.error());
   if (!options.region.empty()) {
     if (const Result<IntBox> box = parseRegion(options.region); !box) return complain(box.error());

@@ -13,11 +13,11 @@ namespace {
 
 using cli::gazeText;
 
-constexpr double kLook = 0.04;    // seconds between two looks at the files
-constexpr double kRest = 0.15;    // seconds that a pointer rests before its place is looked up
+constexpr double kLook = 0.04;    // seconds between two checks of the files
+constexpr double kRest = 0.15;    // seconds that a pointer must rest before its place is looked up
 constexpr double kTurn = 3.0;     // radians, for a drag across the picture's height
-constexpr double kNearer = 0.85;  // of the distance, a step of the wheel
-constexpr double kWalk = 0.6;     // of the typical depth, a second
+constexpr double kNearer = 0.85;  // factor of the distance for a step of the wheel
+constexpr double kWalk = 0.6;     // of the typical depth, per second
 constexpr double kRadians = 0.017453292519943295;
 
 FreeCamera::Gaze gazeOf(const Painted& painted) {
@@ -25,13 +25,13 @@ FreeCamera::Gaze gazeOf(const Painted& painted) {
 }
 
 std::string textOf(const PointedPlace& place) {
-  std::string text = place.path.empty() ? "the domain's own, no shape comes near" : place.path + "\n" + place.source;
+  std::string text = place.path.empty() ? "no shape is near, the domain decides" : place.path + "\n" + place.source;
   if (!place.material.empty()) text += "\n" + place.material;
   if (!place.tag.empty()) text += (place.material.empty() ? "\ntag " : ", tag ") + place.tag;
   return text + fmt::format("\n{:.2f}, {:.2f}, {:.2f} m", place.position[0], place.position[1], place.position[2]);
 }
 
-/// So that a shell reads it as one word.
+/// Quoted as one word for a shell.
 std::string quoted(const std::string& word) {
   const bool plain = std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -99,7 +99,7 @@ Result<void> Session::takeResult() {
   if (painted->wish == wished_ && !painted->draft) at_work_ = false;
   sayPicture(*painted);
   if (!painted->region) {
-    // The last picture stays in sight beside what is wrong.
+    // The last picture stays visible beside the messages.
     last_.messages = painted->messages;
     window_.refresh();
     return {};
@@ -238,7 +238,7 @@ Result<void> Session::run() {
       steer();
       point();
     });
-    // A pointer that rests, and a key that is held, send no events.
+    // A resting pointer and a held key send no events.
     if (pointing_.valid() || !place_is_known_) window_.refresh();
     for (const char key : {'W', 'A', 'S', 'D', 'Q', 'E'})
       if (window_.isHeld(key)) window_.refresh();

@@ -1,5 +1,5 @@
 #pragma once
-// `sgm preview`, from the window's opening to its end.
+// Runs `sgm preview`, from opening the window to closing it.
 
 #include <future>
 #include <optional>
@@ -15,8 +15,8 @@
 
 namespace sgm::preview {
 
-/// Brings file, controls, camera, painter and window together. Prints what a user asks for by key or click, and with
-/// --json a line for each picture and message, for tools.
+/// Connects file, controls, camera, painter and window. Prints the user's requests by key or click, and with --json a
+/// line for each picture and message, for tools.
 class Session {
  public:
   Session(const cli::RenderOptions& options, Painter& painter, Window& window);
@@ -45,12 +45,12 @@ class Session {
   FileWatch files_;
   uint64_t edition_ = 1;
   uint64_t wished_ = 0;
-  std::optional<FreeCamera> camera_;  ///< none: the first view
+  std::optional<FreeCamera> camera_;  ///< nullopt: the initial view
   Painted last_;                      ///< its picture is in the window
   bool at_work_ = false;
   Clock::time_point frame_at_ = Clock::now();
 
-  std::future<Pointed> pointing_;  ///< what the pointer shows is looked up
+  std::future<Pointed> pointing_;  ///< pending query of the place under the pointer
   std::optional<PointedPlace> place_;
   std::string place_error_;
   bool place_is_known_ = false, clicked_ = false;

@@ -12,8 +12,8 @@
 namespace sgm::preview {
 namespace {
 
-constexpr int kSettlingFrames = 3;  // Dear ImGui answers some events a frame or two later
-constexpr double kStill = 4;        // pixels that a hand may move during a click
+constexpr int kSettlingFrames = 3;  // Dear ImGui reacts to some events a frame or two later
+constexpr double kStill = 4;        // maximal motion in pixels during a click
 
 std::string reason() {
   const char* description = nullptr;
@@ -23,7 +23,7 @@ std::string reason() {
 
 }  // namespace
 
-/// The calls of OpenGL 1.1 that a picture takes. They are loaded, so that the command starts on machines without
+/// The OpenGL 1.1 functions for a picture. They are loaded at run time, so that the command starts on machines without
 /// OpenGL.
 struct Window::PictureCalls {
   decltype(&glGenTextures) gen_textures = nullptr;
@@ -97,7 +97,7 @@ struct Window::State {
     });
   }
 
-  /// Where the picture lies in the window, in its coordinates: the corner, and the size.
+  /// The picture's place in the window, in its coordinates: corner and size.
   std::array<ImVec2, 2> place() const {
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     if (picture_width == 0 || picture_height == 0) return {ImVec2(0, 0), all};
@@ -133,7 +133,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   const auto failed = [](const std::string& what) {
     return Error{Code::unsupported, what + " (" + reason() +
                                         "): start it on a desktop, or draw a picture with `sgm render FILE --out "
-                                        "picture.png`, which needs none"};
+                                        "picture.png`, which needs no display"};
   };
   glfwSetErrorCallback(nullptr);
   if (glfwInit() != GLFW_TRUE) return failed("there is no display to open a window on");
@@ -143,16 +143,16 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   state->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (state->window == nullptr) return failed("the display opens no window with OpenGL 3.2");
+  if (state->window == nullptr) return failed("the display cannot open a window with OpenGL 3.2");
   glfwMakeContextCurrent(state->window);
-  if (!state->gl.load()) return failed("the display's OpenGL is not whole");
+  if (!state->gl.load()) return failed("the display's OpenGL is incomplete");
   glfwSwapInterval(1);
   state->listen();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // nothing is written beside the user's files
+  ImGui::GetIO().IniFilename = nullptr;  // do not write a file into the user's folder
   ImGui::StyleColorsDark();
   state->imgui = ImGui_ImplGlfw_InitForOpenGL(state->window, true);
-  if (!state->imgui || !ImGui_ImplOpenGL3_Init("#version 150")) return failed("the display's OpenGL is not whole");
+  if (!state->imgui || !ImGui_ImplOpenGL3_Init("#version 150")) return failed("the display's OpenGL is incomplete");
   return std::unique_ptr<Window>(new Window(std::move(state)));
 }
 
@@ -171,8 +171,8 @@ Result<void> Window::show(const Image& image) {
   GLint most = 0;
   state.gl.get_integer(GL_MAX_TEXTURE_SIZE, &most);
   if (image.width > most || image.height > most)
-    return Error{Code::unsupported, "the display shows pictures of at most " + std::to_string(most) +
-                                        " pixels on a side: take a smaller --size"};
+    return Error{Code::unsupported, "the display can show pictures of at most " + std::to_string(most) +
+                                        " pixels on a side: choose a smaller --size"};
   if (state.texture == 0) state.gl.gen_textures(1, &state.texture);
   state.gl.bind_texture(GL_TEXTURE_2D, state.texture);
   state.gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);

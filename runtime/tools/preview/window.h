@@ -1,5 +1,5 @@
 #pragma once
-// A window with a picture and controls on it.
+// A window with a picture and controls.
 
 #include <functional>
 #include <memory>
@@ -10,41 +10,41 @@
 
 namespace sgm::preview {
 
-/// Where the mouse is, and what it has done since the frame before. Places and ways are in shares of the picture: 0..1
+/// State of the mouse, and its changes since the previous frame. Places and distances are shares of the picture: 0..1
 /// from its top left corner.
 struct Mouse {
   double x = 0, y = 0;
-  bool over_picture = false;  ///< and not over a control
+  bool over_picture = false;  ///< but not over a control
   double moved_x = 0, moved_y = 0;
   bool left = false, right = false;  ///< held, since a press over the picture
-  bool clicked = false;              ///< the left button went up where it had gone down
+  bool clicked = false;              ///< the left button was released where it was pressed
   double wheel = 0;                  ///< steps away from the user
 };
 
-/// One window at a time; all functions on the thread that opened it, which must be the process's first.
+/// One window at a time. All functions must be called in the thread that opened it, the process's first one.
 class Window {
  public:
-  /// Errors: unsupported, where there is no display or no OpenGL, with what to do.
+  /// Error: unsupported if there is no display or no OpenGL, with the remedy.
   static Result<std::unique_ptr<Window>> open(const std::string& title, int width, int height);
   ~Window();
 
-  /// Its user has closed it, by its button or by Escape.
+  /// Whether the user has closed it, by its button or by Escape.
   bool isClosed() const;
-  /// Returns when something has happened to the window, or after so many seconds.
+  /// Returns after an event of the window, or after `seconds`.
   void wait(double seconds);
-  /// The picture from now on; it is scaled to the window, but never stretched. Error: unsupported, for its size.
+  /// Replaces the picture, which is scaled to the window without distortion. Error: unsupported, for its size.
   Result<void> show(const Image& image);
-  /// Draws the picture, and on it what `controls` asks Dear ImGui for. Nothing where nothing has changed.
+  /// Draws the picture and the controls of Dear ImGui. Does nothing if nothing has changed.
   void draw(const std::function<void()>& controls);
-  /// Something has changed that the window cannot know of: the next frames are drawn.
+  /// Forces the next frames to be drawn, after changes that the window cannot detect.
   void refresh();
 
   Mouse mouse() const;
-  /// A letter's key, in capitals, is held; false while text is written into a control.
+  /// Whether a letter's key, in capitals, is held; false while the user types into a control.
   bool isHeld(char letter) const;
-  /// It went down since the frame before.
+  /// Whether it was pressed since the previous frame.
   bool isPressed(char letter) const;
-  /// Of the part that shows a picture, pixels.
+  /// Of the picture's part of the window, pixels.
   int width() const;
   int height() const;
 

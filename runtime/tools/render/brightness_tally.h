@@ -1,5 +1,5 @@
 #pragma once
-// How bright the surfaces in sight are, as a camera's exposure depends on it.
+// The brightness of visible surfaces, which sets a camera's exposure.
 
 #include <array>
 #include <cstddef>
@@ -13,9 +13,9 @@ class BrightnessTally {
   void add(float brightness);
   void add(const BrightnessTally& other);
 
-  /// Logarithmic mean; 0 of nothing.
+  /// Logarithmic mean; 0 if nothing was added.
   float mean() const;
-  /// So bright or brighter is the brightest twentieth, to a twelfth; 0 of nothing.
+  /// 95th percentile, to a twelfth of it; 0 if nothing was added.
   float highlight() const;
 
  private:

@@ -12,10 +12,10 @@
 namespace sgm {
 namespace {
 
-constexpr int kSurroundings = 48;    // rays that feel out the space around a point
-constexpr size_t kCandidates = 240;  // places tried
-constexpr size_t kFinalists = 16;    // places whose views are glanced at
-constexpr size_t kStudied = 3;       // places whose views are looked at closely
+constexpr int kSurroundings = 48;    // rays that measure the space around a point
+constexpr size_t kCandidates = 240;  // number of candidate places
+constexpr size_t kFinalists = 16;    // places whose views are compared roughly
+constexpr size_t kStudied = 3;       // places whose views are examined closely
 constexpr float kEyeHeight = 1.7f;   // metres above the floor
 constexpr float kFarthestLamp = 3;   // in typical distances of the view
 constexpr float kGoldenAngle = 2.39996323f;
@@ -28,10 +28,10 @@ glm::vec3 directionOf(int i, int count) {
 }
 
 struct Space {
-  float openness = 0;  // mean of the logarithms of the distances to walls
+  float openness = 0;  // mean logarithm of the distances to walls
   float clearance = 0;
-  float walls = 0;   // share of the rays that meet a wall
-  float behind = 0;  // share of the rays that meet a surface from inside the solid
+  float walls = 0;   // share of the rays that hit a wall
+  float behind = 0;  // share of the rays that hit a surface from inside the solid
 };
 
 Space spaceAround(const RayCaster& mesh, glm::vec3 p, float far) {
@@ -55,7 +55,8 @@ struct Place {
   float score = 0;
 };
 
-// Stands on the floor below p, or at a third of the height in a tall hall; stays at p where there is no floor.
+// The place at eye height above the floor below p, or at a third of the height of a tall hall; p itself without a
+// floor.
 glm::vec3 standing(const RayCaster& mesh, glm::vec3 p, float far) {
   const auto floor = mesh.cast(p, {0, -1, 0}, far);
   const auto roof = mesh.cast(p, {0, 1, 0}, far);
@@ -80,14 +81,14 @@ std::vector<Place> placesInVoid(const RayCaster& mesh, float far) {
     const glm::vec3 p = standing(mesh, start + n * (0.5f * across->distance), far);
     const Space space = spaceAround(mesh, p, far);
     if (!inVoid(space)) continue;
-    // A region's cut sides are holes to nowhere: stay where few rays escape.
+    // A region's cut sides are holes: prefer places where few rays escape.
     places.push_back({p, space.openness + 2 * space.walls + 0.3f * std::log(space.clearance)});
   }
   std::ranges::stable_sort(places, std::greater{}, &Place::score);
   return places;
 }
 
-// Rays over the picture, in columns and rows: few to compare views, more to know the one taken.
+// Columns and rows of rays over the picture: few to compare views, more for the chosen one.
 struct Grid {
   int columns, rows;
 };
@@ -97,7 +98,7 @@ struct Fan {
   std::vector<glm::vec3> directions;
   std::vector<float> distances;
   float median = 0;
-  float typical = 0;  // between the median and the upper quartile: frames are near, what they frame is what matters
+  float typical = 0;  // between median and upper quartile: frames are near, but what they frame matters
   float score = 0;
 };
 
@@ -133,8 +134,7 @@ Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Ca
   const float deep = std::log(std::max(sorted[sorted.size() * 9 / 10], 0.05f));
   const float nose = std::max(1.2f, 0.15f * fan.median);
   const auto close = std::ranges::count_if(sorted, [&](float distance) { return distance < nose; });
-  // Deep and varied views, near walls to frame far ones, little lost to holes or to a wall before the nose; level ones
-  // before steep ones.
+  // Prefers deep, varied and level views with a near frame, and few rays lost through holes or on a wall right ahead.
   fan.score = 0.5f * mean + 0.7f * deep + 1.0f * spread - 4.0f * escaped / n - 2.5f * static_cast<float>(close) / n -
               0.8f * forward.y * forward.y;
   return fan;
@@ -145,7 +145,7 @@ struct Sight {
   Fan fan;
 };
 
-// The view that scores best among level ones all around a place.
+// The view with the best score among level ones all around a place.
 Sight glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
   Sight best;
   best.fan.score = -1e30f;
@@ -159,7 +159,7 @@ Sight glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraWish& wis
   return best;
 }
 
-// The best view from a place, stepping back from what it looks at as far as the void allows.
+// The best view from a place, after stepping back as far as the void allows.
 Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
   Sight best;
   best.fan.score = -1e30f;
@@ -184,8 +184,8 @@ Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, 
   return best;
 }
 
-// One lamp to the side, so that relief shows, and lamps where the view is deepest: what lies beyond the headlamp is
-// seen too. All hang in the void, apart from each other.
+// Hangs one lamp to the side, to show relief, and lamps where the view is deepest, to show places beyond the headlamp's
+// reach. All hang in the void, apart from each other.
 std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Fan& fan,
                                    float far) {
   std::vector<RenderLamp> lamps;
@@ -217,7 +217,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    // Not far behind what the lamps before it light: a lit island in the dark reads as a ball.
+    // Near the part lit by earlier lamps: a separate lit island in the dark looks like a ball.
     const float away = std::min(0.80f * depth, kFarthestLamp * fan.typical);
     const float reach = std::clamp(0.30f * away, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * away, kColours[deep], reach, 0.5f * away)) ++deep;
@@ -225,7 +225,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
   return lamps;
 }
 
-// Whether a traveller from afar meets the shape's outer side; a cave cut out of endless rock shows its walls' backs.
+// Whether rays from far away hit the shape's outer side; a cave in endless rock shows the backs of its walls.
 bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   int front = 0, back = 0;
   constexpr int kRays = 192;
@@ -238,7 +238,7 @@ bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   return front > back;
 }
 
-// Three quarters from above, or from below for what floats; near enough for the shape to fill the picture.
+// Three quarters from above, or from below if it floats; near enough for the shape to fill the picture.
 View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const CameraWish& wish) {
   View view;
   view.camera.width = wish.width;
@@ -271,7 +271,7 @@ View insideView(const RayCaster& mesh, const Sight& sight, const CameraWish& wis
 
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
                           const CameraWish& wish) {
-  if (indices.empty()) return Error{Code::invalid_argument, "there is nothing to look at: the mesh has no triangle"};
+  if (indices.empty()) return Error{Code::invalid_argument, "there is nothing to look at: the mesh has no triangles"};
   const Result<RayCaster> tree = RayCaster::over(vertices, indices);
   if (!tree) return tree.error();
   const RayCaster& mesh = *tree;
@@ -328,12 +328,12 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.background = light == Light::sun ? Background::sky : Background::cave;
   switch (light) {
     case Light::sun:
-      // Between walls there is little air to scatter the sky's light.
+      // Between walls there is little air to scatter light from the sky.
       scene.fog_distance = (view.enclosed ? 120.0f : 25.0f) * view.depth;
       return;
     case Light::lamp:
       scene.lamps = view.lamps;
-      // Alone it must light what is seen; else what lies near.
+      // Alone, it must light the whole view; otherwise only near places.
       scene.headlamp.reach = std::clamp((view.lamps.empty() ? 0.90f : 0.30f) * view.depth, 1.2f, 30.0f);
       scene.fog_distance = std::max(4 * view.depth, 10.0f);
       return;

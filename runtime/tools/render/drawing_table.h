@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan functions that drawing needs beside those of computing.
+// The Vulkan functions for drawing, besides those for computing.
 
 #include "backend/vulkan/tables.h"
 

@@ -17,13 +17,14 @@ struct Kind {
 };
 constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy, 220};
 
-constexpr float kBladeWidth = 0.0052f;            ///< metres, of the near ones
+constexpr float kBladeWidth = 0.0052f;            ///< metres, near the camera
 constexpr float kTallest = 0.23f;                 ///< metres, of blades
-constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres that leaves stand out from a crown's surface, and within
+constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres by which leaves extend out of a crown's surface, and into
+                                                  ///< it
 constexpr float kLeafLength = 0.062f;             ///< metres
-constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves where growthAt() is below
-constexpr size_t kMostSprouts = size_t{6} << 20;  ///< a picture's
-constexpr float kSteepest = 0.72f;                ///< of a lawn's normal upwards
+constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves if growthAt() is lower
+constexpr size_t kMostSprouts = size_t{6} << 20;  ///< of a picture
+constexpr float kSteepest = 0.72f;                ///< minimal upward component of a lawn's normal
 
 bool grows(const Kind& kind, const RenderMaterial& material) {
   return material.pattern == kind.pattern && material.relief > 0;
@@ -41,8 +42,8 @@ bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
   return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
 }
 
-/// Tufts and sprigs are puffs, with gaps between them: the height of the tallest blades, 0..1, or of leaves -1..1,
-/// below 0 between sprigs.
+/// The noise of tufts and sprigs, with gaps: height of the tallest blades, 0..1; or for leaves -1..1, negative between
+/// sprigs.
 float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
   const float finest = frame.eye.w * glm::distance(position, glm::vec3(frame.eye));
   const float hollow = puffHollows(position + glm::vec3(frame.pattern_offset), 0.95f, finest);
@@ -50,7 +51,7 @@ float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
                                                 : std::clamp(0.9f - 2 * hollow, -1.0f, 1.0f);
 }
 
-/// Draws numbers that depend on a place alone, so that what grows there stays while the camera moves.
+/// Random numbers that depend only on a place, so that foliage stays fixed while the camera moves.
 class Dice {
  public:
   explicit Dice(glm::vec3 place) {
@@ -58,7 +59,7 @@ class Dice {
       state_ = (state_ ^ std::bit_cast<uint32_t>(place[axis])) * 0x9E3779B1u + 0x85EBCA6Bu;
   }
 
-  uint32_t lot() {  // Marsaglia 2003, "Xorshift RNGs", and a last multiplication
+  uint32_t lot() {  // Marsaglia 2003, "Xorshift RNGs", and a final multiplication
     state_ ^= state_ << 13u;
     state_ ^= state_ >> 17u;
     state_ ^= state_ << 5u;
@@ -76,7 +77,7 @@ class Sower {
  public:
   Sower(const RenderScene& scene, const Frame& frame) : scene_(scene), frame_(frame) {}
 
-  /// A triangle's blades or leaves. grown: 1 the first of its materials, 2 the second, 3 both.
+  /// Adds a triangle's blades or leaves. grown: as from grownOn().
   void sow(const Kind& kind, int grown, const std::array<const RenderVertex*, 3>& corners,
            std::vector<Sprout>& sprouts) {
     const vec3 a = corners[0]->position, b = corners[1]->position - a, c = corners[2]->position - a;
@@ -123,7 +124,7 @@ class Sower {
   }
 
   float bladeWidth(float t) const { return std::max(kBladeWidth, 1.15f * frame_.eye.w * t); }
-  /// A square metre's. Far away one looks along the ground, and few of them cover it.
+  /// Blades per square metre. Far away the view is flat, so few blades cover the ground.
   float bladesAt(float t) const {
     const float near = 5500, own = kBladeWidth / bladeWidth(t);
     return near * own * own * std::clamp((kLawn.far - t) / (0.45f * kLawn.far), 0.0f, 1.0f);
@@ -139,7 +140,7 @@ class Sower {
     if (sprout.normal.y < kSteepest + 0.06f * dice.next()) return;
     const vec3 pattern = sprout.root + vec3(frame_.pattern_offset);
     const float growth = growthAt(kLawn, sprout.root, frame_), own = dice.next();
-    // Meadow flowers and what has gone to seed stand in company.
+    // Flowers and seed heads grow in groups.
     const float company = 1 - 1.6f * puffHollows(pattern + 71.0f, 7, 1), chance = dice.next();
     sprout.length = kTallest * growth * (0.35f + 0.65f * own);
     sprout.width = bladeWidth(t) * (0.75f + 0.5f * dice.next());
@@ -163,9 +164,9 @@ class Sower {
     const float deep = dice.next();
     sprout.root += sprout.normal * (kReach * deep - kDepth * (1 - deep));
     const float growth = growthAt(kLeaves, sprout.root, frame_);
-    // From afar a crown is one body of fewer, larger leaves.
+    // A distant crown is a solid body of fewer, larger leaves.
     const float far = glm::smoothstep(1.0f, 2.5f, leafLength(t) / kLeafLength);
-    // The rim is looser than the middle.
+    // The rim is sparser than the middle.
     const vec3 to_eye = (vec3(frame_.eye) - sprout.root) / t;
     const float rim = 1 - glm::smoothstep(0.1f, 0.7f, std::abs(glm::dot(sprout.normal, to_eye)));
     if (growth < kLeastGrowth + 0.35f * (rim - 0.6f) - 0.35f * far + 0.5f * dice.next() * dice.next()) return;
@@ -181,7 +182,7 @@ class Sower {
   const Frame& frame_;
 };
 
-/// Which of a triangle's materials are of a kind: 1 the first, 2 the second, 3 both.
+/// Which of a triangle's materials are of a kind: 1 the first, 2 the second, 3 both, 0 neither.
 int grownOn(const Kind& kind, const RenderScene& scene, const Frame& frame, const RenderVertex& one) {
   if (!isNear(kind, one, frame)) return 0;
   return (grows(kind, one.material, scene) ? 1 : 0) + (grows(kind, one.second, scene) ? 2 : 0);
@@ -195,7 +196,7 @@ Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
   foliage.constants.eye = frame.eye;
   foliage.constants.offset = glm::vec4(glm::vec3(frame.pattern_offset), kLawn.far);
   Sower sower(scene, frame);
-  // Six triangles share a vertex on a mean: the noise, which is dear, is found once for all of them.
+  // On average six triangles share a vertex, so cache the expensive noise by vertex.
   constexpr float kUnknown = -2;
   std::vector<float> growth(scene.vertices.size(), kUnknown);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {

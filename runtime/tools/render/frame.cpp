@@ -15,15 +15,15 @@
 namespace sgm {
 namespace {
 
-constexpr float kNear = 0.05f;                            // metres; nothing nearer than this is drawn
-constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, so that float32 never loses a grain
+constexpr float kNear = 0.05f;                            // metres; nothing nearer is drawn
+constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, to keep float32 precise
 
 float wrapped(int32_t units) {
   const int32_t rest = ((units % kPatternUnits) + kPatternUnits) % kPatternUnits;
   return static_cast<float>(rest) / static_cast<float>(kUnitsPerMetre);
 }
 
-// Infinite reversed depth: floats are densest near 0, which is where distance goes.
+// Infinite reversed depth: floats are densest near 0, which represents far distances.
 glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   const auto row = [&](glm::vec3 axis, float scale) {
     return glm::vec4(axis * scale, -glm::dot(axis, camera.position) * scale);
@@ -37,8 +37,8 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-constexpr float kMeadow = 1e6f;   // in Frame::land, as shaders/render/frame.glsl tells
-constexpr float kBeyond = 0.85f;  // of the reach of a world's own clouds, where the sky's others begin
+constexpr float kMeadow = 1e6f;   // in Frame::land, as in shaders/render/frame.glsl
+constexpr float kBeyond = 0.85f;  // of the extent of a world's own clouds, where the sky's clouds begin
 
 bool hasFairWeather(const RenderScene& scene) {
   const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };
@@ -52,15 +52,15 @@ bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v
 Result<void> checkCamera(const RenderCamera& camera) {
   const auto invalid = [](const std::string& message) { return Error{Code::invalid_argument, message}; };
   if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPicture || camera.height > kMaxPicture) {
-    return invalid("a picture is 1 to " + std::to_string(kMaxPicture) + " pixels wide and high, not " +
+    return invalid("a picture must be 1 to " + std::to_string(kMaxPicture) + " pixels wide and high, not " +
                    std::to_string(camera.width) + " x " + std::to_string(camera.height));
   }
   if (!(camera.fov_degrees >= 1 && camera.fov_degrees <= 150)) {
-    return invalid("the camera's field of view is 1 to 150 degrees");
+    return invalid("the camera's field of view must be 1 to 150 degrees");
   }
   const glm::vec3 view = camera.target - camera.position;
   if (!isFinite(camera.position) || !isFinite(view) || !(glm::dot(view, view) > 0)) {
-    return invalid("the camera needs a finite position and a target elsewhere");
+    return invalid("the camera needs a finite position and a different target");
   }
   return {};
 }
@@ -68,7 +68,7 @@ Result<void> checkCamera(const RenderCamera& camera) {
 CameraAxes axesOf(const RenderCamera& camera) {
   CameraAxes axes{};
   axes.forward = glm::normalize(camera.target - camera.position);
-  // Straight up or down there is no level right: take the world's x.
+  // Straight up or down there is no horizontal right: use the world's x.
   const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
   axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
   axes.up = glm::cross(axes.right, axes.forward);
@@ -90,7 +90,7 @@ Frame frameOf(const RenderScene& scene) {
   frame.right = glm::vec4(axes.right * axes.half_width, 0);
   frame.up = glm::vec4(axes.up * axes.half_height, 0);
   frame.sun = glm::vec4(glm::normalize(scene.sun_direction), scene.ambient);
-  // On the helmet, a hand's breadth off the eye: near enough to light all that is seen, far enough for shadows to show.
+  // On the helmet, a hand's breadth off the eye: near enough to light the whole view, far enough to show shadows.
   const float off = 0.05f * std::max(scene.headlamp.reach, 1.0f);
   frame.lamp_position[0] = glm::vec4(camera.position + axes.up * off + axes.right * (0.8f * off), scene.headlamp.reach);
   frame.lamp_colour[0] = glm::vec4(scene.headlamp.colour, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// What the shading pass is told. Laid out (std140, std430) as shaders/render/frame.glsl says.
+// Uniform data of the shading pass, with the layout (std140, std430) of shaders/render/frame.glsl.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -37,18 +37,17 @@ bool isFinite(const glm::vec3& v);
 /// Error: invalid_argument.
 Result<void> checkCamera(const RenderCamera& camera);
 
-/// Where a camera's picture is: unit axes, and half its sides at distance 1.
+/// A camera's picture plane: unit axes, and half its sides at distance 1.
 struct CameraAxes {
   glm::vec3 forward, right, up;
   float half_width, half_height;
 };
-/// camera must have been checked.
+/// camera must be checked.
 CameraAxes axesOf(const RenderCamera& camera);
 
-/// scene must have been checked. Frame::land is empty until findLand() fills it.
+/// scene must be checked. Frame::land is empty until findLand() fills it.
 Frame frameOf(const RenderScene& scene);
-/// Tells the scene's frame of the land around the world, for which it looks at the whole mesh. May throw
-/// std::bad_alloc.
+/// Fills the frame's land around the world, from the whole mesh. May throw std::bad_alloc.
 void findLand(const RenderScene& scene, Frame& frame);
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
 

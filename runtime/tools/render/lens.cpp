@@ -11,13 +11,13 @@
 namespace sgm {
 namespace {
 
-constexpr float kGlare = 0.045f;     // the share of the light that the lens scatters
-constexpr float kBrightest = 24.0f;  // whites: a glint of one pixel shall not be a star
-constexpr float kGrain = 0.010f;     // of a pixel in the middle greys, sRGB
-/// How the scattered light spreads: shares of one blur each, each twice as wide as the one before.
+constexpr float kGlare = 0.045f;     // share of the light that the lens scatters
+constexpr float kBrightest = 24.0f;  // whites: limits glints of single pixels
+constexpr float kGrain = 0.010f;     // of a pixel in middle grey, sRGB
+/// Spread of the scattered light: shares of blurs, each twice as wide as the previous.
 constexpr std::array kSpread = {0.16f, 0.18f, 0.17f, 0.15f, 0.13f, 0.11f, 0.10f};
 
-/// Light by pixel, of a picture or of a smaller one.
+/// Light by pixel, of a picture or of a reduced one.
 struct LightMap {
   LightMap(int w, int h) : width(w), height(h), light(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
 
@@ -45,7 +45,7 @@ LightMap halved(const LightMap& map) {
   return half;
 }
 
-/// Adds a map of half the size, softly.
+/// Adds a map of half the size, smoothly enlarged.
 void addDoubled(LightMap& map, const LightMap& half) {
   for (int y = 0; y < map.height; ++y) {
     const int row = y / 2, beside_row = y % 2 == 0 ? row - 1 : row + 1;
@@ -72,14 +72,14 @@ LightMap glareOf(LightMap light) {
   return light;
 }
 
-/// A number from 0 to 1 of a pixel's own (O'Neill's PCG, as a hash).
+/// A pseudorandom number from 0 to 1 (O'Neill's PCG, as a hash).
 float chance(uint32_t& state) {
   state = state * 747796405u + 2891336453u;
   const uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
   return static_cast<float>((word >> 22u) ^ word) * 0x1p-32f;
 }
 
-/// From 0 to a limit; what is not a number is 0, since one such pixel would spread over the whole picture.
+/// Clamped to 0..limit; NaN becomes 0, since it would spread over the whole picture.
 glm::vec3 held(const glm::vec3& c, float limit) {
   const auto one = [&](float v) { return v > 0 ? std::min(v, limit) : 0.0f; };
   return {one(c.x), one(c.y), one(c.z)};
@@ -105,11 +105,11 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
     const glm::vec3 added = glare.light[i] / (1.0f + glare.light[i]);
     const glm::vec3 lit = film * (1 - kGlare) + (1.0f - film) * added;
     auto state = static_cast<uint32_t>(i);
-    float grain = -2;  // four draws come close to a bell
+    float grain = -2;  // the sum of four uniform draws is nearly Gaussian
     for (int draw = 0; draw < 4; ++draw) grain += chance(state);
     for (int channel = 0; channel < 3; ++channel) {
       const float value = encodedSrgb(std::clamp(lit[channel], 0.0f, 1.0f));
-      // Grain is seen in what is grey. Half a step of it everywhere keeps dark gradients from banding.
+      // Grain shows in greys. Half a step of noise everywhere prevents banding of dark gradients.
       const float rough = kGrain * 4 * value * (1 - value) * grain * 1.7f + (chance(state) - 0.5f) / 255;
       image.rgba[4 * i + static_cast<size_t>(channel)] =
           static_cast<uint8_t>(std::clamp(value + rough, 0.0f, 1.0f) * 255 + 0.5f);

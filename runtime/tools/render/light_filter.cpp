@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<float, 5> kSpline{1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};  // B3
 
-/// How much the light at b tells of the light at a: both on one plane, facing the same way.
+/// Weight of the light at b for the light at a: large if both lie on one plane and face the same way.
 float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   const glm::vec4 &pa = guides.positions[a], &pb = guides.positions[b];
   if (pb.w < 0) return 0;
@@ -21,7 +21,7 @@ float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   return f8 * f4 * std::exp(-off);
 }
 
-/// body(at, tell) for each element that something is seen at; tell(add) calls add(neighbour, weight) for those around.
+/// Calls body(at, tell) for each element with a surface; tell(add) calls add(neighbour, weight) for its neighbours.
 template <class Body>
 void overNeighbours(const Guides& guides, int step, float element, JobSystem& jobs, Body body) {
   parallelFor(jobs, guides.height, [&](size_t row) {
@@ -60,7 +60,7 @@ void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float eleme
         near += weight * light[other].lie.x;
         weights += weight;
       });
-      // The rest of how a place lies is known without chance, and its edges are sharp.
+      // The other members of `lie` have no noise, and sharp edges.
       const glm::vec4 lie(near / weights, light[at].lie.y, light[at].lie.z, light[at].lie.w);
       next[at] = {sum.light / weights, sum.lean / weights, lie};
     });

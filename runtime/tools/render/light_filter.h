@@ -1,5 +1,5 @@
 #pragma once
-// Takes the noise out of light that few rays have found: light changes slowly along a surface and not across its edges.
+// Removes noise from sparsely sampled light, which changes slowly along a surface but not across its edges.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// Which surface each element of a plane lies on.
+/// The surface at each element of a plane.
 struct Guides {
   Guides(uint32_t w, uint32_t h) : width(w), height(h), positions(size_t{w} * h), normals(size_t{w} * h) {}
 
@@ -17,12 +17,12 @@ struct Guides {
   }
 
   uint32_t width, height;
-  std::vector<glm::vec4> positions;  ///< w: distance from the eye, below 0: nothing is there
+  std::vector<glm::vec4> positions;  ///< w: distance from the eye, below 0: no surface
   std::vector<glm::vec3> normals;
 };
 
-/// Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast global illumination filtering", 2010, by normals
-/// and planes. element: the angle of one element in radians. May throw std::bad_alloc.
+/// An edge-avoiding filter by normals and planes (Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast
+/// global illumination filtering", 2010). element: angle of one element in radians. May throw std::bad_alloc.
 void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float element, JobSystem& jobs);
 /// Softens the edges of shadows over two pixels; mirrors stay sharp. May throw std::bad_alloc.
 void filterDirect(std::vector<DirectLight>& light, const Guides& guides, float element, JobSystem& jobs);

@@ -23,37 +23,37 @@
 namespace sgm {
 namespace {
 
-constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
-/// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
+constexpr int kSoftRays = 14;  // for each square of pixels; filtered later
+/// Rays to a light: the first ones suffice for places in full light or shade; the others resolve penumbras.
 constexpr int kFirstRays = 2, kAllRays = 8;
-constexpr int kBounces = 2;              // of a soft ray, before what is left is taken to be even
-constexpr int kMostPanes = 2;            // that a ray goes through before it meets something else
-constexpr float kThroughPane = 0.8f;     // what lead and dirt leave of the light
+constexpr int kBounces = 2;              // of a soft ray, before the remaining light is assumed to be even
+constexpr int kMostPanes = 2;            // that a ray passes before it hits another surface
+constexpr float kThroughPane = 0.8f;     // share of the light that lead and dirt transmit
 constexpr int kMirrorBounces = 2;        // of a ray from a mirror
-constexpr int kMirrorRays = 4;           // of a pixel: one alone would draw edges of what it mirrors as steps
-constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: a little hazy
+constexpr int kMirrorRays = 4;           // of a pixel: a single ray would alias edges in the mirror
+constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: slightly hazy
 constexpr float kLampRadius = 0.05f;     // in reaches
 constexpr float kFar = 1e5f;             // metres
-constexpr float kDirtReach = 0.9f;       // metres: what lies nearer than this catches dirt
-constexpr float kUnderLedge = 2.4f;      // metres that a ledge's streaks run down
-constexpr float kSplash = 1.5f;          // metres that rain splashes up, and damp rises
-constexpr float kWiderThanLedge = 0.4f;  // metres: how far ground that splashes reaches from a wall, at least
-constexpr float kLedgeStep = 0.25f;      // metres that it may rise or fall there
+constexpr float kDirtReach = 0.9f;       // metres: surfaces with nearer surroundings catch dirt
+constexpr float kUnderLedge = 2.4f;      // metres of streaks below a ledge
+constexpr float kSplash = 1.5f;          // metres of splashing rain, and of rising damp
+constexpr float kWiderThanLedge = 0.4f;  // metres: minimal width of ground that splashes at a wall
+constexpr float kLedgeStep = 0.25f;      // metres of its tolerated height difference
 
-/// A surface that a ray has met.
+/// A surface that a ray hits.
 struct MetSurface {
   vec3 position{0};
-  vec3 normal{0};  ///< as the mesh is shaded, unit length
-  vec3 start{0};   ///< where rays away from it begin: off the triangle, which curves less than the surface
+  vec3 normal{0};  ///< interpolated as for shading, unit length
+  vec3 start{0};   ///< start of secondary rays: off the triangle, to follow the curved surface
   uint32_t triangle = 0;
   uint32_t material = 0;
-  uint32_t second = 0;  ///< that it passes into within the triangle
-  float distance = -1;  ///< below 0: nothing was met
+  uint32_t second = 0;  ///< material to blend with
+  float distance = -1;  ///< below 0: no surface
 
   bool isThere() const { return distance >= 0; }
 };
 
-/// A pane that what lies behind it is seen through: see MaterialLook.
+/// Whether a pane is clear, so that the scene behind it is visible: see MaterialLook.
 bool isClear(const RenderMaterial& material) {
   return material.pattern == SurfacePattern::glass && material.relief == kClearPane;
 }
@@ -68,7 +68,7 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
-  /// vapour: the scene's clouds, or nullptr.
+  /// vapour: the scene's clouds, or null.
   LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
       : scene_(scene),
         frame_(frame),
@@ -87,7 +87,7 @@ class LightTracer {
     return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
   }
 
-  /// The eye sees through gaps of crowns.
+  /// The visible surface: skips gaps in crowns.
   MetSurface seenAt(uint32_t x, uint32_t y) const {
     constexpr int kMostGaps = 6;
     constexpr float kBehind = 0.02f;  // metres
@@ -102,7 +102,7 @@ class LightTracer {
     return place;
   }
 
-  /// What is seen of clouds before a surface, or before the sky.
+  /// The clouds in front of a surface, or of the sky.
   VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
     return vapour_->march(vec3(frame_.eye), directionAt(x, y), place.isThere() ? place.distance : kFar, x, y);
   }
@@ -118,11 +118,11 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (isMirror(place.material)) seen = mirrored(place, x, y);
-    // Along the rim of a pane, paint mirrors as little of this light as it should: the sky alone would shine in the
-    // pane.
+    // At the rim of a pane, blended paint must mirror as little as the pane does: otherwise the sky alone would shine
+    // in the pane.
     if (isClear(material(place.material)) || isClear(material(place.second))) {
       const uint32_t pane = isClear(material(place.material)) ? place.material : place.second;
-      // What it mirrors and what is behind it are one light here: the shader adds it as it is.
+      // Reflection and transmission are one light here: the shader adds it unchanged.
       const float facing = -dot(directionAt(x, y), place.normal);
       const float mirrors = 0.06f + 0.94f * std::pow(1 - std::clamp(facing, 0.0f, 1.0f), 5.0f);
       seen = mix(colourOf(pane) * seenThrough(place, x, y), seen, mirrors);
@@ -145,7 +145,7 @@ class LightTracer {
     for (int i = 0; i < kSoftRays; ++i) {
       const vec3 direction = cosineDirection(place.normal, points.next());
       float distance = kFar;
-      // One lamp seen at close quarters must not sparkle.
+      // A lamp seen at close range must not cause fireflies.
       const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
       near += std::max(0.0f, 1 - distance / kDirtReach);
       sum += light;
@@ -168,11 +168,11 @@ class LightTracer {
     return light;
   }
 
-  /// What would be seen of a place of plain colour in a light.
+  /// The visible brightness of a place of plain colour in a light.
   float brightness(const MetSurface& place, vec3 light) const {
     const vec3 colour = colourOf(place.material);
     if (sky_) return luminance(light * colour);
-    // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
+    // Under lamps, treat dark materials such as lava as dark, not as badly lit stone.
     constexpr float kStone = 0.3f;
     return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }
@@ -182,7 +182,7 @@ class LightTracer {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
-  /// Water, panes, and paint as smooth as they are.
+  /// Water, panes, and equally smooth paint.
   bool isMirror(uint32_t index) const {
     constexpr float kSmooth = 0.1f;
     const RenderMaterial& look = material(index);
@@ -190,7 +190,7 @@ class LightTracer {
     return lacquer || isWater(index) || look.pattern == SurfacePattern::glass;
   }
 
-  /// What a mirror shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.
+  /// The reflection in a pixel: the mean of rays through the whole pixel, each to its own place of the mirror.
   vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 63), turns(x, y, 64);
     const vec3 eye(frame_.eye);
@@ -198,7 +198,7 @@ class LightTracer {
     vec3 sum(0);
     for (int i = 0; i < kMirrorRays; ++i) {
       const vec3 through = directionAt(x, y, spread.next() - 0.5f);
-      // Where it meets the mirror's plane, unless that is nearly edge-on.
+      // Its intersection with the mirror's plane, unless that is nearly edge-on.
       const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
       const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
       const vec3 at = place.position + beside + vec3(frame_.pattern_offset);
@@ -223,10 +223,10 @@ class LightTracer {
 
   bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
 
-  /// Panes that rays go through.
+  /// Panes that transmit rays.
   bool isPane(uint32_t index) const { return isLeaded(index) || isClear(material(index)); }
 
-  /// What lies behind a pane, in a pixel: old glass bends and blurs what is seen through it.
+  /// The scene behind a pane, in a pixel: old glass bends and blurs it.
   vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 66), turns(x, y, 67);
     const bool old = isLeaded(place.material);
@@ -245,7 +245,8 @@ class LightTracer {
 
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
 
-  /// Beds fall from the shore as gently as shores do: a third as deep as the shore is far, on a mean of several ways.
+  /// The bed is assumed to slope like the shore: a third of the distance to the shore, as a mean over several
+  /// directions.
   float depthOf(const MetSurface& place, UnitPoints& points) const {
     constexpr int kWays = 8;
     constexpr float kFall = 0.33f, kDeepest = 8;
@@ -259,7 +260,7 @@ class LightTracer {
     return kWays / shallow;
   }
 
-  /// A surface over water is wet up to kHigh above it, the less the higher.
+  /// A surface above water is wet up to a height of kHigh, decreasing with height.
   float wetness(const MetSurface& place) const {
     constexpr float kHigh = 0.35f;  // metres
     const vec3 out = glm::normalize(vec3(place.normal.x, 0, place.normal.z) + vec3(1e-5f, 0, 0));
@@ -281,7 +282,7 @@ class LightTracer {
     for (int i = 0; i < 3; ++i) {
       const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
       place.normal += share[static_cast<size_t>(i)] * vertex.normal;
-      // Hanika, "Hacking the shadow terminator", 2021: the surface curves out over the triangle.
+      // Hanika, "Hacking the shadow terminator", 2021: the smooth surface bulges out of the triangle.
       const vec3 from_corner = place.position - vertex.position;
       lifted += share[static_cast<size_t>(i)] * std::min(0.0f, dot(from_corner, vertex.normal)) * vertex.normal;
     }
@@ -294,7 +295,7 @@ class LightTracer {
     return place;
   }
 
-  /// Where a ray goes on that a window lets through: within its pane, whose other side is met from inside.
+  /// Start of the ray behind a window's surface: inside the pane, whose other side is then hit from inside.
   static vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
 
   vec3 sunOn(vec3 n) const { return sunLight() * std::max(0.0f, dot(n, to_sun_)); }
@@ -308,7 +309,7 @@ class LightTracer {
     return vec3(frame_.lamp_colour[lamp]) * (fall * facing);
   }
 
-  /// The share of rays that are free; reaches() casts the next one.
+  /// The share of unblocked rays; reaches() casts the next one.
   template <class Reaches>
   static float shareOf(Reaches reaches) {
     int open = 0, cast = 0;
@@ -317,7 +318,7 @@ class LightTracer {
   }
 
   float sunShare(const MetSurface& place, UnitPoints& points) const {
-    // What faces away, but for what lets light through, which is lit from within.
+    // Surfaces that face away are dark, except translucent ones, which are lit from within.
     if (dot(place.normal, to_sun_) < -0.4f) return 0;
     const Across across(to_sun_);
     const float through = vapour_ ? vapour_->sunThrough(place.start) : 1;
@@ -339,7 +340,7 @@ class LightTracer {
     });
   }
 
-  /// Light that comes from the sun and all lamps to a place that a mirror shows: what is left to chance would sparkle.
+  /// Reflected light of the sun and all lamps on a mirrored place: choosing a lamp at random would cause noise.
   vec3 litByAll(const MetSurface& place, UnitPoints& turns) const {
     if (sky_) return lit(place, turns.next());
     vec3 sum(0);
@@ -355,7 +356,7 @@ class LightTracer {
     return sum;
   }
 
-  /// Light that comes from the sun or one lamp, chosen by how much it could give, to a place and leaves it again.
+  /// Reflected light of the sun, or of one lamp chosen with probability proportional to its unshadowed light.
   vec3 lit(const MetSurface& place, glm::vec2 turn) const {
     if (sky_) {
       const vec3 light = sunOn(place.normal);
@@ -375,7 +376,7 @@ class LightTracer {
     return vec3(0);
   }
 
-  /// With fair-weather clouds: where it is mirrored one by one, else their share of the sky.
+  /// The sky with fair-weather clouds: single ones in mirrors, otherwise their mean share.
   vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const {
     vec3 sky = skyLight(direction, to_sun_);
     if (frame_.land.w > 0 && direction.y > 0) {
@@ -393,7 +394,7 @@ class LightTracer {
     return over ? 1 - over->distance / kUnderLedge : 0;
   }
 
-  /// How near the foot of a wall is, 0..1: whatever lies flat before it, and is wider than a ledge.
+  /// Nearness of a wall's foot, 0..1: of a flat surface before it that is wider than a ledge.
   float footUnder(const MetSurface& place) const {
     if (std::abs(place.normal.y) > 0.7f) return 0;
     const vec3 down(0, -1, 0);
@@ -404,7 +405,7 @@ class LightTracer {
     return beside && beside->distance > under->distance - kLedgeStep ? 1 - under->distance / kSplash : 0;
   }
 
-  /// distance: of what the ray meets first, unless it meets nothing. mirrored: it shows in a pane.
+  /// distance: set to the distance of the first hit, if any. mirrored: the ray is visible in a pane.
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
                 bool mirrored = false) const {
     vec3 sum(0), weight(1);
@@ -417,7 +418,7 @@ class LightTracer {
       }
       if (distance && i == 0 && place.isThere()) *distance = place.distance;
       if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(frame_.sun.w));
-      // Even light fills what is wide open, and clefts the less the narrower they are.
+      // Ambient light is full in the open, and less in narrow clefts.
       const float wide = place.distance / (place.distance + 0.7f);
       sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
       weight *= colourOf(place.material);
@@ -494,7 +495,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
         }
       }
     });
-    if (stopped) return Error{Code::cancelled, "the picture is not wanted any more"};
+    if (stopped) return Error{Code::cancelled, "the picture was cancelled"};
     BrightnessTally all, lit;
     for (const BrightnessTally& row : rows) all.add(row);
     for (const BrightnessTally& row : lit_rows) lit.add(row);

@@ -59,7 +59,7 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// What a pipeline draws: corners or instances with these attributes.
+/// Vertex attributes of a pipeline, by corner or by instance.
 struct Drawn {
   VkVertexInputBindingDescription binding;
   std::array<VkVertexInputAttributeDescription, 6> attributes;
@@ -75,11 +75,11 @@ constexpr Drawn kTriangles{{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX
                              {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
                              {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}},
                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-                           // A solid's inner side is never seen from the void; from outside a cave this opens it like
-                           // a doll's house.
+                           // A solid's inner side is never visible from the void. From outside, culling opens a cave
+                           // like a doll's house.
                            VK_CULL_MODE_BACK_BIT};
 
-/// Sprouts are seen from both sides.
+/// Sprouts are visible from both sides.
 constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          {{{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, root)},
                            {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, normal)},
@@ -90,7 +90,7 @@ constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
                          VK_CULL_MODE_NONE};
 
-/// Draws into reversed depth and both planes, by these two shaders.
+/// Draws into reversed depth and both planes, with these two shaders.
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
                                     const Drawn& drawn, std::span<const uint32_t> vertex_code,
                                     std::span<const uint32_t> fragment_code) {

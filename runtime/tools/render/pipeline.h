@@ -1,5 +1,5 @@
 #pragma once
-// The two passes of a picture: the planes that the mesh is drawn into, and the pipelines of both.
+// The two passes of a picture: planes with the mesh's surfaces, and lighting.
 
 #include <cstdint>
 #include <span>
@@ -8,24 +8,24 @@
 
 namespace sgm {
 
-/// Position and normal of what each sample sees, drawn by `draw`.
+/// Position and normal of each sample's surface, drawn by `draw`.
 struct SurfacePass {
   VkExtent2D extent{};
-  VulkanImage positions;  ///< RGBA32F: metres; alpha: material + 1, 0 where nothing is seen
+  VulkanImage positions;  ///< RGBA32F: metres; alpha: material + 1, or 0 for the background
   VulkanImage normals;    ///< RGBA16F
   VkRenderPass render_pass = VK_NULL_HANDLE;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constants: those of foliage.h; `draw` takes the matrix alone
+  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constants: those of foliage.h; `draw` uses only the matrix
   VkPipeline draw = VK_NULL_HANDLE;
   VkPipeline foliage = VK_NULL_HANDLE;  ///< draws the ground of lawns
-  VkPipeline sprouts = VK_NULL_HANDLE;  ///< draws blades and leaves, one an instance
+  VkPipeline sprouts = VK_NULL_HANDLE;  ///< draws blades and leaves, one for each instance
 };
 
 /// The stages that read SurfacePass's push constants.
 inline constexpr VkShaderStageFlags kSurfaceStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-/// Lights what is seen, made of the patterns whose bits are set, and of the sky where the highest is: a device compiles
-/// the whole of it in seconds, and what a scene needs in far less.
+/// Lights the samples; contains only the patterns whose bits are set, and the sky if the highest bit is: a device needs
+/// seconds to compile all of it, and far less for a single scene.
 struct ShadePipeline {
   uint32_t patterns = 0;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
@@ -41,7 +41,7 @@ Result<VkFramebuffer> makeFramebuffer(VulkanScope& scope, VkRenderPass render_pa
 Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent);
 Result<ShadePipeline> makeShadePipeline(VulkanScope& scope, uint32_t patterns);
 
-/// What lighting reads and writes beside the planes.
+/// The buffers of lighting, besides the planes.
 struct ShadeBuffers {
   VulkanBuffer direct, frame, materials, pixels, soft, vapour;
 };

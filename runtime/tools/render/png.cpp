@@ -1,6 +1,6 @@
 #include "tools/render/image.h"
 
-// The writer's functions stay private to this file: a program that embeds us may bring its own stb.
+// The writer's functions stay private to this file, since a program that embeds us may bring its own stb.
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #pragma GCC diagnostic push
@@ -22,7 +22,7 @@ void append(void* bytes, void* data, int size) {
 Result<std::vector<std::byte>> encodePng(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       image.rgba.size() != size_t{4} * static_cast<size_t>(image.width) * static_cast<size_t>(image.height)) {
-    return Error{Code::invalid_argument, "the picture's sizes do not match its pixels"};
+    return Error{Code::invalid_argument, "the size of the picture does not match its pixels"};
   }
   std::vector<std::byte> bytes;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), 0) == 0)

@@ -11,8 +11,8 @@
 namespace sgm {
 namespace {
 
-constexpr int kSide = 64;       // points of the tile
-constexpr int kPuffs = 4;       // on an edge of the tile, of its first octave
+constexpr int kSide = 64;       // points on an edge of the tile
+constexpr int kPuffs = 4;       // on an edge of the tile, in its first octave
 constexpr float kWorld = 1024;  // metres after which patterns repeat
 
 /// Jarzynski and Olano, "Hash functions for GPU rendering" (pcg3d).
@@ -24,7 +24,7 @@ glm::vec3 random3(glm::uvec3 v) {
   return glm::vec3(v >> 8u) / 16777216.0f;
 }
 
-/// Points, one drawn in each of `cells` cells on an edge of the unit cube; they repeat beyond it.
+/// Points, one in each of `cells` cells on an edge of the unit cube, repeated periodically.
 class Points {
  public:
   Points(int cells, uint32_t salt) : cells_(cells) {
@@ -82,7 +82,7 @@ float tileAt(const std::vector<uint8_t>& tile, glm::vec3 p) {
 }  // namespace
 
 float puffHollows(glm::vec3 position, float period, float finest) {
-  // Tiles of a power of two of the patterns' own period, so that the noise repeats with it.
+  // The tile's edge is the pattern's period divided by a power of two, so that the noise has the same period.
   float edge = std::exp2(std::round(std::log2(std::clamp(period * kPuffs, 1.0f / 16, kWorld))));
   const std::vector<uint8_t>& tile = puffTile();
   float sum = 0, weights = 0;
@@ -92,7 +92,7 @@ float puffHollows(glm::vec3 position, float period, float finest) {
     sum += kWeights[i] * tileAt(tile, position * (kSide / edge));
     weights += kWeights[i];
   }
-  // Most of the mean distance lies in between: the whole range is used.
+  // The mean distance varies little: stretch it to the whole range.
   return std::clamp((sum / weights - 0.30f) / 0.48f, 0.0f, 1.0f);
 }
 

@@ -19,7 +19,7 @@ bool meetsFront(const RTCFilterFunctionNArguments& at) {
   return ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z < 0;
 }
 
-// Embree asks these for each hit of a ray that sees one side alone.
+// Embree calls these filters for each hit of a one-sided ray.
 void dropBack(const RTCFilterFunctionNArguments* at) {
   if (!meetsFront(*at)) at->valid[0] = 0;
 }
@@ -27,15 +27,15 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) at->valid[0] = 0;
 }
 
-/// A ray to a light, with what its filter must know.
+/// A ray to a light, with the data of its filter.
 struct LightRay {
-  RTCIntersectContext context;  // first: Embree hands on a pointer to it
+  RTCIntersectContext context;  // first, since Embree passes on a pointer to it
   const RayCaster* mesh;
   std::span<const LetsLight> lets;
   glm::vec3 offset;
 };
 
-// The same for light among bodies that it passes: between sprigs of crowns, and through panes.
+// The same for light that may pass between sprigs of crowns, and through panes.
 void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
@@ -50,7 +50,7 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
     at->valid[0] = 0;
     return;
   }
-  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above this share is a gap
+  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above the second is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
   if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
@@ -98,7 +98,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
     caster.lo_ = glm::min(caster.lo_, vertices[index].position);
     caster.hi_ = glm::max(caster.hi_, vertices[index].position);
   }
-  // The caller's thread alone builds: the tree, and with it each picture, is the same every time.
+  // One thread builds the tree, so that it and each picture are reproducible.
   const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
   if (!device) return kNoMemory;
   caster.scene_.reset(rtcNewScene(device));
@@ -110,7 +110,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
                                3 * sizeof(uint32_t), indices.size() / 3);
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(caster.scene_.get(), mesh);
-    // Filters of a ray are asked only where the scene was told that there will be some.
+    // Embree calls filters of rays only if the scene enables them.
     const RTCSceneFlags closed = gaps == Gaps::closed ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(caster.scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | closed));
   }
@@ -146,7 +146,7 @@ bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) 
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
   rtcOccluded1(scene_.get(), &light.context, &ray);
-  return ray.tfar >= 0;  // Embree says of a ray that meets something that it ends at -infinity
+  return ray.tfar >= 0;  // Embree sets tfar to -infinity if a ray is blocked
 }
 
 }  // namespace sgm

@@ -23,7 +23,7 @@ constexpr uint32_t kGroup = 8;  // shade.comp's workgroup is kGroup * kGroup pix
 Error invalid(const std::string& message) { return {Code::invalid_argument, message}; }
 
 Result<void> checkMesh(const RenderScene& scene) {
-  if (scene.indices.size() % 3 != 0) return invalid("indices come in threes");
+  if (scene.indices.size() % 3 != 0) return invalid("the number of indices must be a multiple of 3");
   if (scene.vertices.size() > UINT32_MAX || scene.indices.size() > UINT32_MAX / (kMaxLamps + 1)) {
     return Error{Code::limit, "the mesh is too large for one picture: mesh a smaller region or a coarser cell"};
   }
@@ -40,39 +40,40 @@ Result<void> checkMesh(const RenderScene& scene) {
 Result<void> check(const RenderScene& scene, const VkPhysicalDeviceLimits& limits) {
   if (auto camera = checkCamera(scene.camera); !camera) return camera.error();
   if (auto mesh = checkMesh(scene); !mesh) return mesh.error();
-  if (scene.materials.empty()) return invalid("a scene needs a material");
-  if (scene.lamps.size() > kMaxLamps) return invalid("a scene has at most " + std::to_string(kMaxLamps) + " lamps");
+  if (scene.materials.empty()) return invalid("a scene needs at least one material");
+  if (scene.lamps.size() > kMaxLamps)
+    return invalid("a scene may have at most " + std::to_string(kMaxLamps) + " lamps");
   const auto dark = [](const RenderLamp& lamp) { return !(lamp.reach > 0) || !isFinite(lamp.position); };
   if (dark(scene.headlamp) || std::ranges::any_of(scene.lamps, dark)) {
-    return invalid("a lamp has a finite place and a reach above 0");
+    return invalid("a lamp must have a finite position and a reach above 0");
   }
-  if (scene.supersample < 1 || scene.supersample > 3) return invalid("a pixel has 1, 2 or 3 samples on each side");
-  if (!(scene.fog_distance > 0)) return invalid("the fog's distance is above 0");
-  if (!(glm::dot(scene.sun_direction, scene.sun_direction) > 0)) return invalid("the sun's direction is not 0");
+  if (scene.supersample < 1 || scene.supersample > 3)
+    return invalid("a pixel must have 1, 2 or 3 samples on each side");
+  if (!(scene.fog_distance > 0)) return invalid("the fog's distance must be above 0");
+  if (!(glm::dot(scene.sun_direction, scene.sun_direction) > 0)) return invalid("the sun's direction must not be 0");
   const uint32_t side = static_cast<uint32_t>(std::max(scene.camera.width, scene.camera.height) * scene.supersample);
   if (side > limits.maxImageDimension2D || side > limits.maxFramebufferWidth || side > limits.maxFramebufferHeight) {
     return Error{Code::unsupported, "this device cannot draw " + std::to_string(side) +
-                                        " samples on a side: ask for a smaller picture or less supersampling"};
+                                        " samples on a side: choose a smaller picture or less supersampling"};
   }
   return {};
 }
 
 template <class T>
 Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBufferUsageFlags usage) {
-  // Vulkan has no empty buffers; an empty mesh draws nothing from one of four bytes.
+  // Vulkan has no empty buffers; an empty mesh gets one of four bytes.
   auto buffer = scope.buffer(std::max<VkDeviceSize>(values.size_bytes(), 4), usage);
   if (buffer && !values.empty()) std::memcpy(buffer->data, values.data(), values.size_bytes());
   return buffer;
 }
 
-/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one, and by day,
-/// when the light is known, pale things shall not burn out because dark ones are many.
+/// Exposure adapts to the light, but not fully: a dark place stays darker than a bright one. By day, pale surfaces must
+/// not burn out because most others are dark.
 float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
   if (background == Background::sky) {
     constexpr float kWhite = 1.2f;  // comes out just below white
-    // Under a roof, where little light comes to what is in sight, a camera opens until the sky in the windows burns
-    // out.
+    // Under a roof, where visible surfaces get little light, the exposure rises until the sky in the windows burns out.
     const float indoors = 1 - glm::smoothstep(0.20f, 0.45f, light.lit);
     const float mean = std::pow(0.20f / light.brightness, glm::mix(0.4f, 0.8f, indoors));
     return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, glm::mix(1.5f, 3.0f, indoors));
@@ -84,12 +85,12 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 static_assert(static_cast<uint32_t>(SurfacePattern::leaded) < 31, "a pattern is a bit of ShadePipeline::patterns");
 
-/// The last pipeline for lighting, and what it was made in.
+/// The last pipeline for lighting, and the scope that owns it.
 struct Renderer::Kept {
   std::unique_ptr<VulkanScope> scope;
   ShadePipeline shade;
 
-  /// Error: those of the device.
+  /// Errors: those of the device.
   Result<void> lightPatterns(const VulkanDevice& device, const RenderScene& scene) {
     constexpr uint32_t kSkyBit = 1u << 31;
     uint32_t patterns = scene.background == Background::sky ? kSkyBit : 0;
@@ -183,7 +184,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
     begin.pClearValues = clear.data();
     calls.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->draw);
-    // Upside down: our y points up, Vulkan's down.
+    // Upside down: our y points up, Vulkan's points down.
     const float w = static_cast<float>(surfaces->extent.width), h = static_cast<float>(surfaces->extent.height);
     const VkViewport viewport{0, h, w, -h, 0, 1};
     calls.vkCmdSetViewport(commands, 0, 1, &viewport);

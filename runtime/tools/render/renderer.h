@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of meshes, drawn off-screen.
+// Draws pictures of meshes off-screen.
 
 #include <memory>
 #include <string>
@@ -14,14 +14,14 @@
 
 namespace sgm {
 
-/// Draws scenes on one Vulkan device, software ones included. One thread at a time may use it.
+/// Draws scenes on one Vulkan device, which may be a software one. One thread at a time may use it.
 ///
-/// Processors trace the light that reaches what each pixel sees. The device draws the mesh into position, normal and
-/// material planes, supersampled; then a compute shader lights each sample once, however much of the mesh lay behind
-/// it, and averages them into pixels. The same scene gives the same bytes on the same device and driver.
+/// The CPU traces the light that reaches each pixel's surface. The device draws the mesh into position, normal and
+/// material planes, supersampled; then a compute shader lights each visible sample once, and averages them into pixels.
+/// The same scene gives the same bytes on the same device and driver.
 class Renderer {
  public:
-  /// Errors: unsupported, with what to install.
+  /// Error: unsupported, with the package to install.
   static Result<Renderer> create(const GpuOptions& options = {});
 
   ~Renderer();
@@ -29,14 +29,14 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported;
-  /// cancelled, where scene.go_on says so.
+  /// cancelled, by scene.go_on.
   Result<Image> render(const RenderScene& scene) const;
 
   /// Errors: invalid_argument (a camera, a size or a number out of range), limit, out_of_memory, unsupported.
   Result<VolumePicture> render(const VolumeScene& scene) const;
 
   const vulkan::DeviceInfo& info() const { return device_->info(); }
-  /// What the validation layer had to say; see GpuOptions::validation.
+  /// Messages of the validation layer; see GpuOptions::validation.
   std::vector<std::string> messages() const { return device_->messages(); }
 
  private:
@@ -49,7 +49,7 @@ class Renderer {
 
   std::unique_ptr<VulkanDevice> device_;
   std::unique_ptr<JobSystem> jobs_;
-  std::unique_ptr<Kept> kept_;  ///< from picture to picture
+  std::unique_ptr<Kept> kept_;  ///< kept between pictures
 };
 
 }  // namespace sgm

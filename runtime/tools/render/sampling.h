@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and directions for light's rays, the same for the same pixel every time.
+// Numbers and directions for light rays, reproducible for each pixel.
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Points of the unit square that cover it evenly however many are taken (Roberts, "The unreasonable effectiveness of
+/// Points that cover the unit square evenly for any number of points (Roberts, "The unreasonable effectiveness of
 /// quasirandom sequences", 2018), shifted for each pixel and purpose.
 class UnitPoints {
  public:
@@ -48,13 +48,13 @@ struct Across {
   }
 };
 
-/// A place on the unit disc (Shirley and Chiu's map would spread it better; rays are few and filtered).
+/// A point on the unit disc (Shirley and Chiu's map would be more even; but rays are few and filtered).
 inline glm::vec2 onDisc(glm::vec2 unit) {
   const float r = std::sqrt(unit.x), angle = 6.28318531f * unit.y;
   return r * glm::vec2(std::cos(angle), std::sin(angle));
 }
 
-/// A direction around a unit normal, as often as its cosine to it is large.
+/// A direction around a unit normal, with probability proportional to its cosine.
 inline glm::vec3 cosineDirection(glm::vec3 n, glm::vec2 unit) {
   const glm::vec2 at = onDisc(unit);
   const Across across(n);

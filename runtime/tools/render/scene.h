@@ -1,5 +1,5 @@
 #pragma once
-// What there is to draw: a mesh, its materials, lights, a background, and a camera.
+// A scene to draw: a mesh, its materials, lights, a background, and a camera.
 
 #include <array>
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace sgm {
 
-/// Positions in metres from the scene's origin; normals unit length, out of the solid (zero: the triangle's own).
+/// Positions in metres from the scene's origin; unit normals out of the solid (zero: the triangle's own).
 struct RenderVertex {
   glm::vec3 position{0};
   glm::vec3 normal{0};
-  uint32_t material = 0;  ///< index into RenderScene::materials; beyond its end the last one is meant
-  uint32_t second = 0;    ///< material that it passes into, the same at all corners of a triangle, as is the first
+  uint32_t material = 0;  ///< index into RenderScene::materials, clamped to the last one
+  uint32_t second = 0;    ///< material to blend with; like the first, the same at all corners of a triangle
   float share = 0;        ///< of the second here, 0..1
-  /// Texture coordinates, which are drawn as chequers; the same at all corners of a triangle: none.
+  /// Texture coordinates, drawn as a checkerboard; if equal at all corners of a triangle, there are none.
   glm::vec2 texture{0};
 };
 
@@ -34,9 +34,9 @@ struct RenderMaterial {
   float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
 };
 
-/// What a grammar's `mat NAME` looks like (findLook). nullopt: the name is unknown.
+/// The look of a grammar's `mat NAME` (findLook). nullopt if the name is unknown.
 std::optional<RenderMaterial> findMaterial(std::string_view name);
-/// The same; names that are not known get a look as well (lookOf).
+/// The same; unknown names get a look too (lookOf).
 RenderMaterial materialByName(std::string_view name);
 
 /// A lamp that shines on all sides and falls off with the square of the distance.
@@ -63,20 +63,20 @@ struct RenderScene {
   std::span<const RenderVertex> vertices;
   std::span<const uint32_t> indices;          ///< three a triangle, counter-clockwise seen from outside the solid
   std::span<const RenderMaterial> materials;  ///< at least one
-  /// World position of the scene's origin: patterns stick to the world, whatever origin a picture is drawn from.
+  /// World position of the scene's origin: patterns are fixed to the world, for any origin of a picture.
   Int3 origin;
   RenderCamera camera;
   /// The lamp on the explorer's helmet, a little above and beside the camera, aimed where it looks.
   /// Its reach is in metres; its position is ignored.
   RenderLamp headlamp;
-  std::vector<RenderLamp> lamps;  ///< set down in the scene, at most kMaxLamps
+  std::vector<RenderLamp> lamps;  ///< in the scene, at most kMaxLamps
   float ambient = 0.012f;         ///< light from everywhere, 0..1
   Background background = Background::cave;
   glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun; used under a sky
   float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
   float exposure = 0.85f;
   int supersample = 2;  ///< samples on each side of a pixel, 1..3
-  /// Asked from any thread while light is traced; false ends the work with Code::cancelled. Empty: nobody asks.
+  /// Called from any thread during light tracing; false cancels it with Code::cancelled. May be empty.
   std::function<bool()> go_on;
 };
 

@@ -15,7 +15,7 @@
 namespace sgm {
 namespace {
 
-constexpr int kNearRays = 4;  // that tell how narrow a place is
+constexpr int kNearRays = 4;  // that measure how narrow a place is
 constexpr float kFar = 1e5f;  // metres
 
 class Sketch {
@@ -85,9 +85,9 @@ class Sketch {
 
 Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem& jobs) {
   if (auto checked = checkCamera(scene.camera); !checked) return checked.error();
-  if (scene.materials.empty()) return Error{Code::invalid_argument, "a scene needs a material"};
+  if (scene.materials.empty()) return Error{Code::invalid_argument, "a scene needs at least one material"};
   if (scene.lamps.size() > kMaxLamps)
-    return Error{Code::invalid_argument, "a scene has at most " + std::to_string(kMaxLamps) + " lamps"};
+    return Error{Code::invalid_argument, "a scene may have at most " + std::to_string(kMaxLamps) + " lamps"};
   try {
     const Sketch picture(scene, mesh);
     const int width = scene.camera.width, height = scene.camera.height;
@@ -96,7 +96,7 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
       for (int x = 0; x < width; ++x)
         colours[y * static_cast<size_t>(width) + static_cast<size_t>(x)] = picture.at(x, static_cast<int>(y));
     });
-    // As bright as the real picture comes out, which adapts too: by the logarithmic mean.
+    // Adapts the exposure by the logarithmic mean, as the real picture does.
     BrightnessTally tally;
     for (const vec3& colour : colours) {
       const float light = dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
@@ -110,7 +110,7 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
     image.rgba.reserve(4 * colours.size());
     for (const vec3& colour : colours) {
       for (int channel = 0; channel < 3; ++channel) {
-        // Narkowicz's fit of the ACES curve, as the shaders have it.
+        // Narkowicz's fit of the ACES curve, as in the shaders.
         const float c = 0.8f * gain * colour[channel];
         const float toned = std::clamp(c * (2.51f * c + 0.03f) / (c * (2.43f * c + 0.59f) + 0.14f), 0.0f, 1.0f);
         image.rgba.push_back(static_cast<uint8_t>(encodedSrgb(toned) * 255 + 0.5f));

@@ -1,5 +1,5 @@
 #pragma once
-// A picture within a fraction of a second, to look at while the real one is drawn.
+// A preview picture in a fraction of a second, for the time until the real one is drawn.
 
 #include <functional>
 
@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-/// Draws the scene on processors alone: every surface in its material's plain colour, lit by the scene's lights with
-/// hard shadows, and evenly from around. mesh is a tree over the scene's triangles. The same scene gives the same
-/// bytes. Errors: invalid_argument (a camera out of range, too many lamps, no material), out_of_memory.
+/// Draws the scene on the CPU alone: every surface in its material's plain colour, with hard shadows of the scene's
+/// lights, and even ambient light. mesh: a tree over the scene's triangles. The same scene gives the same bytes.
+/// Errors: invalid_argument (a camera out of range, too many lamps, no material), out_of_memory.
 Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem& jobs);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// A shader made for the constants that it will have, so that a driver reads nothing that cannot run.
+// Specializes a shader for given constants, so that a driver does not process unreachable code.
 
 #include <cstdint>
 #include <span>
@@ -9,10 +9,9 @@
 
 namespace sgm {
 
-/// The SPIR-V module `code` with its specialization constant 0 set to `constant`: branches that cannot be taken are
-/// gone, and with them the functions that nothing else calls. A driver would drop them too, but first it writes all
-/// calls out: software Vulkan spends seconds on the patterns of materials that a scene does not have.
-/// Errors: `unsupported` if `code` is not SPIR-V for Vulkan 1.2, `out_of_memory`. Thread-safe.
+/// The SPIR-V module `code` with specialization constant 0 set to `constant`, without unreachable branches and
+/// functions. A driver would drop them too, but only after inlining all calls: software Vulkan spends seconds on unused
+/// material patterns. Errors: `unsupported` if `code` is not SPIR-V for Vulkan 1.2, `out_of_memory`. Thread-safe.
 Result<std::vector<uint32_t>> specialized(std::span<const uint32_t> code, uint32_t constant);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Clouds as light sees them: the material `cloud` under a sky is a medium, of which the mesh is the outline.
+// Clouds as a participating medium: the material `cloud` under a sky, with the mesh as its outline.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,40 +13,40 @@
 
 namespace sgm {
 
-/// The triangles of a scene: of bodies, which have a surface, and of clouds under a sky, which have none. Clouds that
-/// are drawn with texture coordinates keep their surface, for that is what the coordinates lie on.
+/// Divides a scene's triangles into bodies, which have a surface, and clouds under a sky, which have none. Clouds drawn
+/// with texture coordinates keep their surface, to show the coordinates.
 struct SceneParts {
   std::vector<uint32_t> bodies, clouds;
 };
 SceneParts partsOf(const RenderScene& scene);
 
-/// What a ray from the eye meets of clouds, laid out as shaders/render/traced.glsl reads it.
+/// The clouds along a ray from the eye, laid out as in shaders/render/traced.glsl.
 struct VapourLight {
-  uint32_t light[2] = {0, 0x3C000000u};  ///< halves: red, green, blue, the share of what is behind that still shows
-  float distance = 0;                    ///< metres to what is seen of it, on a mean
+  uint32_t light[2] = {0, 0x3C000000u};  ///< halves: red, green, blue, transmittance
+  float distance = 0;                    ///< mean distance in metres of the visible part
   float reserved = 0;
 };
 
-/// Clouds with the light in them: of the sun, scattered once and often, of the sky above and of the land below.
+/// Clouds and the light in them: of the sun, scattered once and repeatedly, of the sky above and of the land below.
 class Vapour {
  public:
-  /// The triangles of `clouds` are some. Error: out_of_memory.
+  /// `clouds` must not be empty. Error: out_of_memory.
   static Result<Vapour> over(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> clouds,
                              JobSystem& jobs);
 
-  /// Along a ray of unit length direction from the eye to a distance in metres. x, y: the pixel, which tells it from
-  /// other rays.
+  /// Marches a ray of unit direction from the eye to a distance in metres. x, y: the pixel, which seeds the ray's
+  /// jitter.
   VapourLight march(glm::vec3 from, glm::vec3 direction, float end, uint32_t x, uint32_t y) const;
-  /// The share of the sun's light that comes through to a place.
+  /// The share of sunlight that reaches a place.
   float sunThrough(glm::vec3 position) const;
-  /// What is seen of a sky of some light through the clouds, roughly, for light that comes from many sides.
+  /// The radiance of the sky through the clouds, roughly, for diffuse light.
   glm::vec3 skyThrough(glm::vec3 position, glm::vec3 direction, glm::vec3 sky) const;
 
  private:
-  /// What a cloud is made of: droplets, or the thin ice of cirrus.
+  /// The substance of a cloud: droplets, or thin ice of cirrus.
   struct Stuff {
     glm::vec3 colour;
-    float density, puffs;  ///< 0..1: of the light that is lost on the way, and how far puffs move the outline
+    float density, puffs;  ///< 0..1: of the extinction, and of the puffs' effect on the outline
   };
 
   Vapour(const RenderScene& scene, const Frame& frame, VapourDensity density);
@@ -59,7 +59,7 @@ class Vapour {
 
   VapourDensity density_;
   Lattice light_lattice_;
-  std::vector<glm::vec4> lit_;  ///< by point: depth towards the sun, open shares upwards, downwards and on all sides
+  std::vector<glm::vec4> lit_;  ///< by point: depth towards the sun; open shares upwards, downwards and on all sides
   std::vector<uint8_t> detail_;
   std::vector<Stuff> stuffs_;  ///< by material
   glm::vec3 to_sun_, sun_light_, sky_light_, ground_light_, pattern_offset_;

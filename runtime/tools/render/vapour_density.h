@@ -1,5 +1,5 @@
 #pragma once
-// How dense clouds are inside of their mesh.
+// The density of clouds inside their mesh.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,30 +23,31 @@ struct Lattice {
   size_t at(int x, int y, int z) const { return (size_t(z) * size_t(size.y) + size_t(y)) * size_t(size.x) + size_t(x); }
 };
 
-/// How dense clouds are: the share of each of a lattice's cells that lies within their mesh, softened over the next
-/// cells. Whole bricks of cells without any are skipped by whoever walks through it.
+/// The density of clouds: the share of each lattice cell inside their mesh, softened over neighbouring cells. Ray
+/// marching can skip empty bricks of cells.
 class VapourDensity {
  public:
   static constexpr int kBrick = 8;  ///< cells on an edge of a brick
 
-  /// `outline` has the triangles of clouds, one at least. May throw std::bad_alloc.
+  /// `outline` has the triangles of clouds, at least one. May throw std::bad_alloc.
   VapourDensity(const RayCaster& outline, JobSystem& jobs);
 
   const Lattice& lattice() const { return lattice_; }
-  /// Light is lost to 1/e on such a way through the full density, in metres.
+  /// The distance in metres at which full density reduces light to 1/e.
   float meanFreePath() const { return mean_free_path_; }
-  /// The mesh's own soft outline, 0..1 and 0.5 at the mesh, at a place in cells from the lattice's first point.
+  /// The softened outline of the mesh, 0..1 and 0.5 at the mesh, at a place in cells from the lattice's first point.
   float outlineAt(glm::vec3 place) const;
-  /// How dense it is without detail, 0..1.
+  /// The density without detail, 0..1.
   float plainAt(glm::vec3 place) const;
   /// The material there.
   uint32_t materialAt(glm::vec3 place) const;
   bool isEmptyBrick(glm::ivec3 brick) const { return bricks_[brickIndex(brick)] == kEmpty; }
   glm::ivec3 bricks() const { return brick_count_; }
-  /// How far from t on a ray in cells there is nothing for sure: 0 in a brick that has density. No component of
-  /// direction is 0.
+  /// A distance beyond t on a ray, in cells, that is certainly empty: 0 in a brick with density. No component of
+  /// direction may be 0.
   float emptyAhead(glm::vec3 from, glm::vec3 direction, float t) const;
-  /// Where a ray in cells enters and leaves the lattice: nowhere if y <= x. No component of direction is 0.
+  /// The distances at which a ray in cells enters and leaves the lattice; it misses if y <= x. No component of
+  /// direction may be 0.
   glm::vec2 crossing(glm::vec3 from, glm::vec3 direction) const;
   glm::vec3 placeOf(glm::vec3 position) const { return (position - lattice_.corner) / lattice_.spacing; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A video that the program ffmpeg encodes, picture by picture.
+// A video, encoded picture by picture by the program ffmpeg.
 
 #include <cstdio>
 #include <memory>
@@ -18,31 +18,31 @@ class VideoFile {
     int rate = 30;  ///< pictures a second
   };
 
-  /// Starts the encoder. Errors: unsupported, there is no ffmpeg on the PATH; io, the file cannot be written.
+  /// Starts the encoder. Errors: unsupported if ffmpeg is not on the PATH; io if the file cannot be written.
   static Result<std::unique_ptr<VideoFile>> begin(const std::string& target, UnfinishedFiles* unfinished,
                                                   const Format& format);
-  /// Without commit() nothing is left behind.
+  /// Without commit(), removes the file.
   ~VideoFile();
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
-  /// The picture must be of the format. Errors: io, the encoder has ended.
+  /// The picture must have the given format. Error: io if the encoder has ended.
   Result<void> add(const Image& image);
-  /// Waits for the encoder; then the file has its name. Errors: io.
+  /// Waits for the encoder, then gives the file its name. Error: io.
   Result<void> commit();
 
  private:
   explicit VideoFile(FileWriter file) : file_(std::move(file)) {}
 
   Result<void> start(const Format& format);
-  /// Its status, as waitpid() says it.
+  /// The encoder's status, as from waitpid().
   int wait();
   Error failed(int status) const;
 
   FileWriter file_;
-  std::FILE* words_ = nullptr;  ///< what the encoder says
+  std::FILE* words_ = nullptr;  ///< the encoder's messages
   int pictures_ = -1;           ///< a socket to the encoder
-  int encoder_ = -1;            ///< its process; -1: none runs
+  int encoder_ = -1;            ///< its process; -1: none
 };
 
 }  // namespace sgm::cli

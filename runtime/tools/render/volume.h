@@ -1,5 +1,5 @@
 #pragma once
-// What there is to draw of fog: a volume of density, what it is made of, the light and a camera.
+// A scene of fog: a volume of density, its medium, the light and a camera.
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -11,12 +11,12 @@
 
 namespace sgm {
 
-/// What the fog is made of.
+/// Optical properties of the fog.
 struct VolumeMedium {
-  float extinction = 0.05f;  ///< at density 1, per metre: light goes 1 / extinction on average; from 0
-  float albedo = 1.0f;       ///< share of the light that is scattered and not lost, 0 to 1
-  float forward = 0.8f;      ///< mean cosine of the angle that light is scattered by, above -1 and below 1
-  uint32_t octaves = 5;      ///< of scattering; 1: single scattering alone; to 32
+  float extinction = 0.05f;  ///< at density 1, per metre, from 0: the mean free path is 1 / extinction
+  float albedo = 1.0f;       ///< share of the light that is scattered, not absorbed, 0 to 1
+  float forward = 0.8f;      ///< mean cosine of the scattering angle, above -1 and below 1
+  uint32_t octaves = 5;      ///< of scattering, up to 32; 1: single scattering only
 };
 
 struct VolumeScene {
@@ -27,7 +27,7 @@ struct VolumeScene {
   VolumeMedium medium;
   RenderCamera camera;
   glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun
-  glm::vec3 sun_light{26.0f, 24.2f, 21.5f};       ///< irradiance of what faces the sun
+  glm::vec3 sun_light{26.0f, 24.2f, 21.5f};       ///< irradiance on a surface that faces the sun
   glm::vec3 sky_light{0.34f, 0.45f, 0.64f};       ///< radiance from above
   glm::vec3 ground_light{0.10f, 0.11f, 0.125f};   ///< and from below
   float fog_distance = 10000;                     ///< as RenderScene's
@@ -36,9 +36,9 @@ struct VolumeScene {
 };
 
 struct VolumePicture {
-  Image image;  ///< before the sky
-  /// By pixel, what an engine would lay over its scene: light that comes to the eye, and the share of what is behind
-  /// the volume that still shows.
+  Image image;  ///< with the sky behind
+  /// By pixel, the layer that an engine would blend over its scene: light that reaches the eye, and the transmittance
+  /// of the volume.
   std::vector<glm::vec4> light;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
-// The passes of a picture of fog: light through the volume, rays from the eye, pixels.
+// The passes of a picture of fog: light through the volume, rays from the eye, and pixels.
 
 #include "tools/render/volume.h"
 #include "tools/render/vulkan_scope.h"
 
 namespace sgm {
 
-/// Everything that the passes read and write.
+/// The resources of the passes.
 struct VolumePass {
   VkExtent3D extent{}, lit_extent{};
   VkExtent2D picture{};
@@ -17,7 +17,7 @@ struct VolumePass {
   VkPipeline light_pipeline = VK_NULL_HANDLE, march = VK_NULL_HANDLE, compose = VK_NULL_HANDLE;
 };
 
-/// scene must have been checked.
+/// scene must be checked.
 Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene);
 
 /// Afterwards, `light` and `pixels` may be read.

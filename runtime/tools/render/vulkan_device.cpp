@@ -17,7 +17,7 @@ bool loadDrawing(const vulkan::InstanceTable& instance, VkDevice device, Drawing
   return complete;
 }
 
-// Devices too old for us are left out, so that indices count what can be used.
+// Devices that are too old are omitted, so that indices count usable ones.
 Result<std::vector<VkPhysicalDevice>> usableDevices(const vulkan::Instance& instance) {
   auto all = instance.devices();
   if (!all) return all.error();
@@ -28,8 +28,9 @@ Result<std::vector<VkPhysicalDevice>> usableDevices(const vulkan::Instance& inst
     if (properties.apiVersion >= VK_API_VERSION_1_2) usable.push_back(device);
   }
   if (usable.empty()) {
-    return Error{Code::unsupported,
-                 "no Vulkan 1.2 device here: install your GPU's driver, or mesa-vulkan-drivers for software Vulkan"};
+    return Error{
+        Code::unsupported,
+        "there is no Vulkan 1.2 device: install your GPU's driver, or mesa-vulkan-drivers for software Vulkan"};
   }
   return usable;
 }
@@ -51,7 +52,7 @@ Result<void> VulkanDevice::choose(int index) {
   if (!usable) return usable.error();
   const int count = static_cast<int>(usable->size());
   if (index >= count) {
-    return Error{Code::unsupported, "no Vulkan device " + std::to_string(index) + ": there are " +
+    return Error{Code::unsupported, "there is no Vulkan device " + std::to_string(index) + ": there are " +
                                         std::to_string(count) + ", counted from 0"};
   }
   size_t chosen = 0;
@@ -145,7 +146,7 @@ Result<void> VulkanDevice::run(const std::function<void(VkCommandBuffer)>& recor
     submit.pCommandBuffers = &commands;
     result = calls_.vkQueueSubmit(queue_, 1, &submit, fence);
     if (result == VK_SUCCESS) result = calls_.vkWaitForFences(device_, 1, &fence, VK_TRUE, kTimeoutNanoseconds);
-    if (result != VK_SUCCESS) calls_.vkDeviceWaitIdle(device_);  // what is destroyed below may still be in use
+    if (result != VK_SUCCESS) calls_.vkDeviceWaitIdle(device_);  // objects destroyed below may still be in use
   }
   calls_.vkDestroyFence(device_, fence, nullptr);
   calls_.vkDestroyCommandPool(device_, pool, nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan instance and device of our own: chosen, opened, and able to run one batch of commands at a time.
+// Our own Vulkan instance and device, which runs one batch of commands at a time.
 
 #include <cstdint>
 #include <functional>
@@ -14,27 +14,27 @@
 namespace sgm {
 
 struct GpuOptions {
-  int index = -1;           ///< in the order of listGpus(); -1 takes the fastest kind there is
-  bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; an error where it is not installed
+  int index = -1;           ///< index into listGpus(); -1: the fastest kind available
+  bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; an error if it is not installed
 };
 
-/// Every device of this machine that has Vulkan 1.2; not all of them mesh. Errors: unsupported, where there is none, no
-/// loader or no driver.
+/// All devices of this machine with Vulkan 1.2; not all of them can mesh. Error: unsupported if there is no device,
+/// loader or driver.
 Result<std::vector<vulkan::DeviceInfo>> listGpus();
 
 /// Owns the instance, the device and one queue that draws and computes. One thread at a time may use it.
 class VulkanDevice {
  public:
-  /// Errors: unsupported (no loader, no driver, no such index, no validation layer), with what to install.
+  /// Error: unsupported (no loader, no driver, no such index, no validation layer), with the package to install.
   static Result<std::unique_ptr<VulkanDevice>> create(const GpuOptions& options);
   ~VulkanDevice();
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
 
-  /// Records commands through `record`, submits them and waits until they are done.
+  /// Records commands by `record`, submits them and waits until they are done.
   Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
 
-  /// Warnings and errors of the validation layer so far; empty when created without it. Any thread.
+  /// Warnings and errors of the validation layer so far; empty without it. Any thread.
   std::vector<std::string> messages() const { return instance_->messages(); }
 
   const vulkan::DeviceInfo& info() const { return info_; }

@@ -41,7 +41,7 @@ Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags 
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
   info.usage = usage;
-  // The memory is allocated before the buffer joins the clean-up list's end: freed after the buffer is destroyed.
+  // Memory is allocated before the buffer joins the clean-up list, so that it is freed after the buffer.
   VkBuffer handle = VK_NULL_HANDLE;
   VkResult result = calls.vkCreateBuffer(device_.handle(), &info, nullptr, &handle);
   if (result != VK_SUCCESS) return vulkan::errorOf(result, what);

@@ -1,5 +1,5 @@
 #pragma once
-// Vulkan objects that live as long as the scope that made them.
+// Vulkan objects whose lifetime is that of the scope that made them.
 
 #include <cstddef>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace sgm {
 
-/// Host-visible, coherent and mapped for its whole life. Every byte we upload is read about once, so a copy into device
-/// memory would cost as much as reading it in place.
+/// Host-visible, coherent and permanently mapped. Each uploaded byte is read about once, so copying to device memory
+/// would cost as much as reading it in place.
 struct VulkanBuffer {
   VkBuffer handle = VK_NULL_HANDLE;
   std::byte* data = nullptr;
@@ -25,7 +25,7 @@ struct VulkanImage {
   VkImageView view = VK_NULL_HANDLE;
 };
 
-/// Makes objects and destroys them in reverse order at its end. Not for several threads.
+/// Creates objects, and destroys them in reverse order in its destructor. Not thread-safe.
 class VulkanScope {
  public:
   explicit VulkanScope(const VulkanDevice& device) : device_(device) {}

@@ -1,4 +1,4 @@
-// sgm_service.h, on top of Service.
+// Implements sgm_service.h with Service.
 
 #include <sgm/sgm_service.h>
 
@@ -53,14 +53,14 @@ sgm_result fail(sgm_error* out, sgm_result code, std::string_view message) {
     *out = SGM_ERROR_INIT;
     out->code = code;
     size_t size = std::min<size_t>(message.size(), SGM_MESSAGE_SIZE - 1);
-    // Not within a character.
+    // Do not cut a UTF-8 character.
     while (size < message.size() && size > 0 && (static_cast<unsigned char>(message[size]) & 0xC0u) == 0x80u) --size;
     std::memcpy(out->message, message.data(), size);
   }
   return code;
 }
 
-/// Runs what an entry point does; nothing that it throws leaves the library.
+/// Runs an entry point; no exception leaves the library.
 template <class Work>
 sgm_result guarded(sgm_error* error, const Work& work) {
   try {
@@ -80,30 +80,30 @@ std::string textOr(const char* text, const char* otherwise) { return text != nul
 Result<ServiceSettings> settingsOf(const sgm_service_desc& desc) {
   ServiceSettings settings;
   settings.access.address = textOr(desc.address, "127.0.0.1");
-  // Whoever reads it from an empty file did not mean that everybody may ask.
-  if (desc.token != nullptr && *desc.token == '\0') return wrong("token is empty: NULL where none is to be asked for");
+  // A token read from an empty file must not disable access control.
+  if (desc.token != nullptr && *desc.token == '\0') return wrong("desc.token is empty: use NULL to require no token");
   settings.access.token = textOr(desc.token, "");
   if (desc.host_name_count > 0 && desc.host_names == nullptr)
-    return wrong("host_names is NULL, and its count is not 0");
+    return wrong("desc.host_names is NULL, but desc.host_name_count is not 0");
   for (size_t i = 0; i < desc.host_name_count; ++i) {
-    if (desc.host_names[i] == nullptr) return wrong("a name in host_names is NULL");
+    if (desc.host_names[i] == nullptr) return wrong("desc.host_names has a NULL");
     settings.access.host_names.emplace_back(desc.host_names[i]);
   }
   settings.work_port = desc.work_port;
   settings.operations_port = desc.operations_port;
   if (desc.work_port != 0 && desc.work_port == desc.operations_port)
-    return wrong("work_port and operations_port are the same");
+    return wrong("desc.work_port and desc.operations_port are equal: choose different ports");
   settings.work.upload_folder = textOr(desc.upload_folder, "");
-  if (desc.upload_bytes > kMostUploadBytes) return wrong("upload_bytes is more than 2^32");
+  if (desc.upload_bytes > kMostUploadBytes) return wrong("desc.upload_bytes is more than 2^32");
   if (desc.upload_bytes > 0) settings.work.most_upload_bytes = desc.upload_bytes;
   InspectorSettings& inspector = settings.inspector;
   inspector.program = textOr(desc.inspector, "");
   inspector.masters = textOr(desc.masters, "");
   if (desc.inspector_memory > 0) inspector.memory = desc.inspector_memory;
   if (desc.inspector_seconds > 0) inspector.time = std::chrono::seconds(desc.inspector_seconds);
-  if (desc.inspector_jobs > kMostJobs) return wrong("inspector_jobs is more than 64");
+  if (desc.inspector_jobs > kMostJobs) return wrong("desc.inspector_jobs is more than 64");
   if (desc.inspector_jobs > 0) inspector.jobs = desc.inspector_jobs;
-  if (desc.inspector_waiting > kMostWaiting) return wrong("inspector_waiting is more than 4,096");
+  if (desc.inspector_waiting > kMostWaiting) return wrong("desc.inspector_waiting is more than 4,096");
   if (desc.inspector_waiting > 0) inspector.waiting = desc.inspector_waiting;
   return settings;
 }
@@ -122,12 +122,13 @@ sgm_result sgm_service_start(const sgm_service_desc* desc, sgm_service** out, sg
   *out = nullptr;
   if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc is NULL");
   if (desc->struct_size != sizeof(sgm_service_desc))
-    return fail(error, SGM_ERR_STRUCT_SIZE, "struct_size is not this library's: start from SGM_SERVICE_DESC_INIT");
+    return fail(error, SGM_ERR_STRUCT_SIZE,
+                "desc.struct_size does not match this library: start from SGM_SERVICE_DESC_INIT");
   if (desc->next != nullptr)
-    return fail(error, SGM_ERR_UNSUPPORTED, "next is not NULL: this version knows no extension");
+    return fail(error, SGM_ERR_UNSUPPORTED, "desc.next is not NULL: this version has no extensions");
   if (desc->api_version != SGM_API_VERSION)
     return fail(error, SGM_ERR_VERSION,
-                "the header and the library are of different versions: rebuild with this one's");
+                "the header and the library have different versions: rebuild with the header of this library");
   return guarded(error, [&]() -> Result<void> {
     const Result<sgm::service::ServiceSettings> settings = sgm::service::settingsOf(*desc);
     if (!settings) return settings.error();

@@ -1,4 +1,4 @@
-# sgm::service, beside sgm::sgm: what a game that ships without it need not carry. find_package(sgm COMPONENTS service).
+# sgm::service, separate from sgm::sgm, so that a game can ship without it. find_package(sgm COMPONENTS service).
 find_package(prometheus-cpp CONFIG REQUIRED)
 add_library(sgm_service_library)
 add_library(sgm::service ALIAS sgm_service_library)

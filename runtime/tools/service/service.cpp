@@ -13,13 +13,12 @@
 namespace sgm::service {
 namespace {
 
-/// A world that could not be looked at for so long. An engine that does nothing with its world is looked at all the
-/// same.
+/// Age from which a world's sample counts as stale. Worlds of an idle engine are sampled too.
 constexpr std::chrono::seconds kStale{10};
-/// Of the files that the process may open, a connection of the work port takes up to two: itself, and what it uploads.
-/// With those that are being turned away and those of operators, at least half are left to the engine.
+/// A connection of the work port needs up to two files: itself and its upload. Including connections that are turned
+/// away, and those of operators, at least half of the process's files are left to the engine.
 constexpr uint32_t kWorkConnections = 2048, kWorkShare = 5;
-/// Operators are few.
+/// There are few operators.
 constexpr uint32_t kOperationsConnections = 64, kOperationsShare = 16;
 
 http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t port, const char* thread_name) {
@@ -31,7 +30,7 @@ http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t po
   return server;
 }
 
-/// What a problem says to people.
+/// The detail of a problem.
 std::string detailOf(const MastersAnswer& said) {
   const auto problem = nlohmann::json::parse(said.json == nullptr ? "" : *said.json, nullptr, false);
   const bool told = problem.is_object() && problem.contains("detail") && problem["detail"].is_string();
@@ -40,14 +39,14 @@ std::string detailOf(const MastersAnswer& said) {
 
 }  // namespace
 
-/// In the order in which they need each other: what is made last ends first.
+/// In the order of their dependencies: the last one is destroyed first.
 struct Service::Parts {
   ServiceSettings settings;
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Access access;
   Reports reports;
   std::unique_ptr<WatchedWorlds> worlds;
-  /// Set once both servers are there: handlers are asked from the first request on.
+  /// Set once both servers exist: handlers are called from the first request on.
   std::atomic<const http::Server*> work_server{nullptr}, operations_server{nullptr};
   std::unique_ptr<Masters> masters;
   std::unique_ptr<Inspector> inspector;
@@ -57,7 +56,7 @@ struct Service::Parts {
 
   Parts(const ServiceSettings& with, Access allowed) : settings(with), access(std::move(allowed)) {}
   ~Parts() {
-    // Each server tells of the other, and both of the inspector, whose threads call back.
+    // Each server reports on the other, and both on the inspector, whose threads call back: stop both first.
     for (const auto& server : {work_owner.get(), operations_owner.get()})
       if (server != nullptr) server->stop(std::chrono::milliseconds(0));
     inspector.reset();
@@ -84,8 +83,8 @@ struct Service::Parts {
     std::vector<Check> all;
     const Result<void> takes = inspector->wouldTake();
     const bool full = !takes && takes.error().code == Code::limit;
-    all.push_back({"validator", takes || full, false, takes ? "takes uploads" : takes.error().message});
-    // A base that was damaged, or mended, since then shows at the next look.
+    all.push_back({"validator", takes || full, false, takes ? "accepts uploads" : takes.error().message});
+    // If the base has been damaged or repaired since, the next check shows it.
     masters->read([](const MastersAnswer&) {});
     const MastersAnswer said = masters->last();
     if (said.status != 0)
@@ -93,7 +92,7 @@ struct Service::Parts {
     const auto now = std::chrono::steady_clock::now();
     for (const WorldSample& sample : worlds->samples()) {
       const bool fresh = now - sample.taken < kStale;
-      all.push_back({"world " + sample.name, fresh, true, fresh ? "is looked at" : "could not be looked at for 10 s"});
+      all.push_back({"world " + sample.name, fresh, true, fresh ? "is sampled" : "could not be sampled for 10 s"});
       const uint64_t failed = sample.stats.chunks_failed;
       if (failed > 0)
         all.push_back({"chunks of " + sample.name, false, false, std::to_string(failed) + " could not be meshed"});

@@ -1,5 +1,5 @@
 #pragma once
-// The whole: two ports, worlds that are watched, uploads that are judged.
+// The whole service: two ports, watched worlds, inspected uploads.
 
 #include <chrono>
 #include <memory>
@@ -17,23 +17,23 @@ namespace sgm::service {
 
 struct ServiceSettings {
   AccessSettings access;
-  uint16_t work_port = 0, operations_port = 0;  ///< 0: any that is free
+  uint16_t work_port = 0, operations_port = 0;  ///< 0: any free port
   InspectorSettings inspector;
   WorkSettings work;
 };
 
-/// Any thread, but for its end.
+/// Thread-safe, except for its destruction.
 class Service {
  public:
-  /// Listens from then on. Errors: those of Access, Inspector, WatchedWorlds and Server.
+  /// Listens from now on. Errors: those of Access, Inspector, WatchedWorlds and Server.
   static Result<std::unique_ptr<Service>> start(const ServiceSettings& settings);
-  /// As stop() without any time.
+  /// As stop(0).
   ~Service();
 
   uint16_t workPort() const;
   uint16_t operationsPort() const;
   WatchedWorlds& worlds();
-  /// Takes no more requests, answers those that have begun within that time, and ends. Blocks.
+  /// Accepts no more requests, answers the current ones within `grace`, and ends. Blocks.
   void stop(std::chrono::milliseconds grace);
 
  private:

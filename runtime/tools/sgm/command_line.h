@@ -5,7 +5,7 @@
 
 namespace sgm::cli {
 
-/// Reads the command line and runs the command that it names. Throws std::bad_alloc, and what a command throws.
+/// Reads the command line and runs its command. Throws std::bad_alloc, and exceptions of the command.
 Exit runCommandLine(int argc, char** argv);
 
 }  // namespace sgm::cli

@@ -13,8 +13,8 @@ namespace {
 
 using sgm::cli::Exit;
 
-/// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal), in whatever it is
-/// doing; but no unfinished file stays behind, and what has to be done whole is done first.
+/// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal); but first removes
+/// unfinished files, and defers the signal while work must not be interrupted.
 void endBy(int signal) {
   if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();
@@ -23,10 +23,10 @@ void endBy(int signal) {
 }
 
 void handleSignals() {
-  // A file that grows past a limit is then a failed write, which cleans up after itself.
+  // Then exceeding the file size limit is a failed write, which cleans up after itself.
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
-    // What our caller has us ignore (nohup, a background job of a script) stays ignored.
+    // Signals that the caller ignores (nohup, a background job of a script) stay ignored.
     if (std::signal(signal, endBy) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
@@ -39,11 +39,11 @@ int main(int argc, char** argv) {
   try {
     status = sgm::cli::runCommandLine(argc, argv);
   } catch (const std::bad_alloc&) {
-    sgm::cli::complain(Exit::input, "out of memory: take a smaller region or a larger --cell");
+    sgm::cli::complain(Exit::input, "out of memory: choose a smaller region or a larger --cell");
   } catch (const std::exception& e) {
     sgm::cli::complain(Exit::input, e.what());
   }
-  // What was printed may not have arrived (a full disk behind a redirection).
+  // Output may have been lost (a full disk behind a redirection).
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     status = sgm::cli::complain(Exit::file, "cannot write to standard output");
   }

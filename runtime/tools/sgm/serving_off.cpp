@@ -1,4 +1,4 @@
-// A command without the metrics service (SGM_TOOLS=core).
+// Stub without the metrics service (SGM_TOOLS=core).
 
 #include "tools/support/serving.h"
 

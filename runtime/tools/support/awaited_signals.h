@@ -1,9 +1,9 @@
 #pragma once
-// Signals that a command waits for in place of being ended by them.
+// Lets a command wait for ending signals instead of being ended by them.
 
 namespace sgm::cli {
 
-/// Holds SIGINT, SIGTERM and SIGHUP back, from this thread and those that it starts, until it is waited for one.
+/// Blocks SIGINT, SIGTERM and SIGHUP in this thread, and in the threads that it starts, until wait() or pass().
 class AwaitedSignals {
  public:
   AwaitedSignals();
@@ -11,11 +11,11 @@ class AwaitedSignals {
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  /// Whether one has come. Never waits.
+  /// Whether a signal is pending. Never blocks.
   bool came();
-  /// Ends the process by the signal that has come, as if it had never been held back.
+  /// Ends the process by the signal that came(), as if it had never been blocked.
   void pass();
-  /// Blocks until one comes, unless one has. The next one ends the process.
+  /// Blocks until a signal arrives; returns at once if came(). The next signal ends the process.
   void wait();
 
  private:

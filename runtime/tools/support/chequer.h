@@ -1,5 +1,5 @@
 #pragma once
-// What shows how a texture lies.
+// The checkerboard texture that shows how texture coordinates lie.
 
 #include <cstddef>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace sgm::cli {
 
-/// A .png file of one tile: 2 x 2 fields, a red line along u and a green one along v.
+/// A .png file of one tile: 2 x 2 squares, a red line along u and a green one along v.
 Result<std::vector<std::byte>> chequerPng();
 
 }  // namespace sgm::cli

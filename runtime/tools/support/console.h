@@ -1,5 +1,5 @@
 #pragma once
-// What the command says, and with which status it ends.
+// The command's error messages, progress bar and exit status.
 
 #include <chrono>
 #include <condition_variable>
@@ -23,16 +23,16 @@ enum class Exit : int {
   file = 4,     ///< a file could not be read or written
 };
 
-/// The status that an error of ours ends with.
+/// The exit status for an error.
 Exit exitOf(Code code);
 
 /// "sgm: error: message" ("sgm: usage: message" for a wrong command line) as one line on stderr. Returns status.
 Exit complain(Exit status, std::string_view message);
 inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
 
-/// A bar on stderr where that is a terminal, with the time that is left where it takes long; erases itself when it
-/// ends. Elsewhere a line each minute, for logs. Work that tells nothing of how far it is has the time it has taken, by
-/// the second and the minute.
+/// A bar on stderr if that is a terminal, with an estimate of the time left for long work; erases itself when it ends.
+/// Otherwise a line each minute, for logs. Shows the elapsed time, each second or minute, while the work's extent is
+/// unknown.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string_view what);
@@ -48,7 +48,7 @@ class ProgressBar {
 
   void tick();
   void draw(Clock::time_point now);
-  /// ", 0:12:30 left", once that can be told.
+  /// ", 0:12:30 left", or "" while there is no estimate.
   std::string left(Clock::time_point now) const;
 
   const std::string what_;
@@ -56,7 +56,7 @@ class ProgressBar {
   const Clock::time_point begun_ = Clock::now();
   std::mutex mutex_;  ///< guards all that follows
   std::condition_variable ended_;
-  uint64_t done_ = 0, total_ = 0;  ///< total_ is 0 while nothing is known
+  uint64_t done_ = 0, total_ = 0;  ///< total_ is 0 while it is unknown
   bool drawn_ = false, over_ = false;
   Clock::time_point last_ = begun_;
   std::thread ticker_;

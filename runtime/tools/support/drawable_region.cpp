@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// What to say where the region has no such anchor.
+/// The message for a region without the wanted anchor.
 std::string noAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted) {
   Suggestion suggestion(wanted);
   std::set<std::string> known;
@@ -21,7 +21,7 @@ std::string noAnchor(const Program& program, std::span<const Anchor> anchors, co
     for (const auto& name : {program.names[anchor.name], program.names[anchor.kind], program.tags[anchor.tag]})
       if (!name.empty()) known.emplace(name);
   for (const std::string& name : known) suggestion.offer(name);
-  const std::string hint = known.empty()               ? "it has no anchor at all"
+  const std::string hint = known.empty()               ? "it has no anchors"
                            : suggestion.best().empty() ? fmt::format("it has {}", fmt::join(known, ", "))
                                                        : fmt::format("did you mean '{}'?", suggestion.best());
   return fmt::format("--at: the region has no anchor of the name, kind or tag '{}'; {}", wanted, hint);

@@ -1,5 +1,5 @@
 #pragma once
-// Work that a signal must not cut in two.
+// Work that an ending signal must not interrupt.
 
 #include <unistd.h>
 
@@ -10,12 +10,12 @@
 
 namespace sgm::cli {
 
-/// Signals that would end the process, and wait while something is done that has to be done whole. A mask would not do:
-/// it is one thread's, and the signal goes to another. Of a program whose handler asks waits(). Any thread.
+/// Defers signals that would end the process while critical work is done. A signal mask is not enough: it holds for one
+/// thread, and the signal goes to another. Works only if the signal handler asks waits(). Thread-safe.
 class EndingSignals {
  public:
-  /// For the handler, before it ends the process: whether the signal came while work must not be cut. It is raised
-  /// again when that is done. Neither locks nor allocates.
+  /// For the handler, before it ends the process: whether the signal is deferred. It is raised again when the critical
+  /// work is done. Neither locks nor allocates.
   bool waits(int signal) noexcept {
     int state = kOpen;
     while (!state_.compare_exchange_weak(state, state == kOpen ? kEnding : state == kHeld ? signal : state)) {
@@ -25,12 +25,12 @@ class EndingSignals {
 
  private:
   friend class Uninterrupted;
-  static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;  // or the signal that came while held
+  static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;  // or the deferred signal
 
   std::atomic<int> state_{kOpen};
 };
 
-/// While it lives, signals wait. signals: null where nobody handles them; outlives this. One at a time.
+/// Defers signals during its lifetime. signals: null if no handler asks it; outlives this. One at a time.
 class Uninterrupted {
  public:
   explicit Uninterrupted(EndingSignals* signals) : signals_(signals) {
@@ -52,8 +52,7 @@ class Uninterrupted {
   EndingSignals* signals_;
 };
 
-/// Of this process, since a signal handler has nothing else to hold on to: the files that it removes, and the work that
-/// it waits for.
+/// Global, because a signal handler has no other access: the files that it removes, and the work that it waits for.
 extern UnfinishedFiles unfinished_files;
 extern EndingSignals ending_signals;
 

@@ -16,10 +16,10 @@ namespace sgm::cli {
 namespace {
 
 constexpr float kNearOwnSurface = 0.3f;  // cells, from a use's own surface
-constexpr size_t kMostTargets = 12;      // looked at
-constexpr size_t kFewestTriangles = 6;   // triangles, of what can be told in a picture
+constexpr size_t kMostTargets = 12;      // examined
+constexpr size_t kFewestTriangles = 6;   // of a use that is recognizable in a picture
 
-/// The drawn mesh, and where its places lie in the world.
+/// The drawn mesh, and the conversion of its places to the world.
 struct DrawnRegion {
   const Region& region;
   std::span<const RenderVertex> vertices;
@@ -29,7 +29,7 @@ struct DrawnRegion {
   glm::vec3 middle(size_t triangle) const {
     return (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0f;
   }
-  /// Towards the void; not one long.
+  /// Towards the void; not a unit vector.
   glm::vec3 facing(size_t triangle) const {
     return glm::cross(corner(triangle, 1) - corner(triangle, 0), corner(triangle, 2) - corner(triangle, 0));
   }
@@ -52,7 +52,7 @@ struct DrawnRegion {
 struct ShownUse {
   const RuleUse* use = nullptr;
   FrameTarget target;
-  bool hollow = false;  ///< it is a void that its surface encloses
+  bool hollow = false;  ///< a void that its surface encloses
 };
 
 std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds) {
@@ -72,8 +72,8 @@ struct OwnSurface {
   bool hollow = false;  ///< the void lies within the use's shapes
 };
 
-/// Those of the triangles that lie on the use's own surface, to a part of a cell; all of them where hardly any does,
-/// since what encloses it has moved its surface.
+/// The triangles that lie on the use's own surface, within a fraction of a cell. All of them if hardly any does: then
+/// an enclosing rule has moved its surface.
 Result<OwnSurface> ownOf(const DrawnRegion& drawn, const RuleUse& use, int level,
                          const std::vector<uint32_t>& triangles) {
   const float cell = static_cast<float>(metres(drawn.region.cell));
@@ -120,7 +120,7 @@ Result<std::optional<ShownUse>> showUse(const DrawnRegion& drawn, const RuleUse&
   return std::optional(std::move(shown));
 }
 
-/// The uses that lie whole in the region, if there are such; large ones in its middle first.
+/// The uses that lie entirely in the region, if there are any; large ones in its middle first.
 std::vector<const RuleUse*> inOrder(const std::vector<RuleUse>& uses, const IntBox& extent, int32_t cell) {
   std::vector<const RuleUse*> whole;
   for (const RuleUse& use : uses)
@@ -157,8 +157,8 @@ Json toJson(const FramedUse& use) {
 }
 
 std::string textOf(const FramedUse& use) {
-  return use.inside ? use.path + ", from within"
-                    : fmt::format("{}, {:.0f} % of its near side in sight", use.path, 100 * use.seen);
+  return use.inside ? use.path + ", from inside"
+                    : fmt::format("{}, {:.0f} % of its near side visible", use.path, 100 * use.seen);
 }
 
 void planFrame(const RenderOptions& options, RegionPlan& plan) {
@@ -189,11 +189,10 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   const Result<std::vector<RuleUse>> uses = usesIn(*region.world, *wanted, extent);
   if (!uses) return uses.error();
   if (uses->empty())
-    return Error{
-        Code::invalid_argument,
-        fmt::format("--frame: '{}' is not used in the region: choose another --region, or leave it out for the "
-                    "use nearest to the origin",
-                    options.frame)};
+    return Error{Code::invalid_argument,
+                 fmt::format("--frame: '{}' is not used in the region: choose another --region, or leave --region out "
+                             "for the use nearest to the origin",
+                             options.frame)};
   const DrawnRegion drawn{region, vertices, indices};
   std::vector<ShownUse> shown;
   for (const RuleUse* use : inOrder(*uses, extent, region.cell)) {
@@ -233,9 +232,8 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   if (!found)
     return Error{
         Code::invalid_argument,
-        fmt::format("--frame: no use of '{}' is to be seen in the region: it may be smaller than cells of {} m "
-                    "show (take a smaller --cell), or hidden in what stands around it; --camera looks from "
-                    "anywhere",
+        fmt::format("--frame: no use of '{}' is visible in the region: it may be too small for cells of {} m (choose a "
+                    "smaller --cell), or hidden by its surroundings (place the camera with --camera)",
                     options.frame, metres(region.cell))};
   const RuleUse& use = *shown[found->target].use;
   framed = FramedUse{use.path, use.bounds, false, static_cast<double>(found->seen), static_cast<double>(found->fill)};

@@ -39,12 +39,12 @@ constexpr bool kMapsWithoutEnd = false;
 constexpr bool kMapsWithoutEnd = false;
 #endif
 
-/// What the child says begins with this, or with kFailed and the error's code.
+/// First character of the child's message; kFailed is followed by the error's code.
 constexpr char kDone = 'd', kFailed = 'f';
-/// Statuses that it ends with where it could not say anything.
+/// The child's exit statuses if it could not send a message.
 constexpr int kNoMemory = 3, kLost = 4;
 
-/// Not to be raised again. `beyond`: what the process has left to end by the limit's signal.
+/// Cannot be raised again. `beyond`: reserve in which the limit's signal can end the process.
 void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
@@ -71,7 +71,7 @@ std::string saidOf(const std::function<Result<std::string>()>& work) {
 
 [[noreturn]] void beChild(int to, pid_t parent, const std::function<Result<std::string>()>& work,
                           const ProcessLimits& limits) {
-  // What the parent has begun is the parent's to remove. What it ignores (under nohup) stays ignored.
+  // The parent's unfinished files belong to the parent. Signals that it ignores (under nohup) stay ignored.
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
@@ -81,7 +81,7 @@ std::string saidOf(const std::function<Result<std::string>()>& work) {
 #endif
   if (getppid() != parent) _exit(kLost);
   limitThisProcess(limits);
-  // Nothing may unwind into what the parent was doing.
+  // No exception may unwind into the parent's stack frames.
   try {
     const std::string said = saidOf(work);
     for (size_t sent = 0; sent < said.size();) {
@@ -97,7 +97,7 @@ std::string saidOf(const std::function<Result<std::string>()>& work) {
   _exit(0);
 }
 
-/// All that comes until the other end is closed; nothing where that takes too long.
+/// Reads until the other end is closed; nullopt after a timeout.
 std::optional<std::string> readAll(int from, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   std::string said;
@@ -117,8 +117,9 @@ std::optional<std::string> readAll(int from, double seconds) {
 }
 
 Error tooMuchMemory(const ProcessLimits& limits) {
-  return {Code::limit, fmt::format("it takes more than {} MB of memory: give it more with --memory, or a smaller file",
-                                   limits.memory >> 20)};
+  return {Code::limit,
+          fmt::format("it takes more than {} MB of memory: allow more with --memory, or use a smaller file",
+                      limits.memory >> 20)};
 }
 
 }  // namespace
@@ -133,9 +134,9 @@ Result<std::string> runLimited(const std::function<Result<std::string>()>& work,
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
     return Error{Code::io, fmt::format("cannot open a pipe: {}", systemMessage(errno))};
-  // What is buffered would come out of both processes.
+  // Otherwise both processes would print the buffered output.
   std::fflush(nullptr);
-  // Where children are not waited for, how one ended is not told.
+  // If SIGCHLD is ignored, the child's status is lost.
   const auto before = std::signal(SIGCHLD, SIG_DFL);
   const pid_t parent = getpid(), child = fork();
   if (child < 0) {
@@ -159,26 +160,27 @@ Result<std::string> runLimited(const std::function<Result<std::string>()>& work,
   do ended = wait4(child, &status, 0, &used);
   while (ended < 0 && errno == EINTR);
   std::signal(SIGCHLD, before);
-  if (ended < 0) return Error{Code::io, fmt::format("a process was lost: {}", systemMessage(errno))};
+  if (ended < 0) return Error{Code::io, fmt::format("cannot wait for a process: {}", systemMessage(errno))};
 
   const double processor = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (!said || signal == SIGXCPU || (signal == SIGKILL && processor >= limits.seconds)) {
-    return Error{Code::limit, fmt::format("it takes more than {} s: give it more with --seconds, or a smaller file",
+    return Error{Code::limit, fmt::format("it takes more than {} s: allow more with --seconds, or use a smaller file",
                                           limits.seconds)};
   }
   if (signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE || signal == SIGILL) {
-    return Error{Code::limit, fmt::format("the process that read it was ended by signal {}: this is a bug of sgm's, "
-                                          "please send us the file",
-                                          signal)};
+    return Error{
+        Code::limit,
+        fmt::format("the process that read it crashed with signal {}: this is a bug in sgm, please send us the file",
+                    signal)};
   }
   if (signal != 0) {
-    return Error{Code::limit, fmt::format("the process that read it was ended from outside, by signal {}{}", signal,
-                                          signal == SIGKILL ? ": perhaps the machine has no memory left" : "")};
+    return Error{Code::limit, fmt::format("the process that read it was killed from outside, by signal {}{}", signal,
+                                          signal == SIGKILL ? ": the machine may be out of memory" : "")};
   }
   if (!said->empty() && said->front() == kDone) return said->substr(1);
   if (WEXITSTATUS(status) == kNoMemory) return tooMuchMemory(limits);
-  if (said->size() < 2) return Error{Code::io, "the process that read it ended without a word"};
+  if (said->size() < 2) return Error{Code::io, "the process that read it ended without an answer"};
   const auto code = static_cast<Code>((*said)[1]);
   if (code == Code::out_of_memory) return tooMuchMemory(limits);
   return Error{code, said->substr(2)};

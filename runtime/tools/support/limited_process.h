@@ -1,6 +1,6 @@
 #pragma once
-// Work on what comes from outside, in a process of its own: whatever a crafted file does there, the caller lives, and
-// neither the machine's memory nor its time is used up.
+// Work on untrusted input in a sandboxed process: a crafted file cannot crash the caller, or exhaust memory or time of
+// the machine.
 
 #include <functional>
 #include <string>
@@ -11,16 +11,15 @@ namespace sgm::cli {
 
 struct ProcessLimits {
   uint64_t memory = uint64_t{4} << 30;  ///< bytes of address space (not enforced under a sanitizer, which maps more)
-  double seconds = 300;  ///< of processor time, all threads together, rounded up to whole ones; and of the clock
+  double seconds = 300;                 ///< of processor time (sum of all threads, rounded up), and of wall time
 };
 
-/// Holds this process to its limits from now on, for good, those of its threads together, and lets it leave no core
-/// file.
+/// Limits this process permanently (the sum of its threads), and disables its core files.
 void limitThisProcess(const ProcessLimits& limits);
 
-/// Runs work() in a child process and returns what it returns. To be called before this process has threads.
-/// Errors: those of work(); limit where the child takes more than it may, or ends in any other way than by returning;
-/// io where there is no child. A caller that is ended takes the child with it.
+/// Runs work() in a child process and returns its result. To be called before this process has threads. Errors: those
+/// of work(); limit if the child exceeds a limit or is ended by a signal; io if there is no child, or it returns
+/// nothing. If the caller is ended, so is the child.
 Result<std::string> runLimited(const std::function<Result<std::string>()>& work, const ProcessLimits& limits);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What a grammar's materials look like, in files and in pictures alike.
+// The appearance of a grammar's materials, in files and in pictures.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-/// By index in Program::materials; at least one. The nameless first is plain rock.
+/// Indexed as Program::materials; at least one. The nameless first is plain rock.
 std::vector<RenderMaterial> renderMaterials(const Program& program);
 std::vector<ExportMaterial> exportMaterials(const Program& program);
 

@@ -22,15 +22,15 @@ Result<std::vector<std::byte>> readBytes(const std::string& path) {
   };
   std::error_code why;
   const std::filesystem::file_status status = std::filesystem::status(path, why);
-  // Whatever else it may be, a pipe say, would be waited for.
+  // Reading anything else, such as a pipe, might block.
   if (!std::filesystem::exists(status)) return failed(why ? systemMessage(why) : "no such file");
-  if (!std::filesystem::is_regular_file(status)) return failed("it is no file of bytes");
+  if (!std::filesystem::is_regular_file(status)) return failed("it is not a regular file");
   const uintmax_t size = std::filesystem::file_size(path, why);
   std::ifstream file(path, std::ios::binary);
   if (why || !file) return failed(why ? systemMessage(why) : systemMessage(errno));
   std::vector<std::byte> bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its size");
+  if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its reported size");
   return bytes;
 }
 
@@ -40,7 +40,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-/// Fills the values from the front of the bytes. False where these are too few.
+/// Fills the values from the front of the bytes. False if there are too few bytes.
 template <class T>
 bool take(std::string_view& bytes, std::vector<T>& values) {
   const size_t size = values.size() * sizeof(T);
@@ -59,7 +59,7 @@ bool isGrammarFile(const std::string& path) {
 }
 
 Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind) {
-  // What a file may hold is limited by the process's memory alone.
+  // The only limit of a file's contents is the memory of the process.
   asset::MeshLimits limits;
   limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
   limits.farthest = 1e12;
@@ -71,7 +71,7 @@ Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std:
 Result<asset::TriangleMesh> readMeshFile(const std::string& file) {
   const Result<std::vector<std::byte>> bytes = readBytes(file);
   if (!bytes) return bytes.error();
-  // Where the name tells no kind the bytes may.
+  // If the name does not tell the kind, the bytes may.
   const Result<asset::MeshFileKind> named = asset::meshFileKind(std::string_view(file));
   Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, named ? std::optional(*named) : std::nullopt);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
@@ -93,7 +93,7 @@ Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const Pro
       },
       limits);
   if (!said) return said.error();
-  // Whatever the file has made of the other process, this one reads no further than what came.
+  // The child may be compromised, so its lengths are checked against the bytes received.
   std::string_view left = *said;
   std::vector<uint64_t> counts(2);
   std::vector<asset::Point> origin(1);
@@ -107,7 +107,7 @@ Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const Pro
   }
   for (const auto& triangle : mesh.triangles)
     for (const uint32_t corner : triangle) whole = whole && corner < mesh.points.size();
-  if (!whole) return Error{Code::io, "the process that read " + file + " has said something else than a mesh"};
+  if (!whole) return Error{Code::io, "the process that read " + file + " returned something other than a mesh"};
   return mesh;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Another program, run to its end.
+// Runs another program to its end.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 namespace sgm::cli {
 
 struct ProgramOutput {
-  int status = 0;      ///< of its exit; 128 and the signal's number where one ended it
+  int status = 0;      ///< exit status; 128 plus the signal's number if a signal ended it
   std::string output;  ///< standard output and standard error
 };
 
-/// Looks for the program in PATH; its standard input is empty. unsupported: it is not there; io: it cannot be started;
-/// both with its name.
+/// Looks for the program in PATH; its standard input is empty. Errors, with its name: unsupported if it is missing; io
+/// if it cannot be started.
 Result<ProgramOutput> outputOf(const std::vector<std::string>& command);
 
 }  // namespace sgm::cli

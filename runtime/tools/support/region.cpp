@@ -19,19 +19,19 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostNotes = 10;
-constexpr const char* kEndless = "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
-constexpr uint64_t kChosenChunks = 4096;               // at most, of a region that the user has not chosen
-constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view asks for
-constexpr double kNearestSeen = kUnitsPerMetre;        // from a camera: what is nearer may look larger
+constexpr const char* kEndless = "the grammar's world is endless: choose a part with --region x0,y0,z0:x1,y1,z1";
+constexpr uint64_t kChosenChunks = 4096;               // maximum for a region that the user has not chosen
+constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view requests
+constexpr double kNearestSeen = kUnitsPerMetre;        // from a camera: nearer surfaces may look coarser
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
 struct ChosenWorld {
   WorldFieldSettings settings;
-  std::optional<IntBox> region;  ///< none of an endless world where the plan chooses
+  std::optional<IntBox> region;  ///< nullopt in an endless world if the plan chooses
 };
 
-/// What the options say of a grammar that is compiled.
+/// The world that the options choose for a compiled grammar.
 Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, const WorldOptions& options,
                                 const RegionPlan& plan) {
   ChosenWorld chosen;
@@ -57,7 +57,7 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   return chosen;
 }
 
-/// Lets the plan choose the region where nobody else has, with cells that fit it where the options do not say.
+/// Lets the plan choose the region if the options do not, with cells that fit it if the options do not give them.
 Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, const RegionPlan& plan) {
   if (chosen.region) return {};
   const Result<IntBox> region = plan.choose(WorldField(chosen.settings, std::pmr::new_delete_resource()));
@@ -74,7 +74,7 @@ Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, cons
   return {};
 }
 
-/// The grammar, once what the command line alone can tell is right; what is wrong has been said.
+/// Loads the grammar once all checks of the command line alone have passed; errors have been printed.
 LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) {
   const auto refused = [](Exit status) {
     LoadedGrammar none;
@@ -103,7 +103,7 @@ sgm_backend backendNamed(const std::string& name) {
 }
 
 std::string pipelineFolder() {
-  // A path that is not absolute counts as none (XDG Base Directory Specification).
+  // Relative paths are ignored (XDG Base Directory Specification).
   const auto absolute = [](const char* variable) {
     const char* text = std::getenv(variable);
     return text != nullptr && *text == '/' ? std::string(text) : std::string();
@@ -139,7 +139,7 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
-/// What --sharp could not have.
+/// Reports cells whose edges --sharp left rounded.
 void noteRounded(const std::string& file, uint64_t rounded) {
   if (rounded == 0) return;
   fmt::print(stderr, "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
@@ -154,11 +154,10 @@ Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int3
   const std::optional<double> fitting = fittingCell({&region, 1}, options.level, finest_cell, most);
   return Error{
       Code::limit,
-      fmt::format("the region has {} chunks with cells of {} m, more than {}: take larger cells{} or a smaller "
-                  "--region{}",
-                  count, metres(finest_cell << options.level), most,
-                  fitting ? fmt::format(" (--cell {} fits)", *fitting) : "",
-                  options.max_chunks < kMostRegionChunks ? ", or raise --max-chunks" : "")};
+      fmt::format(
+          "the region has {} chunks with cells of {} m, more than {}: choose larger cells{} or a smaller --region{}",
+          count, metres(finest_cell << options.level), most, fitting ? fmt::format(" (--cell {} fits)", *fitting) : "",
+          options.max_chunks < kMostRegionChunks ? ", or raise --max-chunks" : "")};
 }
 
 bool isCut(const Region& region) {
@@ -335,7 +334,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
-  // A mesh without a triangle has its reason told.
+  // For an empty mesh, the caller prints the reason.
   if (!made->meshed.mesh.indices.empty()) sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }

@@ -12,8 +12,8 @@ constexpr uint64_t kMostPoints = uint64_t{1} << 30;
 Result<void> checkDensity(const Program& program) {
   if (program.domain.density) return {};
   return Error{Code::invalid_argument,
-               "--volume draws what is meant as fog, and this grammar's domain does not say so: write `output density` "
-               "in it, as in `domain infinite axes xz output density;`"};
+               "--volume draws fog, which this grammar's domain does not declare: write `output density` in it, as in "
+               "`domain infinite axes xz output density;`"};
 }
 
 Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, const Region& region, int level) {
@@ -28,7 +28,8 @@ Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, con
     density.grid.size[static_cast<size_t>(axis)] = static_cast<uint32_t>(cells + 1);
     points *= static_cast<uint64_t>(cells + 1);
     if (points > kMostPoints)
-      return Error{Code::limit, "the region's cells have more than 2^30 corners: make it smaller, or the cells larger"};
+      return Error{Code::limit,
+                   "the region's cells have more than 2^30 corners: choose a smaller region or larger cells"};
   }
   density.values.resize(points);
   DensityRows rows;

@@ -1,5 +1,5 @@
 #pragma once
-// The density of a region that was meshed, at the corners of its cells: what `sgm render --volume` draws.
+// The density of a meshed region at the corners of its cells, which `sgm render --volume` draws.
 
 #include "query/density_grid.h"
 #include "tools/support/region.h"
@@ -13,10 +13,10 @@ struct RegionDensity {
   double seconds = 0;
 };
 
-/// Error: invalid_argument, where the grammar's solid is not meant as fog, with what to write.
+/// Error: invalid_argument if the grammar's solid is not fog, with the statement to write.
 Result<void> checkDensity(const Program& program);
 
-/// A progress bar where stderr is a terminal. Errors: as sampleDensity(), limit, out_of_memory.
+/// Shows a progress bar if stderr is a terminal. Errors: as sampleDensity(), limit, out_of_memory.
 Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, const Region& region, int level);
 
 Json toJson(const RegionDensity& density);

@@ -19,7 +19,7 @@ int32_t thinnest(const IntBox& box) {
   return static_cast<int32_t>(edge);
 }
 
-/// Metres, as it is written; nothing where it is computed.
+/// Metres if the wall is a literal; nullopt if it is computed.
 std::optional<double> wallOf(const Program& program, const StmtNode& s) {
   const ExprId wall = program.ast.treemaps[s.extra].wall;
   if (wall == kNoId) return kTreemapWall;
@@ -41,24 +41,24 @@ Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
   if (!shapes) return shapes.error();
   if (shapes->empty())
     return std::string(solid ? "nothing is cut from the rock in this region" : "no shape lies in this region") +
-           ": what is derived may lie elsewhere, which --region takes, or be left out, as warnings say";
+           ": the shapes may lie elsewhere (choose another --region), or be left out (see the warnings)";
   if (!solid && region.meshed.solid_samples == region.samples())
-    return std::string("this region lies all within the solid: take more of the world with --region");
+    return std::string("this region lies entirely inside the solid: choose a larger --region");
   const bool thin = std::ranges::all_of(*shapes, [&](const IntBox& box) { return thinnest(box) < region.cell; });
   if (thin)
-    return fmt::format("what is here is thinner than a cell of {} m: take smaller ones with --cell",
+    return fmt::format("the shapes here are thinner than a cell of {} m: choose smaller cells with --cell",
                        metres(region.cell));
-  return fmt::format("{} here, or is thinner than a cell of {} m: look at the cuts, or take smaller cells with --cell",
-                     solid ? "what is cut is filled again" : "all is carved away", metres(region.cell));
+  return fmt::format("{} here, or thinner than a cell of {} m: check the cuts, or choose smaller cells with --cell",
+                     solid ? "all cuts are filled again" : "all shapes are cut away", metres(region.cell));
 }
 
 void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell) {
   constexpr size_t kMostSaid = 10;
   for (size_t i = 0; i < std::min(parts.size(), kMostSaid); ++i) {
     const ThinPart& part = parts[i];
-    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may not be seen ({}{} {})\n",
-               part.cut ? "what is cut in " : "", part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick",
-               lengthText(cell), part.is_about ? "about " : "", part.uses, part.uses == 1 ? "use" : "uses");
+    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may be invisible ({}{} {})\n", part.cut ? "a cut in " : "",
+               part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick", lengthText(cell),
+               part.is_about ? "about " : "", part.uses, part.uses == 1 ? "use" : "uses");
   }
   if (parts.size() > kMostSaid)
     fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMostSaid);
@@ -69,12 +69,11 @@ void warnOfThinWalls(const std::string& file, const Program& program, int32_t ce
     if (s.kind != StmtKind::treemap) continue;
     const std::optional<double> wall = wallOf(program, s);
     if (!wall || *wall >= metres(cell)) continue;
-    fmt::print(
-        stderr,
-        "{}:{}:{}: warning: the walls of this treemap, {} m, are thinner than a cell of {} m, and may have holes "
-        "or be gone: take smaller cells, such as --cell {:.2g}\n",
-        s.span.file == 0 ? file : std::string(program.modules[s.span.file].path), s.span.line, s.span.column, *wall,
-        metres(cell), *wall / 2);
+    fmt::print(stderr,
+               "{}:{}:{}: warning: the walls of this treemap, {} m, are thinner than a cell of {} m, and may have "
+               "holes or be missing: choose smaller cells, such as --cell {:.2g}\n",
+               s.span.file == 0 ? file : std::string(program.modules[s.span.file].path), s.span.line, s.span.column,
+               *wall, metres(cell), *wall / 2);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a person should know of a region's mesh that is not as they may expect it.
+// Notes for users on meshes that may surprise them.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace sgm::cli {
 
-/// Why a region has no triangle, and what to try; in one sentence. Errors: those of derivation.
+/// Why a region has no triangle, and what to try, in one sentence. Errors: those of derivation.
 Result<std::string> whyEmpty(const WorldField& world, const Region& region);
 
-/// Of parts thinner than a cell, a line a rule, to stderr.
+/// Lists parts thinner than a cell on stderr, a line for each rule.
 void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell);
 
-/// Of treemaps whose walls are thinner than a cell, to stderr.
+/// Warns on stderr of treemaps whose walls are thinner than a cell.
 void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// A meshed region as a picture: what `sgm render` writes, and what `sgm paper` shows.
+// A picture of a meshed region, for `sgm render` and `sgm paper`.
 
 #include <optional>
 #include <string_view>
@@ -18,45 +18,46 @@ struct RegionPicture {
   Image image;
   View view;
   Light light = Light::sun;
-  std::optional<double> daylight;   ///< where that has decided on the light
-  std::optional<FramedUse> framed;  ///< where --frame asks for a use of a rule
+  std::optional<double> daylight;   ///< if it has decided on the light
+  std::optional<FramedUse> framed;  ///< if --frame asks for a use of a rule
 };
 
-/// A region as it is to be drawn, from where the options look.
+/// A region ready to be drawn, from the camera of the options.
 struct RegionScene {
   std::vector<RenderVertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<RenderMaterial> materials;
-  RenderScene scene;  ///< of these three, which may be moved, but not copied
+  RenderScene scene;  ///< refers to these three, so this struct can be moved but not copied
   View view;
   Light light = Light::sun;
-  std::optional<double> daylight;   ///< where that has decided on the light
-  std::optional<FramedUse> framed;  ///< where --frame asks for a use of a rule
+  std::optional<double> daylight;   ///< if it has decided on the light
+  std::optional<FramedUse> framed;  ///< if --frame asks for a use of a rule
 
   RegionScene() = default;
   RegionScene(RegionScene&&) = default;
   RegionScene& operator=(RegionScene&&) = default;
 };
 
-/// From where and to where a camera looks, in metres of the world, whatever its scene's origin.
+/// Position and target of a camera in metres of the world, for any origin of its scene.
 Gaze worldGaze(const RenderCamera& camera, Int3 origin);
-/// As --camera takes it, to a tenth of a millimetre.
+/// In the form of --camera, to a tenth of a millimetre.
 std::string gazeText(const Gaze& gaze);
 
-/// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border
-/// does not hide where there are such.
+/// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; without those that its
+/// border hides, unless it hides all.
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted);
 
-/// What the mesh must be made with for a picture: the part of an endless world that the options mean, and the density
-/// where they ask for fog, which goes to `density`. Both must outlive the plan.
+/// The plan of a mesh for a picture: chooses the part of an endless world that the options mean, and samples `density`
+/// if they ask for fog. Both must outlive the plan.
 RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density);
 
-/// The region's surface, from where the options look, or from where most of it is seen. Contract and errors as those of
-/// drawRegion(), but those of Renderer. A region without a texture is drawn in one material a triangle.
+/// The region's surface, from the camera of the options, or from where most of it is seen. Contract and errors as for
+/// drawRegion(), except the errors of Renderer. Without a texture, each triangle has one material.
 Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region);
 
-/// A picture of the region, from where the options look, or from where most of it is seen. Contract: it was meshed by
-/// picturePlan() and has a triangle. Errors: invalid_argument for a camera that looks nowhere; those of Renderer.
+/// A picture of the region, from the camera of the options, or from where most of it is seen. Contract: it was meshed
+/// by picturePlan() and has a triangle. Errors: invalid_argument if position and target of the camera coincide; those
+/// of Renderer.
 Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
                                  const std::optional<RegionDensity>& density);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm render` and `sgm preview` are asked.
+// Options of `sgm render` and `sgm preview`.
 
 #include <optional>
 #include <string>
@@ -14,13 +14,13 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
-  std::optional<double> pixels;        ///< how wide a cell may look, where that asks for smaller ones
-  std::string light = "auto";          ///< sun, lamp, none, or auto: what the camera sees decides
-  bool volume = false;                 ///< the solid as fog instead of its surface
+  std::optional<double> pixels;        ///< maximal size of a cell in the picture, which may make cells smaller
+  std::string light = "auto";          ///< sun, lamp, none, or auto: chosen by what the camera sees
+  bool volume = false;                 ///< draws the solid as fog instead of its surface
   bool wires = false;                  ///< the mesh's edges, without materials
   std::string frame;                   ///< a rule, or a path of uses, one of which the camera shows; empty: none
-  std::string seeds;                   ///< of a contact sheet, as readSeeds takes them; empty: one picture of `seed`
-  bool plan = false;                   ///< a survey's plan in place of a picture
+  std::string seeds;                   ///< of a contact sheet, as for readSeeds; empty: one picture of `seed`
+  bool plan = false;                   ///< a survey's plan instead of a picture
   std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it
 };
 

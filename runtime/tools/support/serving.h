@@ -1,5 +1,5 @@
 #pragma once
-// The metrics service, as the command starts it.
+// The metrics service, as commands start it.
 
 #include <sgm/sgm_service.h>
 
@@ -17,13 +17,13 @@ struct ServingOptions {
   uint16_t port = 8464, operations_port = 9464;
   std::string token_file;          ///< its first line is the token; empty: there is none
   std::vector<std::string> hosts;  ///< names of this machine
-  std::string masters;             ///< a base; empty: those that are built in
+  std::string masters;             ///< file of reference histograms; empty: the built-in ones
   std::string upload_folder;
-  uint64_t upload_mb = 64, memory_mb = 2048;  ///< of one upload, and to inspect it
+  uint64_t upload_mb = 64, memory_mb = 2048;  ///< for one upload, and to inspect it
   uint32_t seconds = 60, jobs = 2, waiting = 16;
 };
 
-/// One thread. What it watches must outlive it.
+/// Used by one thread. Watched worlds must outlive it.
 class Serving {
  public:
   /// Errors: io for the token's file and the ports; invalid_argument; unsupported (serving_off.cpp).
@@ -35,7 +35,7 @@ class Serving {
   const std::string& operations() const { return operations_; }
 
  private:
-  /// What is asked at the end may still be answered within this time.
+  /// At the end, pending requests may still be answered within this time.
   static constexpr uint32_t kGraceMilliseconds = 5000;
   struct Stop {
     void operator()(sgm_service* service) const;

@@ -9,7 +9,7 @@
 namespace sgm::cli {
 namespace {
 
-/// What the compiler makes of a file; imports come from its folder.
+/// Applies `make` to the text of a file; imports come from its folder.
 template <class Made>
 Result<Made> readAnd(Made (*make)(std::string_view, std::string_view, const CompileOptions&), const std::string& file) {
   Result<std::string> text = readGrammarText(file);

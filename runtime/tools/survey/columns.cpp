@@ -12,13 +12,13 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kTile = 32;          // columns on an edge of what is compiled together
-constexpr int kBrick = 8;          // samples on an edge of what is evaluated together
-constexpr float kDeep = 2;         // steps: how deep in the subject samples tell apart
+constexpr int kTile = 32;          // columns on an edge of a tile, which is compiled at once
+constexpr int kBrick = 8;          // samples on an edge of a brick, which is evaluated at once
+constexpr float kDeep = 2;         // steps: depths in the subject are clipped to this
 constexpr float kPassable = 1;     // metres
-constexpr float kRockBetween = 1;  // metres, of two passages one above the other
+constexpr float kRockBetween = 1;  // metres, between two passages one above the other
 
-/// Fills a box of samples, x fastest, then z, then y. One thread's.
+/// Samples a box, x fastest, then z, then y. For one thread.
 class TileFill {
  public:
   TileFill(Int3 origin, int32_t step, std::array<int, 3> size)
@@ -75,7 +75,7 @@ class TileFill {
       }
     }
     bestKernels().samples(view, {x_.data(), y_.data(), z_.data(), points}, evaluation_, q_.data());
-    // Whole numbers, so that a sample on the surface is void, as it is for meshes.
+    // Integers, so that a sample on the surface is void, as in meshes.
     const float steps = 1 / (view.q_scale * static_cast<float>(step_));
     points = 0;
     for (int y = 0; y < count[1]; ++y)
@@ -95,7 +95,7 @@ class TileFill {
   std::array<int32_t, size_t{kBrick} * kBrick * kBrick> x_{}, y_{}, z_{}, q_{};
 };
 
-/// A column's stretches, and what a plan shows of it.
+/// A column's stretches, and its part in a plan.
 struct Column {
   std::vector<Stretch> stretches;
   uint32_t shown = kNone;
@@ -103,7 +103,7 @@ struct Column {
   uint32_t floor_label = 0, ceiling_label = 0;
 };
 
-/// value(i): of the field at sample i from below, in steps, positive in the subject.
+/// value(i): the field at sample i from below, in steps, positive in the subject.
 template <class Value>
 Column readColumn(int samples, float bottom, float step, const Value& value) {
   Column column;
@@ -242,16 +242,15 @@ Result<Columns> sampleColumns(const WorldField& world, const IntBox& region, int
     const int64_t from = floorDiv(region.lo[axis], lattice.step),
                   to = -floorDiv(-int64_t{region.hi[axis]}, lattice.step);
     if (to * lattice.step > INT32_MAX || from * lattice.step < INT32_MIN)
-      return Error{Code::range, "the region leaves the world, which ends about 2,097 km from the origin"};
+      return Error{Code::range, "the region extends beyond the world, which ends about 2,097 km from the origin"};
     lattice.origin[axis] = static_cast<int32_t>(from * lattice.step);
     lattice.size[static_cast<size_t>(axis)] = static_cast<int>(to - from + 1);
   }
   const int64_t columns_seen = int64_t{lattice.size[0]} * lattice.size[2];
   if (columns_seen > kMostColumns || lattice.size[1] > kTallest)
-    return Error{Code::limit,
-                 fmt::format("a survey has at most {} columns of {} samples, and this region {} of {}: take "
-                             "larger cells or a smaller --region",
-                             kMostColumns, kTallest, columns_seen, lattice.size[1])};
+    return Error{Code::limit, fmt::format("a survey may have at most {} columns of {} samples, but this region has {} "
+                                          "of {}: choose larger cells or a smaller --region",
+                                          kMostColumns, kTallest, columns_seen, lattice.size[1])};
   const Subject subject = world.isSolidDomain() ? Subject::hollow : Subject::solid;
   const int across = (lattice.size[0] + kTile - 1) / kTile, along = (lattice.size[2] + kTile - 1) / kTile;
   std::vector<Column> columns(static_cast<size_t>(lattice.size[0]) * static_cast<size_t>(lattice.size[2]));

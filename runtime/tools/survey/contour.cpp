@@ -8,7 +8,7 @@
 namespace sgm::survey {
 namespace {
 
-/// An edge of the grid: twice the index of its first point, plus 1 where it goes along y.
+/// An edge of the grid: twice the index of its first point, plus 1 if it runs along y.
 using Edge = size_t;
 
 struct Segment {
@@ -40,8 +40,8 @@ class Marcher {
     }
     const Edge top = along(x, y), right = down(x + 1, y), bottom = along(x, y + 1), left = down(x, y);
     const std::array edges{top, right, bottom, left};
-    // Edge i lies between corners i and i + 1. Around the cell a line comes in where values rise, and goes out where
-    // they fall; with two of each the mean says which corners hang together.
+    // Edge i lies between corners i and i + 1. Around the cell, a line enters where values rise and leaves where they
+    // fall; with two of each, the mean decides which corners are connected.
     std::array<Edge, 2> rising{}, falling{};
     size_t rises = 0, falls = 0;
     std::array<size_t, 2> rise_at{}, fall_at{};
@@ -54,7 +54,7 @@ class Marcher {
     if (rises == 1) return add(falling[0], rising[0]);
     const bool together = sum / 4 > level_;
     for (size_t i = 0; i < 2; ++i) {
-      // A corner above the level stands between a rise and the fall after it.
+      // A corner above the level lies between a rise and the next fall.
       const size_t after = (rise_at[i] + 1) % 4;
       const size_t same = fall_at[0] == after ? 0 : 1;
       add(falling[together ? 1 - same : same], rising[i]);
@@ -74,7 +74,7 @@ class Marcher {
     return edge % 2 == 0 ? Point{x + share, y} : Point{x, y + share};
   }
 
-  /// Segments end to end. Each edge has at most one that leaves it and one that comes to it.
+  /// Joins segments end to end. Each edge has at most one outgoing and one incoming segment.
   std::vector<Line> joined() const {
     std::unordered_map<Edge, size_t> came;
     for (size_t i = 0; i < segments_.size(); ++i) came[segments_[i].to] = i;
@@ -101,7 +101,7 @@ class Marcher {
   const Grid& grid_;
   float level_;
   std::vector<Segment> segments_;
-  std::unordered_map<Edge, size_t> next_;  ///< by the edge that a segment leaves
+  std::unordered_map<Edge, size_t> next_;  ///< by the edge where a segment starts
 };
 
 }  // namespace
@@ -117,7 +117,7 @@ float Grid::between(Point p) const {
 std::vector<Line> contours(const Grid& grid, float level) { return Marcher(grid, level).lines(); }
 
 std::vector<Line> areasAbove(const Grid& grid, float level) {
-  // A frame that lies below closes the rings, a thousandth of a step outside of the border.
+  // A frame of lower values closes the rings, a thousandth of a step outside the border.
   Grid framed(grid.width + 2, grid.height + 2, level - 1e6f);
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) framed.at(x + 1, y + 1) = grid.at(x, y);

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers on a square grid, and the lines along which they have one value.
+// Values on a square grid, and their contours.
 
 #include <limits>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace sgm::survey {
 
-/// No number: contours end beside it.
+/// Missing value: contours end beside it.
 inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Numbers at points (x, y), x along rows.
+/// Values at points (x, y), x along rows.
 struct Grid {
   int width = 0, height = 0;
   std::vector<float> values;
@@ -25,21 +25,21 @@ struct Grid {
   float& at(int x, int y) { return values[index(x, y)]; }
   float at(int x, int y) const { return values[index(x, y)]; }
   bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
-  /// Between the points; kUnknown where one of the four is, and outside of the grid.
+  /// Interpolated; kUnknown if one of the four neighbours is, and outside the grid.
   float between(Point p) const;
 };
 
-/// Marching squares: lines in steps of the grid, with larger values on their right as y points down. A line that comes
-/// back to its start ends there.
+/// Marching squares: lines in steps of the grid, with larger values on their right as y points down. A closed line ends
+/// with its start.
 std::vector<Line> contours(const Grid& grid, float level);
 
-/// The same, closed along the grid's border: rings around all that is above the level. Every number must be known.
+/// The same, closed along the grid's border: rings around all areas above the level. Every value must be known.
 std::vector<Line> areasAbove(const Grid& grid, float level);
 
 /// Cuts corners twice (Chaikin 1974); ends stay, rings stay rings.
 Line smoothed(const Line& line);
 
-/// Parts of a line whose points are wanted.
+/// The parts of a line whose points satisfy `wanted`.
 template <class Wanted>
 std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   std::vector<Line> parts;
@@ -56,15 +56,15 @@ std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   return parts;
 }
 
-/// Each number becomes the mean of those around it that are known, as often as asked for.
+/// Replaces each value by the mean of its known neighbours, `times` times.
 void soften(Grid& grid, int times);
 
-/// Numbers beside known ones become known: the mean of these.
+/// Fills unknown values beside known ones with the mean of these, `times` times.
 void spread(Grid& grid, int times);
 
 double lengthOf(const Line& line);
 
-/// Squares of the grid that lie above 0, by how deep their points lie.
+/// Area above 0 in squares of the grid, estimated from the depths of its points.
 double squaresAbove(const Grid& grid);
 
 }  // namespace sgm::survey

@@ -1,5 +1,5 @@
 #pragma once
-// A drawing of lines, areas and letters, before it is an SVG file or a picture of pixels.
+// A drawing of lines, areas and letters, for SVG files and pictures.
 
 #include <cstdint>
 #include <string>
@@ -24,22 +24,22 @@ inline constexpr Ink kBlack{}, kWhite{255, 255, 255};
 
 /// Lines of one pen, or areas of one colour.
 struct Mark {
-  std::string_view name;    ///< static; what the mark stands for, as the class of an SVG element: "wall"
-  std::vector<Line> lines;  ///< of an area: rings, closed by themselves; what an odd number of rings holds is filled
+  std::string_view name;    ///< static; the meaning of the mark, as the class of its SVG element: "wall"
+  std::vector<Line> lines;  ///< of an area: rings, closed automatically, filled by the even-odd rule
   bool filled = false;
   Ink ink = kBlack;
   double width = 1;            ///< of the pen, pixels
-  std::vector<double> dashes;  ///< lengths drawn and left out by turns; none: all is drawn
+  std::vector<double> dashes;  ///< alternating lengths drawn and skipped; empty: a solid line
   std::string text;            ///< of lettering, whose strokes are the lines
 };
 
-/// White paper with marks, the first ones below.
+/// White paper with marks, painted in order.
 struct Drawing {
   int width = 0, height = 0;
   std::vector<Mark> marks;
 };
 
-/// Parts of a line that a pen with these dashes draws. Precondition: the dashes' sum is positive, or the list is empty.
+/// The parts of a line that these dashes draw. Precondition: the dashes' sum is positive, or the list is empty.
 std::vector<Line> dashed(const Line& line, const std::vector<double>& dashes);
 
 }  // namespace sgm::survey

@@ -10,8 +10,8 @@ namespace {
 // Standards. The format of the Font data in this distribution was originally created by James Hurt, Cognition, Inc.,
 // 900 Technology Park Drive, Billerica, MA 01821 (mit-eddie!ci-dandelion!hurt).
 //
-// Roman simplex, from the space on. Each letter counts from 'R': first the left and the right end of the glyph, then
-// points x y of its strokes, y down; a blank and an R lift the pen.
+// Roman simplex, starting with the space. Coordinates are letters relative to 'R': first the left and right ends of the
+// glyph, then points x y of its strokes, y down; a space and an R lift the pen.
 constexpr std::array<std::string_view, 95> kGlyphs{{
     R"(JZ)",
     R"(MWRFRT RRYQZR[SZRY)",
@@ -119,7 +119,7 @@ std::string_view glyphFor(char letter) {
 
 double edge(char letter) { return letter - 'R'; }
 
-/// One character for each, where UTF-8 has several bytes.
+/// One character for each code point of UTF-8.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text)

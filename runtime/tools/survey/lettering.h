@@ -1,5 +1,5 @@
 #pragma once
-// Letters as strokes of a pen: the same in SVG files and in pixels, on machines with and without fonts.
+// Letters as pen strokes: identical in SVG files and pixels, independent of installed fonts.
 
 #include <string_view>
 
@@ -9,7 +9,7 @@ namespace sgm::survey {
 
 enum class Align { left, middle, right };
 
-/// Pixels that the text takes along x with capitals of this height.
+/// Width of the text in pixels, with capitals of this height.
 double letterWidth(std::string_view text, double height);
 
 /// The text with its baseline at `at`. Characters beyond ASCII are drawn as question marks. height: of capitals.

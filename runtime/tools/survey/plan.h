@@ -1,5 +1,5 @@
 #pragma once
-// A survey's plan: what a caver draws of a passage, seen from above.
+// A survey's plan: a caver's drawing of a passage, seen from above.
 
 #include <set>
 
@@ -7,12 +7,12 @@
 
 namespace sgm::survey {
 
-/// Of water on paper, and of its edges.
+/// Colours of water and of its edges.
 inline constexpr Ink kWater{205, 228, 246}, kShore{30, 100, 180};
-/// Of what stands.
+/// Colour of solid objects.
 inline constexpr Ink kBuilt{230, 230, 226};
 
-/// What materials mean on paper, by index in Program::materials.
+/// Materials with signs, by index in Program::materials.
 struct MaterialSigns {
   std::vector<bool> water, dripstone;
   bool isWater(uint32_t label) const { return has(water, label); }
@@ -30,18 +30,18 @@ std::string wholeMetres(double height);
 
 MaterialSigns signsFor(const Program& program);
 
-/// Where a grid lies on the paper.
+/// Placement of a grid on the paper.
 struct Placement {
-  Point corner;      ///< of its point (0, 0)
-  double scale = 1;  ///< pixels a step
+  Point corner;      ///< place of its point (0, 0)
+  double scale = 1;  ///< pixels per step
   Point at(Point p) const { return {corner.x + scale * p.x, corner.y + scale * p.y}; }
   Line at(const Line& line) const;
 };
 
-/// Rectangles of the paper that letters have taken.
+/// Rectangles of the paper that letters occupy.
 class Lettered {
  public:
-  /// Whether a rectangle around the middle is free; it is taken from then on.
+  /// Whether a rectangle around the middle is free; if so, occupies it.
   bool take(Point middle, double width, double height);
 
  private:
@@ -51,28 +51,28 @@ class Lettered {
   std::vector<Room> rooms_;
 };
 
-/// What a plan says in numbers; metres.
+/// Numbers of a plan; metres.
 struct PlanFigures {
-  double interval = 0;             ///< between contours; 0: there are none
+  double interval = 0;             ///< between contours; 0: no contours
   double area = 0;                 ///< of the subject seen from above, m2
   double lowest = 0, highest = 0;  ///< of floors, or of the solid's top
   std::set<double> water;          ///< levels, to a tenth
   size_t dripstones = 0;           ///< signs drawn
-  size_t leads = 0;                ///< places where a passage goes on beyond the region
+  size_t leads = 0;                ///< places where a passage continues beyond the region
   bool empty = true;
 };
 
-/// Heights of what a plan looks down at: floors of the hollow, tops of the solid; kUnknown elsewhere.
+/// Heights of surfaces visible from above: floors of the hollow, tops of the solid; kUnknown elsewhere.
 Grid heightsIn(const Columns& columns);
 
 PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
-/// Floors by lines of one height with hachures where they are steep, ceilings by dashes where they step. Returns the
-/// metres between two lines; 0 if there are none.
+/// Draws floors by contours, with hachures where they are steep, and ceilings by dashes at their steps. Returns the
+/// contour interval in metres; 0 without contours.
 double drawRelief(const Columns& columns, const MaterialSigns& signs, const Placement& place, Lettered& lettered,
                   Drawing& drawing);
 
-/// Signs for stalagmites, stalactites and columns; outlines around larger flowstone. Returns how many signs there are.
+/// Draws signs for stalagmites, stalactites and columns, and outlines of larger flowstone. Returns the number of signs.
 size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
 }  // namespace sgm::survey

@@ -1,17 +1,17 @@
 #pragma once
-// A survey's long section: floor and ceiling where a line cuts the passage, and what lies beyond the line.
+// A survey's long section: floor and ceiling where a line cuts the passage, and the outline of parts beyond the line.
 
 #include "tools/survey/plan.h"
 #include "tools/survey/slice.h"
 
 namespace sgm::survey {
 
-/// What of a slice is drawn: samples from lo to hi, both included.
+/// The drawn part of a slice: samples from lo to hi, both included.
 struct Crop {
   int left = 0, right = 0, top = 0, bottom = 0;
 };
 
-/// All that has the subject, on the cut or beyond it, and a little around it; all of the slice if it has no subject.
+/// All of the subject, on the cut or beyond it, with a margin; the whole slice if it has no subject.
 Crop cropOf(const Slice& slice);
 
 struct SectionFigures {
@@ -20,7 +20,7 @@ struct SectionFigures {
   bool empty = true;
 };
 
-/// Draws the crop with the slice's sample (0, 0) at the placement's corner; heights to the left of it.
+/// Draws the crop with the slice's sample (0, 0) at the placement's corner; heights are on its left.
 SectionFigures drawSection(const Slice& slice, const Crop& crop, const MaterialSigns& signs, const Placement& place,
                            Drawing& drawing);
 

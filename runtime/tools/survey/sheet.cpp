@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kMargin = 40, kFooter = 110, kCaption = 24, kBetween = 56, kHeights = 34;  // pixels
 constexpr double kTitle = 15, kText = 8, kAbove = 20;
-constexpr double kAroundPlan = 2;  // metres around what is drawn
+constexpr double kAroundPlan = 2;  // metres around the drawn part
 
-/// Of the plan's columns what is drawn.
+/// The drawn part of the plan's columns.
 Crop planCrop(const Columns& columns) {
   const Grid& widest = columns.widest;
   Crop crop{widest.width, -1, widest.height, -1};
@@ -40,13 +40,13 @@ Extent extentOf(const Crop& crop, double step) {
   return {std::max(1, crop.right - crop.left) * step, std::max(1, crop.bottom - crop.top) * step};
 }
 
-/// Where the parts go.
+/// Places of the parts.
 struct Layout {
-  double scale = 0;     ///< pixels a metre
+  double scale = 0;     ///< pixels per metre
   Point plan, section;  ///< upper left corners
 };
 
-/// The larger of two arrangements: one below the other, or side by side.
+/// The arrangement with the larger scale: one below the other, or side by side.
 Layout arrange(const SheetWish& wish, const Extent* plan, const Extent* section) {
   const double wide = wish.width - 2 * kMargin, high = wish.height - 2 * kMargin - kFooter - kCaption;
   Layout layout;
@@ -102,7 +102,7 @@ void drawScaleBar(const Layout& layout, Point at, Drawing& drawing) {
       lettering(fmt::format("{:g} m", length), {at.x + kParts * part, at.y - 5}, kText - 1, Align::middle));
 }
 
-/// North is where z falls: x goes to the east.
+/// North is -z, and east is +x.
 void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back({"north", {{{at.x, at.y + 40}, {at.x, at.y}}}, false, kBlack, 1.2, {}, {}});
   drawing.marks.push_back(
@@ -117,7 +117,7 @@ void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back(lettering("N", {at.x, at.y - 12}, kText + 2, Align::middle));
 }
 
-/// The section's line in the plan, with its letters.
+/// Draws the section's line into the plan, with its letters.
 void drawCutLine(const Columns& columns, const Slice& slice, const Crop& crop, const Placement& place,
                  Drawing& drawing) {
   const double length = slice.line.length();
@@ -148,14 +148,14 @@ std::string legend(const Columns& columns, const SheetFigures& figures, bool pla
     parts.push_back("dashed: ceiling steps, passages below");
     parts.push_back("numbers: height of the floor, blue: of water; in circles: height of the passage");
     if (figures.plan.dripstones > 0) parts.push_back("Y: dripstone, hanging; turned over: standing");
-    if (figures.plan.leads > 0) parts.push_back("?: goes on");
+    if (figures.plan.leads > 0) parts.push_back("?: continues");
   }
   if (section)
     parts.push_back(hollow ? "grey in the section: passage beyond the line" : "grey outline: beyond the line");
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// The text in lines of that width, at blanks.
+/// Wraps the text at spaces to lines of that width.
 std::vector<std::string> wrapped(const std::string& text, double height, double width) {
   std::vector<std::string> lines{""};
   for (size_t at = 0; at < text.size();) {

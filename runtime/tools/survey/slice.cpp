@@ -8,7 +8,7 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kBlock = 32;  // samples on an edge of what is compiled together
+constexpr int kBlock = 32;  // samples on an edge of a block, which is compiled at once
 constexpr float kDeepest = 2;
 constexpr double kWorldEnd = 2'097'151;  // metres
 
@@ -32,7 +32,7 @@ std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {
                  starts[1] + to * ways[1]};
 }
 
-/// The subject of all columns on the plane of the cut.
+/// Projects the subject of all columns onto the plane of the cut.
 void lookBeyond(const Columns& columns, Slice& slice) {
   slice.beyond = Grid(slice.depth.width, slice.depth.height, -1);
   const double length = slice.line.length();
@@ -85,8 +85,8 @@ Result<void> readBlock(const WorldField& world, int level, int left, int top, Sl
   return {};
 }
 
-/// The middle of the first stretch that is about as good as the best. The region's border may cut a passage along its
-/// length: numbers beside it do not count.
+/// The middle of the first interval with nearly the best area. Areas near the region's border do not count, because it
+/// may cut a passage along its length.
 double middleOfBest(const std::vector<double>& areas) {
   constexpr double kAsGood = 0.97;
   const size_t edge = areas.size() / 12, end = areas.size() - edge;
@@ -141,8 +141,7 @@ Result<Slice> sampleSlice(const WorldField& world, const Columns& columns, int l
   const std::optional<CutLine> within = clippedTo(columns, line);
   if (!within)
     return Error{Code::invalid_argument,
-                 "--section: the line does not meet the region: choose another line, or give the "
-                 "--region that it leads through"};
+                 "--section: the line does not meet the region: choose another line, or a --region that contains it"};
   Slice slice;
   slice.line = *within;
   slice.subject = columns.subject;

@@ -1,5 +1,5 @@
 #pragma once
-// A drawing as the text of an SVG file.
+// Writes a drawing as an SVG file.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace sgm::survey {
 
-/// Every mark is a path whose class is its name. Lettering has its text as the label that readers of screens, and
-/// searches, find. title: of the whole file.
+/// Every mark is a path whose class is its name. Lettering has its text as a label for screen readers and searches.
+/// title: of the whole file.
 std::string svgText(const Drawing& drawing, std::string_view title);
 
 }  // namespace sgm::survey

@@ -123,7 +123,7 @@ TEST_CASE("what runs through itself is refused", "[asset][cover]") {
   maker.mesh.materials.resize(maker.mesh.triangles.size(), kNoMaterial);
   const auto pieces = coverWithPieces(solidOf(maker.mesh));
   REQUIRE_FALSE(pieces);
-  CHECK(pieces.error().message == "it runs through itself");
+  CHECK(pieces.error().message == "it intersects itself");
 }
 
 TEST_CASE("what is too intricate is refused", "[asset][cover]") {

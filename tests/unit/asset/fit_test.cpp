@@ -155,9 +155,9 @@ TEST_CASE("zones that cannot be meant are told", "[asset][fit]") {
   CHECK(refusal(gabledHouse(), {6, 6, 8}, {{1, true, 3, 2}}) ==
         "the zone 3m..2m along y is not a part of this asset, which goes from 0m to 6m there");
   CHECK(refusal(gabledHouse(), {6, 6, 8}, {{2, true, 1, 3}, {2, false, 2, 4}}) ==
-        "the zone 2m..4m along z lies upon another one");
+        "the zone 2m..4m along z overlaps another one");
   CHECK(refusal(windowedWall(1, 1), {9, 3.5, 0.5}, {{0, true, 1.5, 2.5}}) ==
-        "what repeats along x does not join: its section at the end is not that at its beginning");
+        "a repeated zone along x does not join: its sections at both ends differ");
 }
 
 TEST_CASE("copies are not without number", "[asset][fit]") {

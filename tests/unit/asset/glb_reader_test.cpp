@@ -103,20 +103,21 @@ TEST_CASE("nodes move, turn, scale and mirror what they show", "[asset][glb]") {
 }
 
 TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]") {
-  CHECK(refusal("") == "it is no GLB file: it does not begin with `glTF`");
-  CHECK(refusal("sgm 1; start Ball; rule Ball { sphere(1m); }") == "it is no GLB file: it does not begin with `glTF`");
+  CHECK(refusal("") == "it is not a GLB file: it does not begin with `glTF`");
+  CHECK(refusal("sgm 1; start Ball; rule Ball { sphere(1m); }") ==
+        "it is not a GLB file: it does not begin with `glTF`");
   std::string bytes = triangleFile();
   bytes[4] = 1;
   CHECK(refusal(bytes) == "it is glTF of version 1, not 2, at byte 4");
   bytes = triangleFile();
-  CHECK(refusal(bytes.substr(0, bytes.size() - 1)) == "it says that it has " + std::to_string(bytes.size()) +
-                                                          " bytes, and has " + std::to_string(bytes.size() - 1) +
-                                                          ", at byte 8");
+  CHECK(refusal(bytes.substr(0, bytes.size() - 1)) == "its header declares " + std::to_string(bytes.size()) +
+                                                          " bytes, and the file has " +
+                                                          std::to_string(bytes.size() - 1) + ", at byte 8");
   bytes[12] = '\xFF', bytes[13] = '\xFF', bytes[14] = '\xFF', bytes[15] = '\xFF';
-  CHECK(refusal(bytes) == "a part of it reaches beyond its end, at byte 12");
+  CHECK(refusal(bytes) == "a chunk of it reaches beyond its end, at byte 12");
   bytes = triangleFile();
   bytes[16] = 'X';
-  CHECK(refusal(bytes) == "its first part is not JSON, at byte 16");
+  CHECK(refusal(bytes) == "its first chunk is not JSON, at byte 16");
   struct Case {
     const char *from, *to, *message;
   };
@@ -124,14 +125,14 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
       {R"("asset")", R"("asset)", "`:` is missing at byte 10 of its JSON"},
       {R"("asset":{"version":"2.0"})", R"("extensionsRequired":["KHR_draco_mesh_compression"])",
        "it needs the extension `KHR_draco_mesh_compression`, at /extensionsRequired of its JSON"},
-      {R"("scene":0)", R"("scene":1)", "its scene is not there, at /scene of its JSON"},
+      {R"("scene":0)", R"("scene":1)", "its scene does not exist, at /scene of its JSON"},
       {R"("scenes":[{"nodes":[0]}])", R"("scenes":[{"nodes":[7]}])",
-       "a node that is named is not there, at /scenes/0/nodes of its JSON"},
+       "it refers to a node that does not exist, at /scenes/0/nodes of its JSON"},
       {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"children":[0]}])",
        "node 0 stands below two others, or below itself, at /nodes/0/children of its JSON"},
-      {R"({"mesh":0})", R"({"mesh":4})", "node 0 shows a mesh that is not there, at /nodes/0/mesh of its JSON"},
+      {R"({"mesh":0})", R"({"mesh":4})", "node 0 refers to a mesh that does not exist, at /nodes/0/mesh of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"scale":[1,2]})",
-       "node 0 is moved by what are not numbers, or not as many as it takes, at /nodes/0 of its JSON"},
+       "node 0 has a transform with values that are not numbers, or a wrong count of them, at /nodes/0 of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"rotation":[0,0,0,0]})",
        "node 0 is turned by a quaternion without a length, at /nodes/0 of its JSON"},
       {R"({"mesh":0})", R"({"name":"empty"})", "it shows no triangles"},
@@ -142,27 +143,25 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
       {R"("POSITION":0)", R"("NORMAL":0)",
        "it shows no triangles: 1 primitive has no positions and is left out, at /meshes/0/primitives/0 of its JSON"},
       {R"("indices":1)", R"("indices":-1)",
-       "mesh 0 has indices that are not there, at /meshes/0/primitives/0/indices of its JSON"},
+       "mesh 0 refers to indices that do not exist, at /meshes/0/primitives/0/indices of its JSON"},
       {R"("indices":1)", R"("indices":2)",
-       "mesh 0 has indices that are not there, at /meshes/0/primitives/0/indices of its JSON"},
+       "mesh 0 refers to indices that do not exist, at /meshes/0/primitives/0/indices of its JSON"},
       {R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)",
        "accessor 1 ends within a triangle, at /accessors/1/count of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"translation":[0,1000001,0]})",
-       "mesh 0 has a position that is no number from -1000000 to 1000000, once it is moved, at /meshes/0/primitives/0 "
-       "of its "
-       "JSON"},
+       "mesh 0 has a position that is not a number from -1000000 to 1000000, once it is moved, at "
+       "/meshes/0/primitives/0 of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"scale":[1e9,1e9,1e9],"children":[0]})",
-       "mesh 0 has a position that is no number from -1000000 to 1000000, once it is moved, at /meshes/0/primitives/0 "
-       "of its "
-       "JSON"},
+       "mesh 0 has a position that is not a number from -1000000 to 1000000, once it is moved, at "
+       "/meshes/0/primitives/0 of its JSON"},
       {R"(,"indices":1,"material":0)", R"(,"material":0)", ""},
       {R"("POSITION":0})", R"("POSITION":0,"NORMAL":7})",
-       "mesh 0 has normals that are not there, at /meshes/0/primitives/0/attributes/NORMAL of its JSON"},
+       "mesh 0 refers to normals that do not exist, at /meshes/0/primitives/0/attributes/NORMAL of its JSON"},
       {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":-1})",
-       "mesh 0 has texture coordinates that are not there, at /meshes/0/primitives/0/attributes/TEXCOORD_0 of its "
+       "mesh 0 refers to texture coordinates that do not exist, at /meshes/0/primitives/0/attributes/TEXCOORD_0 of its "
        "JSON"},
       {R"("POSITION":0})", R"("POSITION":9})",
-       "mesh 0 has positions that are not there, at /meshes/0/primitives/0/attributes/POSITION of its JSON"},
+       "mesh 0 refers to positions that do not exist, at /meshes/0/primitives/0/attributes/POSITION of its JSON"},
       {R"("POSITION":0})", R"("POSITION":0,"NORMAL":1})",
        "accessor 1 is not of type VEC3, at /accessors/1/type of its JSON"},
       {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":0})",
@@ -191,7 +190,7 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
       {R"("bufferView":0,)", R"("bufferView":9,)",
        "accessor 0 has no buffer view, at /accessors/0/bufferView of its JSON"},
       {R"("buffer":0,"byteOffset":0)", R"("buffer":1,"byteOffset":0)",
-       "buffer view 0 is of a buffer that is not there, at /bufferViews/0/buffer of its JSON"},
+       "buffer view 0 refers to a buffer that does not exist, at /bufferViews/0/buffer of its JSON"},
       {R"("buffers":[{)", R"("buffers":[{"uri":"file:///a.bin",)",
        "buffer 0 lies in another file, `file:///a.bin`, at /buffers/0 of its JSON"},
       {R"("byteLength":36)", R"("byteLength":9007199254740992)",
@@ -209,10 +208,11 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(nan.data() + nan.size() - 60, &not_a_number, 4);
   const std::string first_byte = std::to_string(nan.size() - 60);
-  CHECK(refusal(nan) == "accessor 0 has a position that is no number from -1000000 to 1000000, at byte " + first_byte);
+  CHECK(refusal(nan) ==
+        "accessor 0 has a position that is not a number from -1000000 to 1000000, at byte " + first_byte);
   std::string beyond = triangleFile();
   beyond[beyond.size() - 16] = 3;
-  CHECK(refusal(beyond) == "accessor 1 has a corner that is none of the primitive's 3 points, at byte " +
+  CHECK(refusal(beyond) == "accessor 1 has a corner that is not one of the primitive's 3 points, at byte " +
                                std::to_string(beyond.size() - 16));
 }
 

@@ -89,8 +89,8 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   // Single triangles that are stitched together, each at an odd place: as they stand, with a note.
   const TriangleMesh unruly = with(5, {0, 0, 2, 1, 1, 1, 0, 0, 1, 3, 3, 3, 1, 1, 2, 3, 3, 3, 2, 2, 0, 3});
   CHECK(volumeOf(unruly) == Approx(1.0 / 6));
-  CHECK(unruly.notes == Notes{"1 strip has triangles at odd places alone, at /meshes/0/primitives/0 of its JSON: not "
-                              "turned round, as the format would have it"});
+  CHECK(unruly.notes == Notes{"1 strip has triangles at odd places only, at /meshes/0/primitives/0 of its JSON: read "
+                              "without the reversal that the format requires"});
   CHECK(led.notes.empty());
   const TriangleMesh fan = with(6, {3, 0, 1, 2, 0});
   CHECK(fan.triangles == std::vector<std::array<uint32_t, 3>>{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
@@ -282,15 +282,16 @@ TEST_CASE("glTF: what is wrong with a skin is said", "[asset][gltf]") {
     file.members = R"("nodes":[{"mesh":0,"skin":0},)" + node + R"(],"skins":[)" + skins + "]";
     return gltfRefusal(file.glb());
   };
-  CHECK(with("{}", "") == "node 0 has a skin that is not there, at /nodes/0/skin of its JSON");
+  CHECK(with("{}", "") == "node 0 refers to a skin that does not exist, at /nodes/0/skin of its JSON");
   CHECK(with("{}", "{}") == "skin 0 has no joints, at /skins/0 of its JSON");
-  CHECK(with("{}", R"({"joints":[2]})") == "skin 0 has a joint that is not there, at /skins/0/joints of its JSON");
+  CHECK(with("{}", R"({"joints":[2]})") ==
+        "skin 0 refers to a joint that does not exist, at /skins/0/joints of its JSON");
   CHECK(with("{}", R"({"joints":[1,1],"inverseBindMatrices":4})") ==
         "accessor 4 holds fewer matrices than the skin has joints, at /accessors/4/count of its JSON");
   CHECK(with("{}", R"({"joints":[1],"inverseBindMatrices":4})") ==
         "skin 0 has a matrix whose last row is not 0, 0, 0, 1, at /skins/0/inverseBindMatrices of its JSON");
   CHECK(with("{}", R"({"joints":[1],"inverseBindMatrices":9})") ==
-        "skin 0 has matrices that are not there, at /skins/0/inverseBindMatrices of its JSON");
+        "skin 0 refers to matrices that do not exist, at /skins/0/inverseBindMatrices of its JSON");
   CHECK(with("{}", R"({"joints":[1]})", 1) ==
         "accessor 2 binds point 0 to a joint that skin 0 does not have, at /accessors/2 of its JSON");
   CHECK(with(R"({"children":[1]})", R"({"joints":[1]})").ends_with("below itself, at /nodes/1 of its JSON"));
@@ -335,11 +336,11 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   const TriangleMesh without = with(base(R"(,"texCoord":1)"), R"("TEXCOORD_0":1)");
   CHECK(without.coordinates.empty());
   CHECK(without.notes == Notes{"1 primitive lacks the texture coordinates that its material names, at "
-                               "/meshes/0/primitives/0 of its JSON: read without"});
+                               "/meshes/0/primitives/0 of its JSON: read without them"});
   GltfBuilder wrong = cube();
   wrong.members = R"("nodes":[{"mesh":0}],"materials":[{)" + laid(R"("scale":[1])") + "}]";
   CHECK(gltfRefusal(wrong.glb()) ==
-        "a texture is laid by what are not numbers, or not as many as it takes, at "
+        "a texture transform has values that are not numbers, or a wrong count of them, at "
         "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform of its JSON");
 }
 
@@ -427,7 +428,7 @@ TEST_CASE("glTF: the scene that the file names is read, with nodes however deep"
       R"("scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],"nodes":[{"mesh":0},{"mesh":0,"translation":[7,0,0]}])";
   const TriangleMesh second = gltf(two.glb());
   CHECK(isNear(middleOf(second), {7, 0, 0}));
-  CHECK(second.notes == Notes{"it has 2 scenes, and scene 1 alone is read"});
+  CHECK(second.notes == Notes{"it has 2 scenes, and only scene 1 is read"});
   GltfBuilder deep = cube();
   std::string nodes;
   for (int i = 0; i < 300; ++i) nodes += R"({"translation":[1,0,0],"children":[)" + std::to_string(i + 1) + "]},";
@@ -493,7 +494,7 @@ TEST_CASE("glTF: files that are not padded, and bytes behind the end, are read w
   for (const bool padded : {false, true}) {
     const TriangleMesh mesh = gltf(join(json, padded, ""));
     CHECK(volumeOf(mesh) == 8);
-    CHECK(mesh.notes == Notes{"the length of a part is not a multiple of 4 (" + length + "), at byte 12"});
+    CHECK(mesh.notes == Notes{"the length of a chunk is not a multiple of 4 (" + length + "), at byte 12"});
   }
   const std::string even = json + "  ";
   CHECK(gltf(join("\xEF\xBB\xBF" + json + "   ", true, "")).notes.empty());
@@ -501,7 +502,7 @@ TEST_CASE("glTF: files that are not padded, and bytes behind the end, are read w
   CHECK(gltf(whole).notes.empty());
   const TriangleMesh behind = gltf(whole + "abc");
   CHECK(volumeOf(behind) == 8);
-  CHECK(behind.notes == Notes{"3 bytes behind its end are left out, at byte " + std::to_string(whole.size())});
+  CHECK(behind.notes == Notes{"3 bytes after its end are left out, at byte " + std::to_string(whole.size())});
   const TriangleMesh zeros = gltf(join(json + std::string(2, '\0'), true, ""));
   CHECK(zeros.notes == Notes{"its JSON is padded with zero bytes, not with blanks"});
 }
@@ -530,6 +531,6 @@ TEST_CASE("glTF: text with its numbers in itself is read; other files are not op
   const auto capped = readGlb(std::as_bytes(std::span(many)), {.json_bytes = 100});
   REQUIRE(!capped);
   CHECK(capped.error().code == Code::limit);
-  CHECK(capped.error().message == "it has more than 51 values of JSON");
+  CHECK(capped.error().message == "it has more than 51 JSON values");
   CHECK(gltfRefusal(file.json()) == "buffer 0 has no bytes in the file, at /buffers/0 of its JSON");
 }

@@ -28,17 +28,17 @@ TEST_CASE("what is no JSON is refused with its place", "[asset][json]") {
       {"{\"a\" 1}", "`:` is missing at byte 5 of its JSON"},
       {"{\"a\":1", "`}` is missing at byte 6 of its JSON"},
       {"[1 2]", "`]` is missing at byte 3 of its JSON"},
-      {"{a:1}", "a name in quotes is missing at byte 1 of its JSON"},
+      {"{a:1}", "a quoted name is missing at byte 1 of its JSON"},
       {"01", "a value is missing at byte 0 of its JSON"},
       {"-", "a value is missing at byte 0 of its JSON"},
       {"1.", "a number without digits at byte 0 of its JSON"},
       {"1e", "a number without digits at byte 0 of its JSON"},
       {"1e999", "a number out of range at byte 0 of its JSON"},
-      {"\"\\x\"", "an escape that JSON does not have at byte 3 of its JSON"},
-      {"\"\\ud800\"", "an escape that JSON does not have at byte 7 of its JSON"},
-      {"\"\xFF\"", "a character that is none at byte 1 of its JSON"},
-      {"\"a", "a text without its end at byte 2 of its JSON"},
-      {"1 2", "more text behind the value at byte 2 of its JSON"},
+      {"\"\\x\"", "an invalid escape sequence at byte 3 of its JSON"},
+      {"\"\\ud800\"", "an invalid escape sequence at byte 7 of its JSON"},
+      {"\"\xFF\"", "an invalid character at byte 1 of its JSON"},
+      {"\"a", "an unterminated string at byte 2 of its JSON"},
+      {"1 2", "text after the value at byte 2 of its JSON"},
   };
   for (const auto& [text, message] : cases) {
     INFO(text);
@@ -46,5 +46,5 @@ TEST_CASE("what is no JSON is refused with its place", "[asset][json]") {
     REQUIRE_FALSE(value);
     CHECK(value.error().message == message);
   }
-  CHECK(readJson(std::string(100, '[')).error().message == "values within values, too deep, at byte 65 of its JSON");
+  CHECK(readJson(std::string(100, '[')).error().message == "values nested too deeply at byte 65 of its JSON");
 }

@@ -149,7 +149,7 @@ TEST_CASE("a file's kind is told by its name or by its beginning", "[asset][mesh
     const auto kind = meshFileKind(path);
     REQUIRE(!kind);
     CHECK(kind.error().message ==
-          std::string(path) + ": no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are");
+          std::string(path) + ": the mesh format is unsupported; use .glb, .gltf, .obj, .ply or .stl");
   }
   const auto of = [](const std::string& bytes) { return meshFileKind(bytesOf(bytes)); };
   CHECK(of("glTF") == MeshFileKind::glb);
@@ -168,7 +168,7 @@ TEST_CASE("a file whose name tells nothing is read by its bytes", "[asset][mesh_
   CHECK(mesh->triangles.size() == 1);
   CHECK(mesh->notes == std::vector<std::string>{"by its bytes it is OBJ, and is read as such"});
   CHECK(readMesh(bytesOf("?"), std::nullopt).error().message ==
-        "no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are");
+        "the mesh format is unsupported; use .glb, .gltf, .obj, .ply or .stl");
   CHECK(readMesh(bytesOf("ply\n"), std::nullopt).error().message.ends_with(meshFileAdvice(MeshFileKind::ply)));
 }
 
@@ -176,16 +176,16 @@ TEST_CASE("what is refused says what to do", "[asset][mesh_file]") {
   const std::string none = "?";
   const auto message = [&](MeshFileKind kind) { return readMesh(bytesOf(none), kind).error().message; };
   CHECK(message(MeshFileKind::glb) ==
-        "it is no GLB file: it does not begin with `glTF`; save it as binary glTF 2.0 (.glb), all in one file, as "
+        "it is not a GLB file: it does not begin with `glTF`; save it as binary glTF 2.0 (.glb), all in one file, as "
         "triangles, uncompressed");
   CHECK(message(MeshFileKind::obj) ==
-        "`?` begins no line of an OBJ file, at line 1; save it again as Wavefront OBJ, with its faces as `f` lines");
+        "`?` is not a keyword of an OBJ file, at line 1; save it again as Wavefront OBJ, with its faces as `f` lines");
   CHECK(message(MeshFileKind::ply) ==
-        "it is no PLY file: it does not begin with `ply`, at line 1; save it again as PLY 1.0, with the elements "
+        "it is not a PLY file: it does not begin with `ply`, at line 1; save it again as PLY 1.0, with the elements "
         "`vertex` and `face`");
   CHECK(message(MeshFileKind::stl) ==
-        "it is no STL file: it ends within its header, at byte 1; save it again as binary STL");
-  CHECK(message(static_cast<MeshFileKind>(9)) == "no such kind of mesh file");
+        "it is not an STL file: it ends within its header, at byte 1; save it again as binary STL");
+  CHECK(message(static_cast<MeshFileKind>(9)) == "there is no such kind of mesh file");
   CHECK(readMesh(bytesOf("v 0 0 0\n"), MeshFileKind::obj, {.points = 0}).error().message ==
         "it has more than 0 points; simplify it, or split it into several files");
 }
@@ -296,11 +296,11 @@ TEST_CASE("what is no mesh is called by its name", "[asset][mesh_file]") {
       {"PK\x03\x04....", "it is a ZIP archive (such as .zip, .3mf or .usdz), not a mesh file by itself"},
       {"Kaydara FBX Binary  \0\x1A\0"s, "it is an FBX file, which sgm does not read"},
       {"<?xml version=\"1.0\"?>\n<COLLADA>", "it is an XML file (such as COLLADA or X3D), which sgm does not read"},
-      {"<!DOCTYPE html>\n<html>", "it is a page of the web, not a mesh"},
+      {"<!DOCTYPE html>\n<html>", "it is a web page, not a mesh"},
       {"sgm 1;\nunits m;\n", "it is a grammar (.sgm), not a mesh file"},
       {"OFF\n8 6 0\n", "it is an OFF file, which sgm does not read"},
       {"version https://git-lfs.github.com/spec/v1\n",
-       "it is a pointer of Git LFS, not the file itself: `git lfs pull` fetches that"},
+       "it is a Git LFS pointer, not the file itself: run `git lfs pull`"},
       {"", "it is empty"},
   };
   for (const auto& [file, what] : cases)

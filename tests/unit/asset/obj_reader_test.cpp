@@ -96,33 +96,33 @@ TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]"
       {std::string("\x7F"
                    "ELF\0\1\2",
                    7),
-       "`?ELF???` begins no line of an OBJ file, at line 1"},
+       "`?ELF???` is not a keyword of an OBJ file, at line 1"},
       {"v 0 0\n", "a `v` has fewer than 3 numbers, at line 1"},
       {"v 0 0 # 1\n", "a `v` has fewer than 3 numbers, at line 1"},
       {"\nvn 0 0\n", "a `vn` has fewer than 3 numbers, at line 2"},
       {"vt\n", "a `vt` has fewer than 1 numbers, at line 1"},
-      {"v 0 0 1,5\n", "`1,5` is no number, at line 1"},
-      {"v 0 0 0x1p3\n", "`0x1p3` is no number, at line 1"},
-      {"v 0 0 +-1\n", "`+-1` is no number, at line 1"},
-      {"v 0 0 --1\n", "`--1` is no number, at line 1"},
-      {"v 0 nan 0\n", "a point that is no number from -1000000 to 1000000, at line 1"},
-      {"v 0 0 -inf\n", "a point that is no number from -1000000 to 1000000, at line 1"},
-      {"v 0 0 1e999\n", "a point that is no number from -1000000 to 1000000, at line 1"},
-      {"v 0 0 1000001\n", "a point that is no number from -1000000 to 1000000, at line 1"},
+      {"v 0 0 1,5\n", "`1,5` is not a number, at line 1"},
+      {"v 0 0 0x1p3\n", "`0x1p3` is not a number, at line 1"},
+      {"v 0 0 +-1\n", "`+-1` is not a number, at line 1"},
+      {"v 0 0 --1\n", "`--1` is not a number, at line 1"},
+      {"v 0 nan 0\n", "a point that is not a number from -1000000 to 1000000, at line 1"},
+      {"v 0 0 -inf\n", "a point that is not a number from -1000000 to 1000000, at line 1"},
+      {"v 0 0 1e999\n", "a point that is not a number from -1000000 to 1000000, at line 1"},
+      {"v 0 0 1000001\n", "a point that is not a number from -1000000 to 1000000, at line 1"},
       {"vn 0 0 nan\n", "a normal that is not finite, at line 1"},
       {"vt 1e39\n", "texture coordinates that are not finite, at line 1"},
       {kSquare + "f 1 2\n", "a face has fewer than three corners, at line 5"},
       {kSquare + "f 1 2 # 3\n", "a face has fewer than three corners, at line 5"},
-      {kSquare + "f 1 2 0\n", "`0` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 -5\n", "`-5` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 3.5\n", "`3.5` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 0\n", "`0` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 -5\n", "`-5` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 3.5\n", "`3.5` is not a corner of a face, at line 5"},
       {kSquare + "f 1 2 3/\n", ""},
       {kSquare + "f 1 2 3//\n", ""},
-      {kSquare + "f 1 2 /3\n", "`/3` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 3/x\n", "`3/x` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 3/1/1/1\n", "`3/1/1/1` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 99999999999999999999\n", "`99999999999999999999` is no corner of a face, at line 5"},
-      {kSquare + "f 1 2 4294967295\n", "`4294967295` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 /3\n", "`/3` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 3/x\n", "`3/x` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 3/1/1/1\n", "`3/1/1/1` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 99999999999999999999\n", "`99999999999999999999` is not a corner of a face, at line 5"},
+      {kSquare + "f 1 2 4294967295\n", "`4294967295` is not a corner of a face, at line 5"},
       {kSquare + "f 1 2 5\nf 1 2 3\n", "a face names point 5, and the file has 4, at line 5"},
   };
   for (const auto& [file, message] : cases) {
@@ -187,23 +187,24 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   CHECK(empty.normals.empty());
   const TriangleMesh without = objOf(kSquare + "f 1/1 2/2 3/3\n");
   CHECK(without.coordinates.empty());
-  CHECK(without.notes ==
-        NoteTexts{"3 corners of faces name texture coordinates that the file does not have, such as number "
-                  "3 at line 5: read without"});
+  CHECK(without.notes == NoteTexts{"3 corners of faces name texture coordinates that the file does not have, such as "
+                                   "number 3 at line 5: read without them"});
   const TriangleMesh some = objOf(kSquare + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\nf 1//-2 2//9 3//1\n");
   CHECK(some.coordinatesAt(0, 0) == TextureCoordinates{1, 1});
   CHECK(some.coordinatesAt(0, 1) == TextureCoordinates{});
   CHECK(some.normalAt(1, 2) == Normal{0, 0, 1});
   CHECK(some.normalAt(1, 1) == Normal{});
-  CHECK(some.notes ==
-        NoteTexts{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
-                  "read without",
-                  "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
-                  "at line 7: read without"});
+  CHECK(
+      some.notes ==
+      NoteTexts{
+          "3 corners of faces name normals that the file does not have, such as number 9 at line 8: read without them",
+          "1 corner of a face names texture coordinates that the file does not have, such as number 2 at line 7: read "
+          "without them"});
   const TriangleMesh never = objOf(kSquare + "vn 0 0 1\nf 1//1 2//0 3//1\n");
-  CHECK(never.notes ==
-        NoteTexts{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
-                  "without"});
+  CHECK(
+      never.notes ==
+      NoteTexts{
+          "1 corner of a face names normals that the file does not have, such as those at line 6: read without them"});
 }
 
 TEST_CASE("what an OBJ file has beside faces is left out with a note", "[asset][obj]") {

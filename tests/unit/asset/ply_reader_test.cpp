@@ -89,17 +89,17 @@ TEST_CASE("a PLY file's elements may come in any order, and its header end as li
   CHECK(mesh.triangles == std::vector<std::array<uint32_t, 3>>{{2, 1, 0}});
   CHECK(mesh.normals.empty());
   CHECK(plyRefusal(replacedIn(faces_first, "3 2 1 0", "3 2 1 3")) ==
-        "face 0 has a corner that is none of the file's 3 vertices, at line 10");
+        "face 0 has a corner that is not one of the file's 3 vertices, at line 10");
   // A vertex more than the header declares is taken for a face.
   const std::string five =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
   CHECK(plyRefusal(five + "1 7 1\n3 0 1 2\n") ==
-        "face 0 has a corner that is none of the file's 4 vertices: the file has more lines than the header declares, "
-        "perhaps more vertices, at line 14");
+        "face 0 has a corner that is not one of the file's 4 vertices: the file has more lines than the header "
+        "declares, perhaps more vertices, at line 14");
   CHECK(plyRefusal(five + "0.5 1 1\n3 0 1 2\n") ==
-        "it has a list of no length within 0 of 1 of the element `face`, counted from 0: the file has more lines than "
-        "the header declares, perhaps more vertices, at line 14");
+        "it has a list without a length within 0 of 1 of the element `face`, counted from 0: the file has more lines "
+        "than the header declares, perhaps more vertices, at line 14");
   // The first number begins with the byte of a line's end.
   std::string binary =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
@@ -119,20 +119,21 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
   const auto at = [&](size_t byte) { return ", at byte " + std::to_string(body + byte); };
   const std::pair<std::string, std::string> cases[] = {
       {"", "it is empty"},
-      {"hello\n", "it is no PLY file: it does not begin with `ply`, at line 1"},
+      {"hello\n", "it is not a PLY file: it does not begin with `ply`, at line 1"},
       {"ply\nformat ascii 1.0\n", "it ends within its header, at line 3"},
       {"ply\nend_header\n", "its header has no `format`, at line 2"},
       {with("ascii", "binary"),
-       "it has the format `binary` of version `1.0`, and of 1.0 there are `ascii`, `binary_little_endian` and "
-       "`binary_big_endian`, at line 2"},
-      {with("comment", "remark"), "`remark` begins no line of a PLY header, at line 3"},
-      {with("camera 2", "camera -2"), "`-2` is no number of elements, at line 5"},
-      {with("camera 2", "camera"), "`` is no number of elements, at line 5"},
-      {with("camera 2", "camera 99999999999999999999"), "`99999999999999999999` is no number of elements, at line 5"},
+       "it has the format `binary` of version `1.0`; the formats of version 1.0 are `ascii`, `binary_little_endian` "
+       "and `binary_big_endian`, at line 2"},
+      {with("comment", "remark"), "`remark` is not a keyword of a PLY header, at line 3"},
+      {with("camera 2", "camera -2"), "`-2` is not a number of elements, at line 5"},
+      {with("camera 2", "camera"), "`` is not a number of elements, at line 5"},
+      {with("camera 2", "camera 99999999999999999999"),
+       "`99999999999999999999` is not a number of elements, at line 5"},
       {with("element camera 2", "property int x"), "a property stands before the first element, at line 5"},
       {with("element camera", "element face"), "it has two elements `face`, at line 20"},
-      {with("list uchar short", "list float short"), "`float` is no type of a list's length, at line 6"},
-      {with("list uchar short", "list uchar long"), "`long` is no type of a property, at line 6"},
+      {with("list uchar short", "list float short"), "`float` is not a type of a list's length, at line 6"},
+      {with("list uchar short", "list uchar long"), "`long` is not a type of a property, at line 6"},
       {with("float far", "float"), "a property has no name, at line 7"},
       {with("element vertex", "element point"), "it has no element `vertex`"},
       {with("element face", "element polygon"), "it has no element `face`"},
@@ -142,20 +143,24 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
       {with("property list uint8 uint vertex_indices", "property uint vertex_indices"),
        "its element `face` has no list `vertex_indices` of whole numbers"},
       {with("vertex 4", "vertex 4000000"),
-       "it says that it has 4000000 of the element `vertex`, and has bytes for 7 at most, at line 28"},
+       "its header declares 4000000 of the element `vertex`, and it has bytes for 7 at most, at line 28"},
       {with("255 -0.5", "255 x"),
        "it has `x`, which is not a number, within 2 of 4 of the element `vertex`, counted from "
        "0, at line 31"},
-      {with("255 -0.5", "255 nan"), "vertex 2 has a position that is no number from -1000000 to 1000000, at line 31"},
+      {with("255 -0.5", "255 nan"),
+       "vertex 2 has a position that is not a number from -1000000 to 1000000, at line 31"},
       {with("0 2 0 0\n", "0 inf 0 0\n"), "vertex 0 has a normal that is not finite, at line 29"},
       {with("0 2 0 0\n", "0 2 0 nan\n"), "vertex 0 has texture coordinates that are not finite, at line 29"},
-      {with("-1 4 0 1 2 3", "-1 4 0 1 2 4"), "face 0 has a corner that is none of the file's 4 vertices, at line 33"},
-      {with("-1 4 0 1 2 3", "-1 4 0 1 2 -1"), "face 0 has a corner that is none of the file's 4 vertices, at line 33"},
-      {with("-1 4 0 1 2 3", "-1 4 0 1 2 0.5"), "face 0 has a corner that is none of the file's 4 vertices, at line 33"},
-      {with("-1 4 0 1 2 3", "-1 4 0 1 2 nan"), "face 0 has a corner that is none of the file's 4 vertices, at line 33"},
+      {with("-1 4 0 1 2 3", "-1 4 0 1 2 4"),
+       "face 0 has a corner that is not one of the file's 4 vertices, at line 33"},
+      {with("-1 4 0 1 2 3", "-1 4 0 1 2 -1"),
+       "face 0 has a corner that is not one of the file's 4 vertices, at line 33"},
+      {with("-1 4 0 1 2 3", "-1 4 0 1 2 0.5"),
+       "face 0 has a corner that is not one of the file's 4 vertices, at line 33"},
+      {with("-1 4 0 1 2 3", "-1 4 0 1 2 nan"),
+       "face 0 has a corner that is not one of the file's 4 vertices, at line 33"},
       {with("-1 4 0", "-1 -4 0"),
-       "it has a list of no length within 0 of 3 of the element `face`, counted from 0, at "
-       "line 33"},
+       "it has a list without a length within 0 of 3 of the element `face`, counted from 0, at line 33"},
       {with("-1 4 0", "-1 1e300 0"),
        "a line has fewer values than the header declares within 0 of 3 of the element `face`, counted from 0, at line "
        "33"},
@@ -163,11 +168,12 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
       {text.substr(0, text.find("\n0 2 0 1 0")),
        "it ends within 2 of 3 of the element `face`, counted from 0, at line 34"},
       {replacedIn(bytes, "vertex 4", "vertex 400000"),
-       "it says that it has 400000 of the element `vertex`, and has bytes for 6 at most" + std::string(", at byte ") +
-           std::to_string(body + 5 + 14)},
+       "its header declares 400000 of the element `vertex`, and it has bytes for 6 at most" +
+           std::string(", at byte ") + std::to_string(body + 5 + 14)},
       {bytes.substr(0, bytes.size() - 9),
        "it ends within 2 of 3 of the element `face`, counted from 0" + at(plyBytes(false).size() - 16)},
-      {bytes.substr(0, body + 3), "it says that it has 2 of the element `camera`, and has bytes for 0 at most" + at(0)},
+      {bytes.substr(0, body + 3),
+       "its header declares 2 of the element `camera`, and it has bytes for 0 at most" + at(0)},
   };
   for (const auto& [file, message] : cases) {
     INFO(file);
@@ -179,7 +185,7 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
   std::string turned = binaryPly(true);
   const std::string list = "list uint8 uint vertex_indices";
   turned = replacedIn(turned, list, "list uint32 uint vertex_indices");
-  CHECK(plyRefusal(turned).starts_with("face 0 has a corner that is none of the file's 4 vertices, at byte "));
+  CHECK(plyRefusal(turned).starts_with("face 0 has a corner that is not one of the file's 4 vertices, at byte "));
 }
 
 TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken for something else", "[asset][ply]") {
@@ -202,15 +208,14 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   // Records over several lines, and several on one.
   CHECK(volumeOf(read("0\n0 0\n3 0\n0\n0 3 0\n0 0 3\n3\n0 2 1 7\n3 0 1 3\n7\n3 1 2 3 7\n3 2 0 3 7")) == 4.5);
   CHECK(volumeOf(read("0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7")) == 4.5);
-  CHECK(read(points + faces + "# the end\n").notes ==
-        NoteTexts{"text behind its last element is left out, at line 19"});
+  CHECK(read(points + faces + "# the end\n").notes == NoteTexts{"text after its last element is left out, at line 19"});
   // Where it cannot be told whose a value is, there is an error.
   CHECK(
       plyRefusal(header + "0 0\n3 0 0\n0 3 0\n0 0 3\n" + faces) ==
       "a line has fewer values than the header declares within 0 of 4 of the element `vertex`, counted from 0, at line "
       "11");
   CHECK(plyRefusal(header + "0 0\n0 3 0 0\n0 3 0\n0 0 3\n" + faces + "1\n1\n") ==
-        "a line has more values than the header declares, behind one with fewer within 0 of 4 of the element `vertex`, "
+        "a line has more values than the header declares, after one with fewer within 0 of 4 of the element `vertex`, "
         "counted from 0, at line 12");
   CHECK(plyRefusal(header + "0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7 8") ==
         "it has more values than the header declares, at line 11");
@@ -247,6 +252,6 @@ TEST_CASE("a PLY file's polygons are cut, and its strips are triangles", "[asset
   for (const int32_t corner : {0, 1, 2}) putNumber(binary, corner);
   CHECK(meshIn(binary, MeshFileKind::ply).notes.empty());
   CHECK(meshIn(binary + "xy", MeshFileKind::ply).notes ==
-        std::vector<std::string>{"2 bytes behind its last element are left out, at byte " +
+        std::vector<std::string>{"2 bytes after its last element are left out, at byte " +
                                  std::to_string(binary.size())});
 }

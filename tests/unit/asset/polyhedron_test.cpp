@@ -85,7 +85,7 @@ TEST_CASE("what is no solid is refused", "[asset][polyhedron]") {
                                     Catch::Matchers::EndsWith(": one of them is turned inside out"));
   TriangleMesh inside_out = boxMesh({0, 0, 0}, {1, 1, 1});
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
-  CHECK(complaint(inside_out) == "it is turned inside out: its faces look in");
+  CHECK(complaint(inside_out) == "it is turned inside out: its faces point inwards");
   MeshMaker flat;
   flat.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   CHECK(complaint(flat.mesh) == "it is flat: thinner than a millimetre");

@@ -106,7 +106,7 @@ TEST_CASE("glTF: accessors of another type, and sparse ones without whole number
                   R"("values":{"bufferView":0}})");
   sparse.mesh(R"("attributes":{"POSITION":0})");
   CHECK(glbRefusal(sparse.glb()) ==
-        "accessor 0 is sparse by indices that are not unsigned whole numbers, at "
+        "accessor 0 has sparse indices that are not unsigned whole numbers, at "
         "/accessors/0/sparse/indices/componentType of its JSON");
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("glTF: numbers that are not finite are refused with their place", "[as
   text.numbers("VEC3", std::vector<float>(9, 0.0f));
   text.mesh(R"("attributes":{"POSITION":0})");
   CHECK(glbRefusal(text.json(R"(,"uri":"data:;base64,AAAAAAAAAAAAAAAAAADAfwAAAAAAAAAAAAAAAAAAAAAAAAAA")")) ==
-        "accessor 0 has a position that is no number from -1000000 to 1000000, at byte 12 of buffer 0");
+        "accessor 0 has a position that is not a number from -1000000 to 1000000, at byte 12 of buffer 0");
   GltfBuilder laid = cubesOf(cubePrimitive(R"(,"TEXCOORD_0":2)", R"(,"material":0)"));
   laid.numbers("VEC2", std::vector<float>(16, 3e38f));
   laid.members = R"("nodes":[{"mesh":0}],"materials":[{"emissiveTexture":{"index":0,"extensions":{)"
@@ -156,10 +156,10 @@ TEST_CASE("glTF: what is odd about primitives is noted, of one and of several", 
         Notes{"1 primitive has no positions and is left out, at /meshes/0/primitives/1 of its JSON",
               "2 primitives have no positions and are left out, the first at /meshes/0/primitives/1 of its JSON"});
   CHECK(ofBoth(R"("attributes":{"POSITION":0},"indices":2,"mode":5)", "") ==
-        Notes{"1 strip has triangles at odd places alone, at /meshes/0/primitives/1 of its JSON: not turned round, as "
-              "the format would have it",
-              "2 strips have triangles at odd places alone, the first at /meshes/0/primitives/1 of its JSON: not "
-              "turned round, as the format would have it"});
+        Notes{"1 strip has triangles at odd places only, at /meshes/0/primitives/1 of its JSON: read without the "
+              "reversal that the format requires",
+              "2 strips have triangles at odd places only, the first at /meshes/0/primitives/1 of its JSON: read "
+              "without the reversal that the format requires"});
   CHECK(ofBoth(R"("attributes":{"POSITION":3})", "") ==
         Notes{"1 primitive has positions without bytes, at /meshes/0/primitives/1 of its JSON: all of them are 0",
               "2 primitives have positions without bytes, the first at /meshes/0/primitives/1 of its JSON: all of "
@@ -167,9 +167,9 @@ TEST_CASE("glTF: what is odd about primitives is noted, of one and of several", 
   CHECK(ofBoth(cubePrimitive("", R"(,"material":0)"),
                R"("nodes":[{"mesh":0}],"materials":[{"emissiveTexture":{"index":0,"texCoord":1}}])") ==
         Notes{"1 primitive lacks the texture coordinates that its material names, at /meshes/0/primitives/1 of its "
-              "JSON: read without",
+              "JSON: read without them",
               "2 primitives lack the texture coordinates that their materials name, the first at "
-              "/meshes/0/primitives/1 of its JSON: read without"});
+              "/meshes/0/primitives/1 of its JSON: read without them"});
   GltfBuilder loose = cubesOf(times(2, cubePrimitive()));
   loose.members = R"("nodes":[{"mesh":0,"skin":0}],"skins":[{"joints":[0]}])";
   CHECK(notesOf(loose.glb()) ==
@@ -179,7 +179,7 @@ TEST_CASE("glTF: what is odd about primitives is noted, of one and of several", 
 
 TEST_CASE("glTF: what is odd about the file, its scene and its skins is said", "[asset][gltf]") {
   const std::string whole = cubesOf().glb();
-  CHECK(notesOf(whole + "a") == Notes{"1 byte behind its end is left out, at byte " + std::to_string(whole.size())});
+  CHECK(notesOf(whole + "a") == Notes{"1 byte after its end is left out, at byte " + std::to_string(whole.size())});
   GltfBuilder extended = cubesOf();
   extended.members = R"("nodes":[{"mesh":0}],"extensionsUsed":["ACME_one","ACME_two"])";
   CHECK(notesOf(extended.glb()) == Notes{"2 extensions that it uses are left out, the first `ACME_one`"});
@@ -189,7 +189,7 @@ TEST_CASE("glTF: what is odd about the file, its scene and its skins is said", "
   CHECK(notesOf(hidden.glb()) ==
         Notes{"2 nodes are hidden, with all below them, the first at /nodes/1 of its JSON: left out"});
   const std::string behind = ", at /nodes/0/extensions/EXT_mesh_gpu_instancing/attributes of its JSON";
-  CHECK(glbRefusal(placedCube(R"("TRANSLATION":2)").glb()) == "node 0 has instances that are not there" + behind);
+  CHECK(glbRefusal(placedCube(R"("TRANSLATION":2)").glb()) == "node 0 refers to instances that do not exist" + behind);
   GltfBuilder placed = placedCube(R"("ROTATION":2)");
   placed.numbers("VEC4", std::vector<float>{0, 0, 0, 1, 0, 0, 0, 0});
   CHECK(glbRefusal(placed.glb()) == "node 0 has an instance turned by a quaternion without a length" + behind);
@@ -220,14 +220,14 @@ TEST_CASE("PLY and STL: one byte behind the end, and several faces that are none
   const std::string binary = "ply\nformat binary_little_endian 1.0\n" + vertices + "element face 1\n" + corners +
                              std::string("\0\0\0\1\0\0\0\1\0\3\0\1\2", 13);
   CHECK(notesOf(binary + "a", MeshFileKind::ply) ==
-        Notes{"1 byte behind its last element is left out, at byte " + std::to_string(binary.size())});
+        Notes{"1 byte after its last element is left out, at byte " + std::to_string(binary.size())});
   std::string stl(80, '\0');
   putNumber(stl, uint32_t{1});
   for (const float v : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) putNumber(stl, v);
   putNumber(stl, uint16_t{0});
   CHECK(notesOf(stl, MeshFileKind::stl).empty());
   CHECK(notesOf(stl + "a", MeshFileKind::stl) ==
-        Notes{"1 byte behind its last triangle is left out, at byte " + std::to_string(stl.size())});
+        Notes{"1 byte after its last triangle is left out, at byte " + std::to_string(stl.size())});
 }
 
 TEST_CASE("polygons that take more steps than there are are refused with their place", "[asset][polygon]") {

@@ -59,25 +59,28 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
   const std::string size = std::to_string(binaryStl().size());
   const std::pair<std::string, std::string> cases[] = {
       {"", "it is empty"},
-      {"facet", "it is no STL file: it ends within its header, at byte 5"},
-      {binaryStl("b", 3), "it says that it has 3 triangles, which take 234 bytes, and has 184 bytes, at byte 80"},
+      {"facet", "it is not an STL file: it ends within its header, at byte 5"},
+      {binaryStl("b", 3),
+       "its header declares 3 triangles, which take 234 bytes, and the file has 184 bytes, at byte 80"},
       {binaryStl("solid", 4294967295u),
-       "it says that it has 4294967295 triangles, which take 214748364834 bytes, and has 184 bytes, at byte 80"},
-      {binaryStl("b", 0), "it says that it has 0 triangles, which take 84 bytes, and has 184 bytes, at byte 80"},
+       "its header declares 4294967295 triangles, which take 214748364834 bytes, and the file has 184 bytes, at byte "
+       "80"},
+      {binaryStl("b", 0),
+       "its header declares 0 triangles, which take 84 bytes, and the file has 184 bytes, at byte 80"},
       {binaryStl("b", 0).substr(0, 84), "it has no triangles"},
       {"solid\nendsolid\n", "it has no triangles"},
-      {"solid\n", "it ends where `facet` is due, at line 2"},
-      {replacedIn(kStlText, "outer", "inner"), "`inner` stands where `outer` is due, at line 3"},
-      {replacedIn(kStlText, "loop", "lop"), "`lop` stands where `loop` is due, at line 3"},
-      {replacedIn(kStlText, "normal", "norm"), "`norm` stands where `normal` is due, at line 2"},
-      {replacedIn(kStlText, "endloop", "vertex 0 0 0"), "`vertex` stands where `endloop` is due, at line 7"},
-      {replacedIn(kStlText, "endfacet", "facet"), "`facet` stands where `endfacet` is due, at line 8"},
-      {replacedIn(kStlText, "  endfacet", ""), "`facet` stands where `endfacet` is due, at line 9"},
-      {replacedIn(kStlText, "vertex 1", "vertex a"), "`a` is no number, at line 5"},
+      {"solid\n", "it ends where `facet` is expected, at line 2"},
+      {replacedIn(kStlText, "outer", "inner"), "`inner` stands where `outer` is expected, at line 3"},
+      {replacedIn(kStlText, "loop", "lop"), "`lop` stands where `loop` is expected, at line 3"},
+      {replacedIn(kStlText, "normal", "norm"), "`norm` stands where `normal` is expected, at line 2"},
+      {replacedIn(kStlText, "endloop", "vertex 0 0 0"), "`vertex` stands where `endloop` is expected, at line 7"},
+      {replacedIn(kStlText, "endfacet", "facet"), "`facet` stands where `endfacet` is expected, at line 8"},
+      {replacedIn(kStlText, "  endfacet", ""), "`facet` stands where `endfacet` is expected, at line 9"},
+      {replacedIn(kStlText, "vertex 1", "vertex a"), "`a` is not a number, at line 5"},
       {replacedIn(kStlText, "vertex 1", "vertex inf"),
-       "a triangle has a corner that is no number from -1000000 to 1000000, at line 5"},
+       "a triangle has a corner that is not a number from -1000000 to 1000000, at line 5"},
       {kStlText.substr(0, kStlText.find("0 1 5")), "it ends within a triangle, at line 6"},
-      {kStlText + "solids\n" + kStlFacet, "`solids` stands where `solid` is due, at line 17"},
+      {kStlText + "solids\n" + kStlFacet, "`solids` stands where `solid` is expected, at line 17"},
   };
   for (const auto& [file, message] : cases) {
     INFO(file);
@@ -86,7 +89,7 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
   std::string nan = binaryStl();
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(nan.data() + 134 + 12 + 12 + 4, &not_a_number, 4);
-  CHECK(stlRefusal(nan) == "a triangle has a corner that is no number from -1000000 to 1000000, at byte 158");
+  CHECK(stlRefusal(nan) == "a triangle has a corner that is not a number from -1000000 to 1000000, at byte 158");
   for (const std::string& file : {binaryStl(), kStlText}) {
     CHECK(stlRefusal(file, {.triangles = 1}) == "it has more than 1 triangles");
     CHECK(stlRefusal(file, {.points = 5}) == "it has more than 1 triangles");
@@ -97,12 +100,12 @@ TEST_CASE("what stands behind an STL file's end is left out with a note", "[asse
   using NoteTexts = std::vector<std::string>;
   const TriangleMesh binary = meshIn(binaryStl() + "four", MeshFileKind::stl);
   CHECK(binary.triangles.size() == 2);
-  CHECK(binary.notes == NoteTexts{"4 bytes behind its last triangle are left out, at byte 184"});
+  CHECK(binary.notes == NoteTexts{"4 bytes after its last triangle are left out, at byte 184"});
   CHECK(meshIn(binaryStl(), MeshFileKind::stl).notes.empty());
   const TriangleMesh text = meshIn(kStlText + "\x1A", MeshFileKind::stl);
   CHECK(text.triangles.size() == 2);
-  CHECK(text.notes == NoteTexts{"text behind its last `endsolid` is left out, at line 17"});
+  CHECK(text.notes == NoteTexts{"text after its last `endsolid` is left out, at line 17"});
   // More than a program adds of its own is another file.
   CHECK(stlRefusal(binaryStl() + std::string(5000, 'x')) ==
-        "it says that it has 2 triangles, which take 184 bytes, and has 5184 bytes, at byte 80");
+        "its header declares 2 triangles, which take 184 bytes, and the file has 5184 bytes, at byte 80");
 }

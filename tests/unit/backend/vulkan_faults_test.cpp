@@ -229,7 +229,7 @@ void keepPipelines(Faulty& faulty) {
 
   const std::vector<std::string> warnings = warningsWith(file / "folder");
   REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
+  CHECK(warnings[0].find("compiled pipelines are not cached") != std::string::npos);
   CHECK(warnings[0].find((file / "folder").string()) != std::string::npos);
   CHECK(contentOf(file) == content);
 }

@@ -174,7 +174,7 @@ void failToMake(vulkan::Engine& engine) {
   gate.fail(VK_SUCCESS);
   awaitReady(machine, jobs, expected);
   REQUIRE(machine.warnings.size() == 1);
-  CHECK(machine.warnings[0].find("the CPU goes on meshing") == 0);
+  CHECK(machine.warnings[0].find("the CPU continues to mesh") == 0);
 }
 
 }  // namespace

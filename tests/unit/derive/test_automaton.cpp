@@ -219,7 +219,7 @@ TEST_CASE("an automaton whose arguments come out wrong is left out with a note")
   CHECK(noteOf("2m, threshold below") ==
         "the threshold of `ca` is from 0% to 100%: such as threshold 50%; it is left out");
   CHECK(noteOf("2m, radius count") ==
-        "the radius of `ca` is from 1 to 4 voxels, a number: such as radius 1; it is left out");
+        "the radius of `ca` is a number, from 1 to 4 voxels: such as radius 1; it is left out");
   CHECK(noteOf("2m, rounds count, radius 2") ==
         "rounds times radius of `ca` is at most 16: so many voxels around each cell are computed with it; it is left "
         "out");

@@ -337,7 +337,7 @@ TEST_CASE("caps fail the cell with the place and the path") {
   DeriveLimits shapes;
   shapes.shapes = 10;
   CHECK(failing(shapes).message ==
-        "more than 10 shapes in one cell (derive fewer, or make the cells smaller), in main(0, 0, 0)/Main/Leaf[10]");
+        "one cell has more than 10 shapes (derive fewer, or make the cells smaller), in main(0, 0, 0)/Main/Leaf[10]");
   CHECK(failing(shapes).line == 3);
   DeriveLimits steps;
   steps.steps = 100;

@@ -146,7 +146,7 @@ TEST_CASE("an asset that would run through itself is left out with a note", "[de
   REQUIRE(result.program);
   const GrammarChunk chunk = derived(*result.program);
   REQUIRE(chunk.notes.size() == 1);
-  CHECK(chunk.notes[0].message == "in this size it runs through itself; it is left out");
+  CHECK(chunk.notes[0].message == "in this size it intersects itself; it is left out");
 }
 
 TEST_CASE("the same asset in the same size is fitted once, and costs steps", "[derive][fit]") {

@@ -40,9 +40,9 @@ const NoteCase kNotes[] = {
     {"a turn needs an axis longer than 0 and an angle within a million radians; this one is left out", "",
      "rot(y, 2000000rad) box(2m);", "rot(y, 0deg) box(2m);"},
     {"a scale must be positive; it is left out", "", "scale(rand(-2, -1)) box(2m);", "scale(rand(1, 1)) box(2m);"},
-    {"the distance between points must be positive; no points", "", "scatter poisson(rand(-2m, -1m)) { sphere(1m); }",
-     ""},
-    {"the distance between points must be positive; no points", "",
+    {"the distance between points must be positive; there are no points", "",
+     "scatter poisson(rand(-2m, -1m)) { sphere(1m); }", ""},
+    {"the distance between points must be positive; there are no points", "",
      "scatter poisson(rand(-2m, -1m)) on disc(4m) { sphere(1m); }", ""},
     {"an anchor must lie in the cell that derives it, which alone owns it; this one is left out", "anchor",
      "at(0m, -20m, 0m) anchor spawn;", ""},
@@ -63,9 +63,9 @@ const NoteCase kNotes[] = {
      "size(4m, 4m, 4m) split x { rand(-2m, -1m): box(9m); }", ""},
     {"the parts that are repeated have no size; they are left out: give one of them a size, such as 2m", "{ 0m",
      "size(4m, 4m, 4m) split x { { 0m: box(9m); }* }", ""},
-    {"the parts are longer than the scope; what does not fit is cut off: give a size that may shrink as ~2m", "split",
+    {"the parts are longer than the scope; the rest is cut off: write a size that may shrink as ~2m", "split",
      "size(4m, 4m, 4m) split x { 9m: box(2m); }", "size(4m, 4m, 4m) split x { 4m: box(2m); }"},
-    {"the lines of a split snap by 0m or more, such as snap 0.5m; none snap here", "rand",
+    {"the snap reach of a split is 0m or more, such as snap 0.5m; none snap here", "rand",
      "size(4m, 4m, 4m) snap x 3m split x snap rand(-2m, -1m) { ~1m: box(2m); ~1m: box(3m); }",
      "size(4m, 4m, 4m) snap x 3m split x snap rand(0m, 0m) { ~1m: box(2m); ~1m: box(3m); }"},
     {"the edges of this polygon cross, or hold no area; it is left out: give its corners in order around it", "polygon",
@@ -77,28 +77,29 @@ const NoteCase kNotes[] = {
     {"this scope's box has no size, or one of more than 1 km, so it gets no rooms: give it one, such as size(12m, 3m, "
      "9m)",
      "treemap", "size(4m, 0m, 4m) treemap { a 4: { } }", ""},
-    {"this floor has no room for these rooms between their walls; the treemap is left out: fewer rooms, thinner walls "
-     "or "
-     "a larger scope",
+    {"this floor has no room for these rooms between their walls; the treemap is left out: use fewer rooms, thinner "
+     "walls or a larger scope",
      "treemap", "size(4m, 4m, 4m) treemap(wall 3m) { a 4: { } }", ""},
     {"the area of a room is a millionth to a million, such as `living 28`; this one is left out", "b rand",
      "size(9m, 4m, 9m) treemap { a 4: { } b rand(-2, -1): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
     {"the area of a room is a millionth to a million, such as `living 28`; this one is left out", "b rand",
      "size(9m, 4m, 9m) treemap { a 4: { } b rand(1/1e9, 1/1e9): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
-    {"no wall of `b` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room", "b 4",
+    {"no wall of `b` is wide enough for a door, so nothing leads into it: use a narrower door, or a larger room", "b 4",
      "size(12m, 4m, 4m) treemap(door 5m) { a 4: { } b 4: { } }",
      "size(12m, 4m, 4m) treemap(door 5m) { a 4: { } b 4: { } }"},
-    {"`a` and `c` share no wall wide enough for this door, so it is left out: a narrower door, or other areas of rooms",
+    {"`a` and `c` share no wall wide enough for this door, so it is left out: use a narrower door, or other areas of "
+     "rooms",
      "link a c",
      "size(12m, 4m, 4m) treemap { a 4: { } b 2: { } c 2: { } link a b by door; link b c by door; link a c by door; }",
      "size(12m, 4m, 4m) treemap { a 4: { } b 2: { } c 2: { } link a b by door; link b c by door; }"},
-    {"`a` and `b` share no wall wide enough for this door, so it is left out: a narrower door, or other areas of rooms",
+    {"`a` and `b` share no wall wide enough for this door, so it is left out: use a narrower door, or other areas of "
+     "rooms",
      "link", "size(9m, 4m, 7m) treemap { a 4: { } b 4: { } link a b by door(8m); }",
      "size(9m, 4m, 7m) treemap { a 4: { } b 4: { } }"},
-    {"no outer wall of these rooms is wide enough for the entrance, so nothing leads in: a narrower door, or a larger "
-     "scope",
+    {"no outer wall of these rooms is wide enough for the entrance, so nothing leads in: use a narrower door, or a "
+     "larger scope",
      "treemap", "size(9m, 4m, 7m) treemap(door 10m) { a 4: { } }", "size(9m, 4m, 7m) treemap(door 10m) { a 4: { } }"},
-    {"a door is 0.1m to 100m wide, such as door 0.9m; this one is taken as if left out", "rand",
+    {"a door is 0.1m to 100m wide, such as door 0.9m; the default is used", "rand",
      "size(9m, 4m, 7m) treemap(door rand(-2m, -1m)) { a 4: { } b 4: { } }",
      "size(9m, 4m, 7m) treemap(door rand(0.9m, 0.9m)) { a 4: { } b 4: { } }"},
     {"these tiles cannot fill the (3, 1, 1) places of this scope, and it is left empty: place (2, 0, 0) would "
@@ -122,7 +123,7 @@ const NoteCase kNotes[] = {
      "size(9m, 1m, 9m) wfc (1m, rand(-2m, -1m), 1m) { a 1: box(scope); }", ""},
     {"this scope's box has no size, so it gets no tiles: give it one, such as size(12m, 3m, 12m)", "wfc",
      "size(0m, 0m, 0m) wfc 1m { a 1: box(2m); }", ""},
-    {"this scope has room for more than 32768 tiles; they are left out: larger tiles, or a smaller scope", "wfc",
+    {"this scope has room for more than 32768 tiles; they are left out: use larger tiles, or a smaller scope", "wfc",
      "size(33m, 32m, 32m) wfc 1m { a 1: { } }", ""},
     {"the weight of a tile is 0 to a million, such as `wall 3`; this one is 0", "b rand",
      "size(9m, 1m, 9m) wfc 9m { a 1: box(scope); b rand(-2, -1): box(3m); }",
@@ -192,14 +193,14 @@ TEST_CASE("points that begin inside what they look for are noted, but in rock", 
   };
   const std::string all =
       "5:31 all points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
-      "behind at(0m, -50m, 0m), and probe farther";
+      "after at(0m, -50m, 0m), and probe farther";
   CHECK(notesOf("infinite", -64 * 1024, "up") == all);
   CHECK(notesOf("infinite", -64 * 1024, "down") ==
         "5:31 all points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
-        "behind at(0m, 50m, 0m), and probe farther");
+        "after at(0m, 50m, 0m), and probe farther");
   CHECK(notesOf("infinite", -5 * 1024, "up") ==
         "5:31 most points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
-        "behind at(0m, -50m, 0m), and probe farther");
+        "after at(0m, -50m, 0m), and probe farther");
   CHECK(notesOf("infinite", 64 * 1024, "up") == "");
   CHECK(notesOf("infinite", 5 * 1024, "up") == "");
   // Most of rock is rock: its points look for the caves in it.
@@ -309,8 +310,8 @@ TEST_CASE("tiles that no search has the time for are left out alone, and it is s
   CHECK(chunk->shapes.size() == 2);
   REQUIRE(chunk->notes.size() == 1);
   CHECK(chunk->notes[0].message ==
-        "to fill the (9, 1, 9) places of this scope takes too long, and it is left empty: larger tiles, or a smaller "
-        "scope");
+        "to fill the (9, 1, 9) places of this scope takes too long, and it is left empty: use larger tiles, or a "
+        "smaller scope");
 }
 
 TEST_CASE("notes beyond the limit are counted", "[notes]") {
@@ -319,7 +320,7 @@ TEST_CASE("notes beyond the limit are counted", "[notes]") {
   CHECK(chunk.groups.size() == 1);
   REQUIRE(chunk.notes.size() == 65);
   CHECK(chunk.notes[63].path == "main(0, 0, 0)/Main/Faulty[63]");
-  CHECK(chunk.notes[64].message == "6 more notes on this cell");
+  CHECK(chunk.notes[64].message == "6 more notes on this cell are left out");
   CHECK(chunk.notes[64].path == "main(0, 0, 0)/Main");
 }
 
@@ -350,19 +351,19 @@ TEST_CASE("a cell that is too much says what, on which path, and what to do", "[
   CHECK(message(many, [](DeriveLimits& l) { l.depth = 1; }) ==
         "rules are nested more than 1 deep (give them a smaller `depth`)" + path);
   CHECK(message(many, [](DeriveLimits& l) { l.shapes = 10; }) ==
-        "more than 10 shapes in one cell (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
+        "one cell has more than 10 shapes (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
   CHECK(message(many, [](DeriveLimits& l) {
           l.bytes = 3000;
         }).starts_with("one cell takes more than 0 MiB (derive less, or make the cells smaller)" + path));
   CHECK(message("rule Main { repeat 11 Leaf; } rule Leaf { anchor spawn; }", [](DeriveLimits& l) { l.shapes = 10; }) ==
-        "more than 10 anchors in one cell (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
+        "one cell has more than 10 anchors (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
   const std::string deep = "expressions and statements are nested too deep (let fewer rules call each other)" + path;
   CHECK(message("rule Main { { { { sphere(1m); } } } }", [](DeriveLimits& l) { l.nesting = 4; }) == deep);
   CHECK(message("rule Main { sphere(1m + (1m + (1m + (1m + 1m)))); }", [](DeriveLimits& l) { l.nesting = 4; }) == deep);
   CHECK(message("rule Main { scatter poisson(1cm) { sphere(1m); } }", [](DeriveLimits&) {}) ==
-        "more points in one cell than can be derived (take a larger distance in poisson())" + path);
+        "one cell has more points than can be derived (take a larger distance in poisson())" + path);
   CHECK(message("rule Main { scatter 2000000 on disc(4m) { sphere(1m); } }", [](DeriveLimits&) {}) ==
-        "more than a million points in one scatter (take fewer, or a larger distance)" + path);
+        "one scatter has more than a million points (take fewer, or a larger distance)" + path);
 }
 
 TEST_CASE("arguments that fit no grammar are refused in words", "[notes]") {
@@ -374,11 +375,11 @@ TEST_CASE("arguments that fit no grammar are refused in words", "[notes]") {
     return deriveCell(*program, parameters, 7, layer, cell, Ceiling(0)).error().message;
   };
   CHECK(refused(values, 9, {}) == "the grammar has no layer 9; it has 1");
-  CHECK(refused({}, 0, {}) == "the parameter values belong to another grammar; take its defaults");
+  CHECK(refused({}, 0, {}) == "the parameter values belong to another grammar; use the defaults of this one");
   CHECK(refused(values, 0, {1 << 28, 0, 0}) == "the cell lies beyond the end of the world");
   const auto whole = compiled("sgm 1; start Main; rule Main { sphere(1m); }");
   CHECK(deriveCell(*whole, {}, 7, 0, {1, 0, 0}, Ceiling(0)).error().message ==
-        "a grammar without layers has the cell 0 0 0 alone");
+        "a grammar without layers has only the cell 0 0 0");
 
   CHECK(deriveInstances(*program, values, 7, 0, {}, 9, Ceiling(0)).error().message ==
         "the grammar has no rule 9; it has 2");
@@ -417,8 +418,8 @@ TEST_CASE("what goes wrong in an imported file names that file", "[notes]") {
   none.shapes = 0;
   const auto sound = compiled(head + "rule Main { mine.Log(1m, 1m); }");
   CHECK(deriveCell(*sound, {}, 7, 0, {}, Ceiling(0), none).error().message ==
-        "more than 0 shapes in one cell (derive fewer, or make the cells smaller), in main(0, 0, 0)/"
-        "Main/mine.Log[0] (std/mine.sgm)");
+        "one cell has more than 0 shapes (derive fewer, or make the cells smaller), in main(0, 0, 0)/Main/mine.Log[0] "
+        "(std/mine.sgm)");
 }
 
 TEST_CASE("an override that finds nothing is counted where notes are full", "[notes]") {
@@ -433,8 +434,8 @@ TEST_CASE("an override that finds nothing is counted where notes are full", "[no
     REQUIRE(chunk);
     CHECK(chunk->groups.size() == 1);
     REQUIRE(chunk->notes.size() == (limit == 0 ? 1 : 2));
-    const std::string last = limit == 0   ? "2 more notes on this cell"
-                             : limit == 1 ? "1 more note on this cell"
+    const std::string last = limit == 0   ? "2 more notes on this cell are left out"
+                             : limit == 1 ? "1 more note on this cell is left out"
                                           : "this override finds nothing: there is only one `Leaf` here";
     CHECK(chunk->notes.back().message == last);
     CHECK(chunk->notes.back().path == "main(0, 0, 0)/Main");

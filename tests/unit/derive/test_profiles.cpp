@@ -327,7 +327,7 @@ TEST_CASE("roofs and footprints that make no sense are left out with a word", "[
   const std::string court =
       "footprint polygon((0m, 0m), (8m, 0m), (8m, 8m), (6m, 8m), (6m, 2m), (2m, 2m), (2m, 8m), (0m, 8m)) as plan; ";
   CHECK(main(court + "roof flat(1m, overhang 2.1m) of plan;") ==
-        "this overhang grows together in a notch of the outline; the roof is left out: a smaller overhang, or merge "
-        "rectangles");
+        "this overhang grows together in a notch of the outline; the roof is left out: use a smaller overhang, or "
+        "merge rectangles");
   CHECK(derivedRules("rule Main { " + court + "roof flat(1m, overhang 1.9m) of plan; }").notes.empty());
 }

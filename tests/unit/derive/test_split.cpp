@@ -231,7 +231,7 @@ TEST_CASE("what cannot be split says so, with its path, and the rest appears", "
       "rule Main { size(60m, 1m, 1m) split x { { 0.00001m: box(1m); }* } }");
   const auto chunk = deriveCell(*program, ParameterValues::defaults(*program), 1, 0, {}, Ceiling(1 << 30));
   REQUIRE(!chunk);
-  CHECK(chunk.error().message.starts_with("more than a million parts in one split (give them a larger size)"));
+  CHECK(chunk.error().message.starts_with("one split has more than a million parts (give them a larger size)"));
 }
 
 TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no farther than is said", "[split]") {

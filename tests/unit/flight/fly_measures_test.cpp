@@ -17,7 +17,7 @@ TEST_CASE("a defect of any kind among the chunks that were made is told, and non
   sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;
   measures.made.defects[SGM_DEFECT_OPEN_EDGE] = 3;
   measures.made.defects[SGM_DEFECT_PINCHED_VERTEX] = 1;
-  CHECK(*defectOf(measures) == "chunks with 3 open edges, 1 pinched vertices");
+  CHECK(*defectOf(measures) == "chunks with 3 open edges, 1 non-manifold vertices");
   measures.measuring_seconds = 1;
   measures.meshing_seconds = 8;
   CHECK(toJson(measures).text().find("\"share_of_meshing\": 0.125") != std::string::npos);

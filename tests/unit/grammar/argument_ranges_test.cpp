@@ -190,11 +190,11 @@ TEST_CASE("what has no end on one side is written so", "[grammar][ranges]") {
 
 TEST_CASE("a range has two ends of one dimension, made of numbers", "[grammar][ranges]") {
   CHECK(rangeWords("param wide = 2m in 1m..3m;\nrule B(r in 1m..wide) { sphere(r); } rule A { B(1m); } start A;") ==
-        "3:17 not-constant: the range of what a rule takes is made of numbers alone | such as r in 1m..60m");
+        "3:17 not-constant: the range of a parameter is made of numbers alone | such as r in 1m..60m");
   CHECK(rangeWords("rule B(r in 1m..60) { sphere(r); } rule A { B(1m); } start A;") ==
         "2:17 unit-mismatch: the high end of a range is a length, and this is a ratio | write `60m`");
   CHECK(rangeWords("rule B(r in 9m..1m) { sphere(r); } rule A { B(1m); } start A;") ==
-        "2:13 param-range: the range is upside down | write its low end first");
+        "2:13 param-range: the range is reversed | write its low end first");
   CHECK(rangeWords("rule B(r = 90m in 1m..60m) { sphere(r); } rule A { B(); } start A;") ==
         "2:12 param-range: the default of `r` lies outside of its range | widen the range, or choose a default within "
         "it");
@@ -242,11 +242,11 @@ TEST_CASE("the range of a rule stands in its first head", "[grammar][ranges]") {
   CHECK(at("morphic B(r in 1m..9m) : sphere(r) -> box(r) by 0.5;") == words);
   CHECK(rangeWords(
             "rule A { B(2m); } start A;\nrule B(r in 1m..9m) { sphere(r); }\nrule B(r in 1m..8m) lod 2m { box(r); }") ==
-        "4:8 param-range: the range of `r` of `B` is another one than in the first head | the first head has the range "
-        "for all of them | note: the first head is at test.sgm:3:1");
+        "4:8 param-range: the range of `r` of `B` differs from that in the first head | the range in the first head "
+        "holds for all heads | note: the first head is at test.sgm:3:1");
   CHECK(
       rangeWords("rule A { B(2m); } start A;\nrule B(r) { sphere(r); }\nrule B(r in 1m..8m) lod 2m { box(r); }")
-          .starts_with("4:8 param-range: `r` of `B` has a range here and none in the first head | the first head has"));
+          .starts_with("4:8 param-range: `r` of `B` has a range here and none in the first head | the range in the first head"));
 }
 
 TEST_CASE("the caller of an import is told, and the caller of the library for what the library does",

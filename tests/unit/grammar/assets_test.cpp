@@ -86,7 +86,7 @@ TEST_CASE("what an asset's file has beside its triangles is a warning at the imp
   INFO(renderDiagnostics(result));
   REQUIRE(result.program);
   CHECK(inWords(result) ==
-        "1:15 warning asset: `bay.glb`: 6 bytes behind its end are left out, at byte " + end +
+        "1:15 warning asset: `bay.glb`: 6 bytes after its end are left out, at byte " + end +
             "\n2:8 warning asset: `cube.glb`: by its bytes it is OBJ, not glTF as its name or type says, and "
             "is read as such\n2:8 warning asset: `cube.glb`: 1 element of lines or points is left out, at "
             "line 15");
@@ -98,16 +98,16 @@ TEST_CASE("what is no asset is one error with what to do", "[grammar][assets]") 
     return said("sgm 1; import \"" + file + "\" as a; start A; rule A { fit a; }");
   };
   CHECK(importing("none.glb") ==
-        "1:15 import-missing: cannot import `none.glb`: no such file | a path starts at the folder of the file that "
-        "imports");
+        "1:15 import-missing: cannot import `none.glb`: no such file | a path is relative to the folder of the file "
+        "that imports it");
   CHECK(importing("text.glb") ==
         "1:15 asset: cannot import `text.glb`: it is a grammar (.sgm), not a mesh file | save it as binary glTF "
         "2.0 (.glb), all in one file, as triangles, uncompressed");
   CHECK_THAT(importing("open.glb"),
              Catch::Matchers::StartsWith("1:15 asset: cannot import `open.glb`: it is open at the edge from (") &&
-                 Catch::Matchers::EndsWith(", which has no triangle on its other side | an asset is closed: in the "
-                                           "modelling tool fill its holes, merge its points and have its faces look "
-                                           "out"));
+                 Catch::Matchers::EndsWith(
+                     ", which has no triangle on its other side | an asset must be closed: in the modelling tool fill "
+                     "its holes, merge its points and make its faces point outwards"));
   CHECK(importing("fine.glb") ==
         "1:15 import-limit: cannot import `fine.glb`: it has 258 plane faces, and `fit` takes at most 256 | simplify "
         "it in "
@@ -119,12 +119,13 @@ TEST_CASE("what is no asset is one error with what to do", "[grammar][assets]") 
   const std::string text =
       "sgm 1; import \"long.glb\" as a; import \"bay.glb\" as b; start A; rule A { fit a; fit b; }";
   CHECK(inWords(compileGrammar(text, "test.sgm", options)) ==
-        "1:15 import-limit: `long.glb` is too long | a file has at most 1000 bytes, all together 67108864\n"
-        "1:39 import-limit: `bay.glb` is too long | a file has at most 1000 bytes, all together 67108864");
+        "1:15 import-limit: `long.glb` is too long | a file has at most 1000 bytes, and all files together at most "
+        "67108864\n1:39 import-limit: `bay.glb` is too long | a file has at most 1000 bytes, and all files together at "
+        "most 67108864");
   options.limits.asset_bytes = 1 << 20;
   options.limits.files = 0;
   CHECK(inWords(compileGrammar("sgm 1; import \"bay.glb\" as b; start A; rule A { fit b; }", "test.sgm", options)) ==
-        "1:15 import-limit: more than 0 assets | put some of them together");
+        "1:15 import-limit: the program imports more than 0 assets | combine some of them");
 }
 
 TEST_CASE("what `fit` takes, and what takes no asset", "[grammar][assets]") {
@@ -135,16 +136,15 @@ TEST_CASE("what `fit` takes, and what takes no asset", "[grammar][assets]") {
   CHECK(inRule("fit bya;") == "1:64 unknown-name: there is no asset `bya` | did you mean `bay`?");
   CHECK(inRule("fit tower;") ==
         "1:64 unknown-name: there is no asset `tower` | import it: `import \"tower.glb\" as tower;`");
-  CHECK(
-      inRule("fit A;") ==
-      "1:64 wrong-use: `A` is no asset | `fit` takes what is imported from a .glb file, such as `import \"bay.glb\" as "
-      "bay;`");
+  CHECK(inRule("fit A;") ==
+        "1:64 wrong-use: `A` is not an asset | `fit` takes an asset that is imported from a .glb file, such as `import "
+        "\"bay.glb\" as bay;`");
   CHECK(inRule("bay;") == "1:60 wrong-use: `bay` is an asset | put it into a scope: `fit bay;`");
   CHECK(inRule("bay.Door;") == "1:60 wrong-use: `bay` is an asset | put it into a scope: `fit bay;`");
   CHECK(inRule("sphere(bay.x);") == "1:67 wrong-use: `bay` is an asset | put it into a scope: `fit bay;`");
   CHECK(inRule("fit bay stretch x 1..2;") ==
-        "1:78 unit-mismatch: where a zone begins is a length, and this is a ratio | write `1m`\n"
-        "1:81 unit-mismatch: where a zone ends is a length, and this is a ratio | write `2m`");
+        "1:78 unit-mismatch: the beginning of a zone is a length, and this is a ratio | write `1m`\n1:81 "
+        "unit-mismatch: the end of a zone is a length, and this is a ratio | write `2m`");
   CHECK(inRule("fit;") == "1:63 syntax: expected the name of an imported asset, found `;`");
   CHECK(inRule("fit bay stretch w 1m..2m;") == "1:76 syntax: expected x, y or z to stretch along, found `w`");
   CHECK(inRule("fit bay repeat 1m..2m;") == "1:75 syntax: expected x, y or z to repeat along, found `1m`");

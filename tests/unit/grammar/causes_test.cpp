@@ -23,25 +23,25 @@ const MessageCase kZero[] = {
      "rule A { let w = rand(0, 0); sphere(1m/w); }"},
     {"4:46 divide-by-zero: division by zero: `n` is 0 here | divide by a number other than 0",
      "rule A { Post(0); } rule Post(n) { sphere(1m/n); }"},
-    {"4:24 divide-by-zero: division by zero: `swing` divides by what is 0 with these arguments | give it arguments "
-     "other than 0 | note: the division is at std/rock.sgm:89:48",
+    {"4:24 divide-by-zero: division by zero: `swing` divides by a value that is 0 with these arguments | give it "
+     "arguments other than 0 | note: the division is at std/rock.sgm:89:48",
      "rule A { displace 0.1m*rock.swing(0m) { sphere(2m); } }"},
 };
 
 const MessageCase kWeights[] = {
-    {"4:15 value-range: a weight is 0 or more, and this is -1 | write how often this head comes beside the others, "
-     "such as weight 2",
-     "rule A weight -1 { sphere(1m); } rule A weight 2 { box(1m); }"},
-    {"4:15 value-range: a weight is 0 or more, and this is -3 | write how often this head comes beside the others, "
-     "such as weight 2",
-     "rule A weight low { sphere(1m); } rule A { box(1m); }\nlet low = -3 + 0;"},
-    {"4:36 value-range: a weight is 0 or more, and this is at most -2 | write how often this head comes beside the "
+    {"4:15 value-range: a weight is 0 or more, and this is -1 | write how often this head is drawn relative to the "
      "others, such as weight 2",
+     "rule A weight -1 { sphere(1m); } rule A weight 2 { box(1m); }"},
+    {"4:15 value-range: a weight is 0 or more, and this is -3 | write how often this head is drawn relative to the "
+     "others, such as weight 2",
+     "rule A weight low { sphere(1m); } rule A { box(1m); }\nlet low = -3 + 0;"},
+    {"4:36 value-range: a weight is 0 or more, and this is at most -2 | write how often this head is drawn relative to "
+     "the others, such as weight 2",
      "rule A { B(-2); } rule B(w) weight w { sphere(1m); } rule B(w) { box(1m); }"},
     {"4:37 warning value-range: this weight may be as low as -1 | below 0 it counts as 0: bound what it depends on, or "
      "write max(..., 0)",
      "param w = 1 in -1..2; rule A weight w { sphere(1m); } rule A { box(1m); }"},
-    {"4:15 value-range: all heads of `A` have weight 0, so that none ever comes | give one of them a weight above 0",
+    {"4:15 value-range: all heads of `A` have weight 0, so none is ever drawn | give one of them a weight above 0",
      "rule A weight 0 { sphere(1m); } rule A weight z { box(1m); }\nlet z = 0;"},
 };
 

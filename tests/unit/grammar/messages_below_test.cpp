@@ -26,22 +26,22 @@ const MessageCase kQueries[] = {
     {"3:19 syntax: expected `clear` or `inside`, found `2m`", "rule D when query 2m of net { sphere(1m); }"},
     {"3:31 syntax: expected the name of a layer, found `{`", "rule D when query clear 2m of { sphere(1m); }"},
     {"3:10 syntax: expected a statement, found `query`", "rule D { query clear of net; }"},
-    {"3:6 reserved-word: `query` is a word of the language and cannot be the name of a rule | another name, such as "
-     "`query_`",
+    {"3:6 reserved-word: `query` is a word of the language and cannot be the name of a rule | choose another name, "
+     "such as `query_`",
      "rule query { } rule D { }"},
     {"3:17 type-mismatch: `r` of `sphere` is a length, and this is a condition | such as 2m",
      "rule D { sphere(query clear of net); }"},
-    {"3:9 wrong-use: a query is known inside rules only: it asks about the scope's place | ask in a rule, and hand the "
+    {"3:9 wrong-use: a query is known inside rules only: it asks about the scope's place | ask in a rule, and pass the "
      "answer to a let as an argument",
      "let f = query clear of net; rule D when f { sphere(1m); }"},
-    {"3:17 stage: a query is answered once, where shapes are derived, and a field at every point | ask in the rule, "
-     "`let open = query ...;`, and hand that to the field as an argument",
+    {"3:17 stage: a query is answered once, when shapes are derived, and a field is evaluated at every point | ask in "
+     "the rule, `let open = query ...;`, and pass that to the field as an argument",
      "field f(a) = if query clear of net then a else 0m; rule D { displace f(1m) amp 1m { sphere(1m); } }"},
-    {"3:23 stage: a query is answered once, where shapes are derived, and a field at every point | ask in the rule, "
-     "`let open = query ...;`, and hand that to the field as an argument",
+    {"3:23 stage: a query is answered once, when shapes are derived, and a field is evaluated at every point | ask in "
+     "the rule, `let open = query ...;`, and pass that to the field as an argument",
      "rule D { field f = if query clear of net then 1m else 0m; displace f amp 1m { sphere(1m); } }"},
-    {"3:26 stage: a query is answered once, where shapes are derived, and a field at every point | ask in the rule, "
-     "`let open = query ...;`, and hand that to the field as an argument",
+    {"3:26 stage: a query is answered once, when shapes are derived, and a field is evaluated at every point | ask in "
+     "the rule, `let open = query ...;`, and pass that to the field as an argument",
      "rule D { field f(a) = if query clear of net then a else 0m; displace f(1m) amp 1m { sphere(1m); } }"},
     {"3:13 reach: cannot prove reach: this query may look 9 m from its cell, layer `drip` declares reach 8 m | raise "
      "reach to 9 m or ask nearer to the cell",

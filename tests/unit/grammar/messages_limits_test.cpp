@@ -54,35 +54,36 @@ TEST_CASE("messages: limits of the text", "[grammar][messages]") {
   checkAll(compileWithin("sgm 1; start A; rule A { }", [](CompileLimits& l) { l.text_bytes = 10; }),
            "1:1 too-large: the text is longer than 10 bytes | move rules into a file of their own and import it");
   checkAll(compileWithin("sgm 1; a b c", [](CompileLimits& l) { l.nodes = 4; }),
-           "1:10 too-large: more than 4 words and signs | loops and rules say the same in fewer");
+           "1:10 too-large: the text has more than 4 words and signs | use loops and rules to say the same in fewer");
   checkAll(compileWithin(start + times(15, "B; ") + "} rule B { }", [](CompileLimits& l) { l.nodes = 46; }),
-           "1:71 too-large: more than 46 expressions and statements | loops and rules say the same in fewer");
+           "1:71 too-large: the text has more than 46 expressions and statements | use loops and rules to say the same "
+           "in fewer");
   std::string deep;
   for (int i = 1; i < 45; ++i)
     deep += "let a" + std::to_string(i) + " = " + times(10, "-") + "a" + std::to_string(i - 1) + "; ";
   checkAll(compiledHere("sgm 1; start A; let a0 = 1; " + deep + "rule A { repeat a44 { } }"),
-           "1:202 too-deep: lets, fields and expressions within each other go too deep | use fewer levels of lets");
+           "1:202 too-deep: lets, fields and expressions are nested too deep | use fewer levels of lets");
   checkAll(compileWithin(start + "{ { } } }", [](CompileLimits& l) { l.nesting = 3; }),
-           "1:28 too-deep: nested more than 3 deep | name a part of it: a value with let, a block with a rule");
+           "1:28 too-deep: this is nested more than 3 deep | name a part of it: a value with let, a block with a rule");
   checkAll(compileWithin("sgm 1; a; b;", [](CompileLimits& l) { l.diagnostics = 1; }),
-           "1:8 syntax: expected a declaration, found `a` | shapes stand in rules: rule Name { ... }\n"
-           "1:11 too-many-errors: more than 1 errors; the rest is left out");
+           "1:8 syntax: expected a declaration, found `a` | shapes stand in rules: rule Name { ... }\n1:11 "
+           "too-many-errors: there are more than 1 errors; the rest are left out");
   checkAll(compiledHere("sgm 1; let " + times(65, "a") + " = 1;"),
            "1:12 too-large: a name has at most 64 letters | shorten it");
   checkAll(compiledHere(start + "tag \"" + times(1025, "a") + "\"; }"),
            "1:30 bad-text: a text has at most 1024 bytes | shorten it");
   checkAll(compiledHere("sgm 1; let a = 1" + times(300, " + 1") + ";"),
-           "1:16 too-deep: an expression with more than 128 steps | name a part of it with let");
+           "1:16 too-deep: the expression has more than 128 steps | name a part of it with let");
 }
 
 TEST_CASE("messages: limits of what is declared", "[grammar][messages]") {
   const std::string start = "sgm 1; start A; rule A { ";
   checkAll(compiledHere(start + numbered(4096, "{ mat m#; }") + " }"),
-           "1:56248 too-large: more than 4096 different names of one kind | materials, tags and anchors have so many "
-           "names each; use some of them again");
+           "1:56248 too-large: the program has more than 4096 different names of one kind | materials, tags and "
+           "anchors may have that many names each; use some names again");
   checkAll(compiledHere("sgm 1; domain infinite; " + numbered(257, "layer l# cell 8m reach 1m { start A; } ") +
                         "rule A { }"),
-           "1:10417 too-large: more than 256 layers | put rules of several layers into one");
+           "1:10417 too-large: the program has more than 256 layers | put rules of several layers into one");
   std::string chain = "sgm 1; start A; let a0 = 1m;", fields = start;
   for (int i = 1; i < 60; ++i) {
     const std::string n = std::to_string(i), before = std::to_string(i - 1);
@@ -91,12 +92,12 @@ TEST_CASE("messages: limits of what is declared", "[grammar][messages]") {
     fields.append(i == 1 ? "x" : "f" + before + "(x)").append("; ");
   }
   checkAll(compiledHere(chain + " rule A { sphere(a59); }"),
-           "1:186 too-deep: lets and fields use each other more than 48 deep | put some of them together");
+           "1:186 too-deep: lets and fields use each other more than 48 deep | combine some of them");
   checkAll(compiledHere(fields + "displace f59(1m) { sphere(1m); } }"),
-           "1:271 too-deep: lets and fields use each other more than 48 deep | put some of them together");
+           "1:271 too-deep: lets and fields use each other more than 48 deep | combine some of them");
   checkAll(compiledHere("sgm 1; start A; rule A { }" + numbered(20001, "let a#=1;")),
-           "1:248928 too-large: more than 20000 lets and fields, one for each kind of its arguments | write fewer of "
-           "them, or call them with arguments of fewer kinds");
+           "1:248928 too-large: the program has more than 20000 lets and fields, counted once for each kind of "
+           "arguments | write fewer of them, or call them with arguments of fewer kinds");
 }
 
 TEST_CASE("messages: rules too many to follow", "[grammar][messages]") {
@@ -117,14 +118,15 @@ TEST_CASE("messages: imports", "[grammar][messages]") {
     return "sgm 1; import \"" + file + "\" as d; start A; rule A { }";
   };
   checkAll(compileWithin(importing("a.sgm"), [](CompileLimits& l) { l.files = 1; }),
-           "1:15 import-limit: more than 1 files | put some of them together");
+           "1:15 import-limit: the program imports more than 1 files | combine some of them");
   checkAll(compileWithin(importing("a.sgm"), [](CompileLimits& l) { l.import_depth = 1; }),
-           "1:15 import-limit: imports go more than 1 deep | put some of the files together");
-  checkAll(compileWithin(importing("a.sgm"), [](CompileLimits& l) { l.text_bytes = 60; }),
-           "1:15 import-limit: `a.sgm` is too long | a file has at most 60 bytes, all together 4194304");
+           "1:15 import-limit: imports are nested more than 1 deep | combine some of the files");
+  checkAll(
+      compileWithin(importing("a.sgm"), [](CompileLimits& l) { l.text_bytes = 60; }),
+      "1:15 import-limit: `a.sgm` is too long | a file has at most 60 bytes, and all files together at most 4194304");
   checkAll(compiledHere(importing("c.sgm")),
-           "1:15 import-missing: cannot import `c.sgm`: no such file | a path starts at the folder of the file that "
-           "imports");
+           "1:15 import-missing: cannot import `c.sgm`: no such file | a path is relative to the folder of the file "
+           "that imports it");
   checkAll(compiledHere(importing("loop.sgm")),
            "1:15 import-cycle: `loop.sgm` imports itself in a circle | move what both files need into a third");
   checkAll(compiledHere(importing("all.sgm")),

@@ -21,7 +21,7 @@ const MessageCase kParts[] = {
     {"3:3 syntax: this split has no parts | such as `split x { ~1m: Wall; }`", "{ split x { } Part; }"},
     {"3:11 syntax: this repeated group has no parts | such as `{ ~2m: Bay; }*`", "split x { { }* 1m: Part; }"},
     {"3:3 syntax: this comp names no part of the box | such as `comp { side: Wall; }`", "{ comp { } Part; }"},
-    {"3:14 value-range: the lines of a split snap by 0m or more | such as snap 0.5m",
+    {"3:14 value-range: the snap reach of a split is 0m or more | such as snap 0.5m",
      "split x snap -1m { ~1m: Part; }"},
     {"3:12 unit-mismatch: a flexible size is a length, and this is a ratio | write `2m`", "split x { ~2: Part; }"},
     {"3:11 unit-mismatch: the size of a part is a length, and this is an angle | such as 2m",
@@ -29,14 +29,14 @@ const MessageCase kParts[] = {
     {"3:11 stage: the size of a part is decided when shapes are derived, and `p` is known at sample time only | fields "
      "serve displace, warp and the t of morph",
      "split x { p.x: Part; }"},
-    {"3:25 syntax: expected `*` behind the parts that are repeated, found `1m`", "split x { { 2m: Part; } 1m: Part; }"},
+    {"3:25 syntax: expected `*` after the parts that are repeated, found `1m`", "split x { { 2m: Part; } 1m: Part; }"},
     {"3:13 syntax: a repeated group holds no other group | split its parts once more instead",
      "split x { { { 2m: Part; }* }* }"},
-    {"3:26 duplicate: a second repeated group in this split | put its parts into the first one, or split a part once "
+    {"3:26 duplicate: this split has a second repeated group | put its parts into the first one, or split a part once "
      "more",
      "split x { { 2m: Part; }* { 1m: Part; }* }"},
     {"3:14 syntax: expected an expression, found `{`", "split x snap { 2m: Part; }"},
-    {"3:14 unit-mismatch: how far the lines of a split snap is a length, and this is a ratio | write `2m`",
+    {"3:14 unit-mismatch: the snap reach of a split is a length, and this is a ratio | write `2m`",
      "split x snap 2 { 2m: Part; }"},
     {"3:6 syntax: expected x, y or z that the planes stand across, found `w`", "snap w 3m Part;"},
     {"3:10 syntax: expected a block or a statement for `snap`, found `;`", "snap y 3m;"},
@@ -45,10 +45,11 @@ const MessageCase kParts[] = {
     {"3:16 unit-mismatch: the place of the first snap plane is a length, and this is a ratio | write `2m`",
      "snap y 3m from 2 Part;"},
     {"3:8 unknown-name: a box has no part `fornt` | did you mean `front`?", "comp { fornt: Part; }"},
-    {"3:8 unknown-name: a box has no part `chimney` | front, back, left, right, side, top, bottom, edges, inside",
+    {"3:8 unknown-name: a box has no part `chimney` | it has front, back, left, right, side, top, bottom, edges, "
+     "inside",
      "comp { chimney: Part; }"},
     {"3:8 syntax: expected a part of the box such as `front:`, found `2m`", "comp { 2m: Part; }"},
-    {"3:19 duplicate: `top` stands twice in this comp | put both into one block behind it",
+    {"3:19 duplicate: `top` stands twice in this comp | put both into one block after it",
      "comp { top: Part; top: Part; }"},
     {"3:13 syntax: expected a block or a statement for `this part`, found `}`", "comp { top: }"},
     {"3:12 syntax: expected `:`, found `Part`", "comp { top Part; }"},
@@ -81,15 +82,15 @@ const MessageCase kProfiles[] = {
      "footprint polygon((0, 0), (2, 0), (0, 2)) as plan;"},
     {"3:19 argument-name: the corners of a polygon have no names | such as polygon((0m, 0m), (8m, 0m), (8m, 6m))",
      "footprint polygon(a = (2m, 0m), (0m, 2m), (1m, 3m)) as plan;"},
-    {"3:19 wrong-use: `merge` puts rectangles and regular polygons together | give the polygon the corners of the "
-     "whole outline, or merge `rect` or `regular`",
+    {"3:19 wrong-use: `merge` takes rectangles and regular polygons only | give the polygon the corners of the whole "
+     "outline, or merge `rect` or `regular`",
      "footprint merge 2 polygon((2m, 0m), (0m, 2m), (1m, 3m)) as plan;"},
     {"3:12 syntax: expected `of`, found `plan`", "extrude 2m plan;"},
     {"3:14 syntax: expected the name of a plan, found `;`", "extrude 2m of;"},
     {"3:15 syntax: expected the name of a plan, found `3m`", "extrude 2m of 3m;"},
     {"3:15 unknown-name: there is no plan `plan` here | write `footprint rect(12m, 8m) as plan;` before it in the rule",
      "extrude 2m of plan;"},
-    {"3:15 unknown-name: there is no plan `plan` here | it is known behind its footprint: put that first",
+    {"3:15 unknown-name: there is no plan `plan` here | it is known after its footprint: put that first",
      "extrude 2m of plan; footprint rect(2m, 3m) as plan;"},
     {"3:54 unknown-name: there is no plan `plan` here | it is known in the block of its footprint: put that into a "
      "block "
@@ -129,11 +130,11 @@ const MessageCase kRooms[] = {
     {"3:15 syntax: expected `:` and what stands in this room, found `Part`", "treemap { a 4 Part; }"},
     {"3:16 syntax: expected a block or a statement for `this room`, found `}`", "treemap { a 4: }"},
     {"3:11 syntax: expected the name of a room, found `4`", "treemap { 4: Part; }"},
-    {"3:11 reserved-word: `let` is a word of the language and cannot be the name of a room | another name, such as "
-     "`let_`",
+    {"3:11 reserved-word: `let` is a word of the language and cannot be the name of a room | choose another name, such "
+     "as `let_`",
      "treemap { let 4: Part; }"},
     {"3:1 argument-count: a treemap has 1 to 32 rooms | such as `living 28: Room;`", "treemap { }"},
-    {"3:22 duplicate: a second room `a` in this treemap | give each room a name of its own",
+    {"3:22 duplicate: this treemap has a second room `a` | give each room a name of its own",
      "treemap { a 4: Part; a 5: Part; }"},
     {"3:13 unit-mismatch: the area of a room is a ratio, and this is a length | divide it by a length to make a ratio "
      "of it",
@@ -156,9 +157,9 @@ const MessageCase kRooms[] = {
      "treemap(corridor 2) { a 4: Part; }"},
     {"3:9 argument-name: `treemap` has no parameter `walls` | it is `treemap(wall, door, height, corridor)`",
      "treemap(walls 0.2m) { a 4: Part; }"},
-    {"3:38 duplicate: `corridor` stands twice in this treemap | put both into one block behind it",
+    {"3:38 duplicate: `corridor` stands twice in this treemap | put both into one block after it",
      "treemap { a 4: Part; corridor: Part; corridor: Part; }"},
-    {"3:36 duplicate: `facade` stands twice in this treemap | put both into one block behind it",
+    {"3:36 duplicate: `facade` stands twice in this treemap | put both into one block after it",
      "treemap { a 4: Part; facade: Part; facade: Part; }"},
     {"3:36 unknown-name: this treemap has no room `bahth` | did you mean `bath`?",
      "treemap { a 4: Part; bath 4: Part; link a bahth by door; }"},
@@ -166,7 +167,7 @@ const MessageCase kRooms[] = {
      "treemap { a 4: Part; link a kitchen by door; }"},
     {"3:22 wrong-use: a door leads from one room to another | name two rooms",
      "treemap { a 4: Part; link a a by door; }"},
-    {"3:51 duplicate: `b` and `a` are linked twice | one door between two rooms, as wide as the widest of these",
+    {"3:51 duplicate: `b` and `a` are linked twice | keep one door between two rooms, as wide as the widest of these",
      "treemap { a 4: Part; b 4: Part; link a b by door; link b a by door(2m); }"},
     {"3:29 syntax: expected the name of a room, found `by`", "treemap { a 4: Part; link a by door; }"},
     {"3:26 syntax: expected the name of a room, found `;`", "treemap { a 4: Part; link; }"},
@@ -192,12 +193,12 @@ const MessageCase kTiles[] = {
     {"3:14 syntax: expected `:` and what stands in this tile, found `Part`", "wfc 2m { a 1 Part; }"},
     {"3:15 syntax: expected a block or a statement for `this tile`, found `}`", "wfc 2m { a 1: }"},
     {"3:10 syntax: expected the name of a tile, found `4`", "wfc 2m { 4: Part; }"},
-    {"3:10 reserved-word: `let` is a word of the language and cannot be the name of a tile | another name, such as "
-     "`let_`",
+    {"3:10 reserved-word: `let` is a word of the language and cannot be the name of a tile | choose another name, such "
+     "as `let_`",
      "wfc 2m { let 4: Part; }"},
     {"3:15 syntax: expected a side and its label, such as `left wall`, found `Part`", "wfc 2m { a 1, Part: Part; }"},
     {"3:15 unknown-name: a tile has no side `lfet` | did you mean `left`?", "wfc 2m { a 1, lfet b: Part; }"},
-    {"3:15 unknown-name: a tile has no side `chimney` | front, back, left, right, side, top, bottom",
+    {"3:15 unknown-name: a tile has no side `chimney` | it has front, back, left, right, side, top, bottom",
      "wfc 2m { a 1, chimney b: Part; }"},
     {"3:19 syntax: expected the label of a side, found `:`", "wfc 2m { a 1, left: Part; }"},
     {"3:30 syntax: expected the label of a side, found `:`", "wfc 2m { a 1, left plug meets: Part; }"},
@@ -205,18 +206,18 @@ const MessageCase kTiles[] = {
      "border, and let it meet `plug`\n3:37 unknown-name: nothing has `hole` to meet the right of `a` | give it to the "
      "left of a tile, or to the border",
      "wfc 2m { a 1, left plug meets hole, right hole: Part; }"},
-    {"3:17 unknown-name: no tile has `hole` on its right, as this border demands | give a tile that label there, and "
+    {"3:17 unknown-name: no tile has `hole` on its right, as this border requires | give a tile that label there, and "
      "let it meet `plug`",
      "wfc 2m { border right plug meets hole; a 1, right hole: Part; }"},
     {"3:23 duplicate: `left` stands twice here | join labels with `or`: `left wall or gate`",
      "wfc 2m { a 1, left b, left c: Part; }"},
-    {"3:20 reserved-word: `cut` is a word of the language and cannot be the label of a side | another name, such as "
-     "`cut_`",
+    {"3:20 reserved-word: `cut` is a word of the language and cannot be the label of a side | choose another name, "
+     "such as `cut_`",
      "wfc 2m { a 1, left cut: Part; }"},
     {"3:23 syntax: expected `;`, found `:`", "wfc 2m { border left b: Part; }"},
-    {"3:25 duplicate: a second border in this wfc | put its sides into the first one, with a `,` between them",
+    {"3:25 duplicate: this wfc has a second border | put its sides into the first one, with a `,` between them",
      "wfc 2m { border left b; border right b; a 1, side b: Part; }"},
-    {"3:21 duplicate: a second tile `a` in this wfc | give each tile a name of its own",
+    {"3:21 duplicate: this wfc has a second tile `a` | give each tile a name of its own",
      "wfc 2m { a 1: Part; a 2: Part; }"},
     {"3:1 argument-count: a wfc has 1 to 64 tiles | such as `wall 3 turn, left brick, right brick: Wall;`",
      "wfc 2m { }"},
@@ -232,10 +233,10 @@ const MessageCase kTiles[] = {
     {"3:15 unknown-name: nothing has `brick` to meet the left of `a` | did you mean `brik`?\n3:27 unknown-name: "
      "nothing has `brik` to meet the right of `a` | did you mean `brick`?",
      "wfc 2m { a 1, left brick, right brik: Part; }"},
-    {"3:17 unknown-name: no tile has `wood` on its left, as this border demands | give a tile that label there\n3:33 "
+    {"3:17 unknown-name: no tile has `wood` on its left, as this border requires | give a tile that label there\n3:33 "
      "unknown-name: nothing has `stone` to meet the left of `a` | give it to the right of a tile, or to the border",
      "wfc 2m { border side wood; a 1, left stone, right wood: Part; }"},
-    {"3:17 unknown-name: no tile has `sky` on its top, as this border demands | give a tile that label there",
+    {"3:17 unknown-name: no tile has `sky` on its top, as this border requires | give a tile that label there",
      "wfc 2m { border top sky; a 1, side b, top c: Part; }"},
     {"3:8 syntax: expected `;`, found `left`", "border left b;"},
 };

@@ -37,7 +37,7 @@ const MessageCase kTypes[] = {
      "at((1m, 2deg, 3m)) sphere(1m);"},
     {"2:17 type-mismatch: a minus stands before a number, not a condition | write `not`", "sphere(-(1 < 2));"},
     {"2:17 type-mismatch: a minus stands before a number, not a cell | such as -2m", "sphere(-cell);"},
-    {"2:22 type-mismatch: what `not` denies is a condition, and this is a ratio | such as a < b", "let a = not 2;"},
+    {"2:22 type-mismatch: the operand of `not` is a condition, and this is a ratio | such as a < b", "let a = not 2;"},
     {"2:28 type-mismatch: each side of `and` is a condition, and this is a ratio | such as a < b",
      "let a = 1 < 2 and 3;"},
     {"2:27 type-mismatch: each side of `or` is a condition, and this is a ratio | such as a < b",
@@ -123,7 +123,7 @@ const MessageCase kTypes[] = {
     {"2:15 type-mismatch: a warp is a point, and this is a length | such as (1m, 2m, 3m)", "warp 2m { sphere(1m); }"},
     {"2:32 unit-mismatch: the bound of a warp is a length, and this is a ratio | write `3m`",
      "warp (1m, 2m, 3m) amp 3 { sphere(1m); }"},
-    {"2:37 unit-mismatch: how far to morph is a ratio, and this is a length | divide it by a length to make a ratio of "
+    {"2:37 unit-mismatch: the t of a morph is a ratio, and this is a length | divide it by a length to make a ratio of "
      "it",
      "morph(sphere(1m), box(1m), 2m);"},
     {"2:17 unit-mismatch: the size of a detail is a length, and this is a ratio | write `2m`",
@@ -187,13 +187,13 @@ const MessageCase kTypes[] = {
     {"2:17 type-mismatch: a count is a ratio, and this is a cell | such as 3 or 40%", "repeat cell { }"},
     {"2:31 unit-mismatch: `b` of `max` is a length^4, and this is a length | give it the dimension that it needs",
      "let a = max(2m2*2m2, 3m);"},
-    {"2:22 stage: what `for` goes through is decided when shapes are derived, and `p` is known at sample time only | "
+    {"2:22 stage: the source of `for` is decided when shapes are derived, and `p` is known at sample time only | "
      "fields serve displace, warp and the t of morph",
      "for s in if p.x > 0m then branch(3, step 2m, turn 9deg) else branch(4, step 2m, turn 9deg) { }"},
 };
 
 const MessageCase kUses[] = {
-    {"1:18 wrong-use: `cell` is known inside rules only | hand it to a let as an argument\n1:18 type-mismatch: a field "
+    {"1:18 wrong-use: `cell` is known inside rules only | pass it to a let as an argument\n1:18 type-mismatch: a field "
      "gives a number or a vector, not a cell | name it with `let` instead\n1:51 type-mismatch: a displacement is a "
      "length, and this is a cell | such as 2m",
      "sgm 1; field f = cell; start A; rule A { displace f { sphere(1m); } }"},
@@ -239,12 +239,11 @@ const MessageCase kUses[] = {
      "sgm 1; param a = 3 in 0..2; start A; rule A { }"},
     {"1:18 param-range: the default of `a` lies outside of its range | write 60%",
      "sgm 1; param a = 60 in 0%..100%; start A; rule A { }"},
-    {"1:23 param-range: the range is upside down | write its low end first",
+    {"1:23 param-range: the range is reversed | write its low end first",
      "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
-    {"1:14 param-range: `a` is animated, and nothing says between what | write its range: `param a = ... in LOW..HIGH "
-     "animated`",
+    {"1:14 param-range: `a` is animated and has no range | write its range: `param a = ... in LOW..HIGH animated`",
      "sgm 1; param a = 3 animated; start A; rule A { }"},
-    {"1:31 not-constant: the default of a parameter must be a constant | numbers, arithmetic and lets without "
+    {"1:31 not-constant: the default of a parameter must be a constant | use numbers, arithmetic and lets without "
      "parameters",
      "sgm 1; param a = 2; param b = a; start A; rule A { }"},
     {"1:26 unit-mismatch: the high end of a range is a ratio, and this is a length | divide it by a length to make a "
@@ -253,11 +252,11 @@ const MessageCase kUses[] = {
     {"1:23 unit-mismatch: the low end of a range is a ratio, and this is a length | divide it by a length to make a "
      "ratio of it",
      "sgm 1; param a = 1 in 0m..2; start A; rule A { }"},
-    {"1:13 value-range: a seed is a whole number from 0 or a text | such as seed 7 or seed \"block-17\"",
+    {"1:13 value-range: a seed is a whole number (0 or more) or a text | such as seed 7 or seed \"block-17\"",
      "sgm 1; seed -1; start A; rule A { }"},
     {"1:13 unit-mismatch: a seed is a ratio, and this is a length | divide it by a length to make a ratio of it",
      "sgm 1; seed 2m; start A; rule A { }"},
-    {"1:30 warning value-range: rules within rules end at 64 deep | a cell that goes deeper is not derived at all",
+    {"1:30 warning value-range: rules may be nested at most 64 deep | a cell that goes deeper is not derived at all",
      "sgm 1; start A; rule A depth 65 -> sphere(1m) { sphere(1m); }"},
 };
 

@@ -196,7 +196,7 @@ TEST_CASE("per rule: only uses whose frames stand in the region, none at all, em
   const Evaluation boundless = half.evaluated();
   REQUIRE(boundless.outcomes[0].measured.size() == 1);
   CHECK_FALSE(boundless.outcomes[0].holds());
-  CHECK(boundless.outcomes[0].measured[0].why == "a shape of it has no bound");
+  CHECK(boundless.outcomes[0].measured[0].why == "one of its shapes is unbounded");
   CHECK(boundless.outcomes[1].holds());
 }
 

@@ -52,7 +52,7 @@ TEST_CASE("a probe without Host is answered, and strangers are told no more than
   const Access access = *Access::create({"127.0.0.1", "0123456789abcdef", {}});
   Operations operations({access, [] { return std::string(); },
                          [] {
-                           return std::vector<Check>{{"world secret", true, true, "is looked at"}};
+                           return std::vector<Check>{{"world secret", true, true, "is sampled"}};
                          }});
   CHECK(ask(operations, "GET", "/healthz", {{"none", ""}}).status == 200);
   CHECK(ask(operations, "GET", "/metrics", {{"none", ""}}).status == 421);
@@ -74,7 +74,7 @@ TEST_CASE("a service is ready unless something that it needs is not there") {
     CHECK(body["checks"].size() == checks.size());
   };
   is(200, false);
-  checks = {{"validator", true, false, "takes uploads"}, {"world a", true, true, "is looked at"}};
+  checks = {{"validator", true, false, "accepts uploads"}, {"world a", true, true, "is sampled"}};
   is(200, false);
   checks[0].ok = false;
   is(200, true);

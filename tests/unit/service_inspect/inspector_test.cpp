@@ -162,15 +162,15 @@ TEST_CASE("whatever end the process comes to, there is an answer", "[threads]") 
       {"kill -KILL $$", "validator_crashed", "memory"},
       {"kill -XCPU $$", "validator_limit", "processor time"},
       {"echo 'why it was' >&2; exit 3", "validator_crashed", "status 3: why it was"},
-      {":", "validator_crashed", "without a word"},
+      {":", "validator_crashed", "without an answer"},
       {"sleep 1000", "validator_limit", "1 s"},
       {"trap '' TERM; sleep 1000; sleep 1000", "validator_limit", "1 s"},
       {"cat " + big, "validator_limit", "32 MB"},
       {"yes", "validator_limit", "32 MB"},
       {said(framed(R"({"valid":true,"measures":{"a":")" + std::string(size_t{2} << 20, 'x') + "\"}}")),
        "validator_limit", "2 MB"},
-      {"echo garbage that is long enough", "validator_crashed", "something else"},
-      {said(framed(kValid).substr(0, 30)), "validator_crashed", "something else"},
+      {"echo garbage that is long enough", "validator_crashed", "something other"},
+      {said(framed(kValid).substr(0, 30)), "validator_crashed", "something other"},
   };
   for (const Case& c : cases) {
     INFO(c.lines);

@@ -123,13 +123,13 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
     bool is_away;  ///< the server is left alone for a while
   };
   for (const Case& c :
-       {Case{Fault::no_ranges, "answers no range requests", false},
-        Case{Fault::other_range, "another part of the file than was asked for", false},
-        Case{Fault::cut_off, "cannot be read from", true},
-        Case{Fault::endless, "another part of the file than was asked for", false},
-        Case{Fault::damaged, "is no store of baked worlds", false}, Case{Fault::fails, "status 503", true},
-        Case{Fault::refuses, "status 403", false}, Case{Fault::is_silent, "cannot be read from", true},
-        Case{Fault::hangs_up, "cannot be read from", true}}) {
+       {Case{Fault::no_ranges, "ignores range requests", false},
+        Case{Fault::other_range, "another part of the file than the requested one", false},
+        Case{Fault::cut_off, "cannot be read (", true},
+        Case{Fault::endless, "another part of the file than the requested one", false},
+        Case{Fault::damaged, "is not a store of baked worlds", false}, Case{Fault::fails, "status 503", true},
+        Case{Fault::refuses, "status 403", false}, Case{Fault::is_silent, "cannot be read (", true},
+        Case{Fault::hangs_up, "cannot be read (", true}}) {
     for (const bool at_once : {true, false}) {
       // Saying nothing takes seconds to be noticed: once will do.
       if (c.fault == Fault::is_silent && !at_once) continue;
@@ -182,7 +182,7 @@ TEST_CASE("a server that was away is asked again, and told of once each time", "
   CHECK(baked.unlike(*source) == 0);
   CHECK(source->stats().hits == 0);
   REQUIRE(told.messages.size() == 1);
-  CHECK(told.messages[0].find("cannot be read from") != std::string::npos);
+  CHECK(told.messages[0].find("cannot be read (") != std::string::npos);
   const FileServer server(baked.folder.path, port);
   for (int i = 0; i < 100 && source->stats().hits == 0; ++i) {
     CHECK(baked.unlike(*source) == 0);

@@ -96,7 +96,7 @@ TEST_CASE("what a store does not have is derived, and what is damaged there, whi
     compare(source.get(), WorldField(other, std::pmr::get_default_resource()));
     CHECK(source->stats().hits == 0);
     REQUIRE(told.messages.size() == 1);
-    CHECK(told.messages[0].find("has nothing of this world") != std::string::npos);
+    CHECK(told.messages[0].find("has no data of this world") != std::string::npos);
   }
   const std::vector<fs::path> files = folder.files();
   for (const std::string extension : {".sgmp", ".sgmi"}) {

@@ -217,8 +217,8 @@ TEST_CASE("every check of the decoder is one that can fail", "[stream][codec]") 
   refused("ranges", [](ChunkRecord& r) { r.mesh.ranges[6].first_vertex = 7; });
   refused("ranges", [](ChunkRecord& r) { std::swap(r.mesh.ranges[0], r.mesh.ranges[2]); });
   refused("ranges", [](ChunkRecord& r) { r.mesh.ranges[2] = {}; });
-  refused("numbers", [](ChunkRecord& r) { r.seams = 64; });
-  refused("numbers", [](ChunkRecord& r) { r.solid_samples = 32 * 32 * 32 + 1; });
+  refused("out of range", [](ChunkRecord& r) { r.seams = 64; });
+  refused("out of range", [](ChunkRecord& r) { r.solid_samples = 32 * 32 * 32 + 1; });
 
   const auto spoiled = [&](size_t word, uint32_t value) {
     Encoded bytes = encoded(good);

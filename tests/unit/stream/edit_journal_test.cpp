@@ -203,7 +203,7 @@ TEST_CASE("a journal of another world, version or kind is refused and left alone
     CHECK(bytesIn(folder.file()) == before);
   };
   refused({1, kWorld.seed, kWorld.cell},
-          "it belongs to another world, with another grammar, parameters of it, or fields of the host's");
+          "it belongs to another world, with another grammar, other parameters or other host fields");
   refused({kWorld.grammar, 1, kWorld.cell}, "it belongs to another world, with another seed");
   // What names the grammar holds seed and cell too.
   refused({1, 1, kWorld.cell}, "it belongs to another world, with another seed");
@@ -211,14 +211,14 @@ TEST_CASE("a journal of another world, version or kind is refused and left alone
   std::string other = bytes;
   other[8] = 2;
   putBytes(folder.file(), other);
-  refused(kWorld, "it has version 2; this program knows version 1");
+  refused(kWorld, "it has version 2; this program supports version 1");
   putBytes(folder.file(), "grammar or picture, but no journal: some other file that somebody needs");
-  refused(kWorld, "it is no journal of edits");
+  refused(kWorld, "it is not an edit journal");
   putBytes(folder.file(), "short");
-  refused(kWorld, "it is no journal of edits");
+  refused(kWorld, "it is not an edit journal");
   CHECK(EditJournal::open(folder.path, kWorld).error().code == Code::io);
   CHECK(EditJournal::open(folder.path / "missing" / "edits", kWorld).error().code == Code::io);
-  CHECK(EditJournal::open("/dev/null", kWorld).error().message == "journal '/dev/null': it is no regular file");
+  CHECK(EditJournal::open("/dev/null", kWorld).error().message == "journal '/dev/null': it is not a regular file");
 }
 
 TEST_CASE("a journal is open once", "[edits][files]") {
@@ -294,7 +294,7 @@ TEST_CASE("a full disk loses nothing that was appended", "[edits][files]") {
       const size_t missing = 11 - kept.size();
       CHECK(second.error().message == "journal '" + fs::canonical(folder.file()).string() + "': File too large; " +
                                           std::to_string(missing) +
-                                          (missing == 1 ? " edit is not kept" : " edits are not kept"));
+                                          (missing == 1 ? " edit is not saved" : " edits are not saved"));
       CHECK(static_cast<bool>(none) == (limit >= kHead));
       journal.journal->append(std::span(all).subspan(11, 1));
       REQUIRE(journal.journal->flush());

@@ -264,7 +264,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
   REQUIRE(knows.merge(log.operations().first(1)));
   const Result<std::vector<IntBox>> differs = knows.merge(list);
   REQUIRE_FALSE(differs);
-  CHECK(differs.error().message == "edit 1 of author 1 is known here with another content");
+  CHECK(differs.error().message == "edit 1 of author 1 already exists with other contents");
   CHECK(knows.size() == 1);
 
   for (const EditOrder order : {EditOrder{0, {1, 1}}, EditOrder{1, {1, 0}}, EditOrder{kMostEditTime + 1, {1, 1}}}) {
@@ -284,7 +284,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
   Brush foreign = ball({}, 10);
   foreign.material = 4;
   EditLog few(EditSettings{4, 3, 2});
-  CHECK(few.add(foreign).error().message == "a brush's material is 4; the last one is 3");
+  CHECK(few.add(foreign).error().message == "a brush's material is 4, but the last one is 3");
 }
 
 TEST_CASE("snapshots are read while the world is edited", "[edits][threads]") {
@@ -325,27 +325,27 @@ TEST_CASE("brushes that cannot be are refused, with the reason", "[edits]") {
     return added ? std::string("none") : added.error().message;
   };
   CHECK(why(ball({}, 1)) == "none");
-  CHECK(why(ball({}, 0)) == "a brush's radius is 0 units; it lies between 1 and 1048576 (1,024 m)");
+  CHECK(why(ball({}, 0)) == "a brush's radius is 0 units; it must be between 1 and 1048576 (1,024 m)");
   CHECK(why(ball({}, kMaxBrushSize + 1)) ==
-        "a brush's radius is 1048577 units; it lies between 1 and 1048576 (1,024 m)");
+        "a brush's radius is 1048577 units; it must be between 1 and 1048576 (1,024 m)");
   Brush b = ball({}, 10);
   b.smooth = -1;
-  CHECK(why(b) == "a brush's smooth width is -1 units; it lies between 0 and 1048576 (1,024 m)");
+  CHECK(why(b) == "a brush's smooth width is -1 units; it must be between 0 and 1048576 (1,024 m)");
   CHECK(why(ball({INT32_MAX - 10, 0, 0}, 10)) == "a brush leaves the world, which ends about 2,097 km from the origin");
   CHECK(why(ball({INT32_MAX - 11, 0, 0}, 10)) == "none");
   b = ball({INT32_MIN, 0, 0}, 10);
   b.shape = Brush::Shape::capsule;
   b.to = {INT32_MAX, 0, 0};
-  CHECK(why(b) == "a brush's length along an axis is 4294967295 units; it lies between 0 and 1048576 (1,024 m)");
+  CHECK(why(b) == "a brush's length along an axis is 4294967295 units; it must be between 0 and 1048576 (1,024 m)");
   b = {};
   b.shape = Brush::Shape::box;
   b.half = {5, 0, 5};
-  CHECK(why(b) == "a brush's half extent is 0 units; it lies between 1 and 1048576 (1,024 m)");
+  CHECK(why(b) == "a brush's half extent is 0 units; it must be between 1 and 1048576 (1,024 m)");
   b.half = {5, 5, 5};
   CHECK(why(b) == "none");
   for (const float q : {0.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     b.turn = {0, 0, 0, q};
-    CHECK(why(b) == "a brush's turn is no rotation: its quaternion's length is 0 or not a number");
+    CHECK(why(b) == "a brush's turn is not a rotation: its quaternion's length is 0 or not a number");
   }
   b.shape = static_cast<Brush::Shape>(3);
   CHECK(why(b) == "a brush is a sphere, a box or a capsule");

@@ -544,16 +544,17 @@ TEST_CASE("the error of an end outside of the region says which, where it is, an
   VoidQuestion question = questionOf(cave, {1, 1, 1}, {2, 2, 2}, 0);
   question.ends->to = {512.5, -1024, 0};
   CHECK(findVoids(field, *jobs, question).error().message ==
-        "the end `to` of the way lies outside of the region: it is at (512.5, -1024, 0), and the region goes from "
+        "the end `to` of the path lies outside of the region: it is at (512.5, -1024, 0), but the region goes from "
         "(0, 0, 0) to (16384, 16384, 16384), in units of 1/1024 m");
   question.ends->tell_metres = true;
-  CHECK(findVoids(field, *jobs, question).error().message ==
-        "the end `to` of the way lies outside of the region: it is at (0.50048828125, -1, 0), and the region goes from "
-        "(0, 0, 0) to (16, 16, 16), in metres");
+  CHECK(
+      findVoids(field, *jobs, question).error().message ==
+      "the end `to` of the path lies outside of the region: it is at (0.50048828125, -1, 0), but the region goes from "
+      "(0, 0, 0) to (16, 16, 16), in metres");
   question.ends->from[2] = 1e300;
-  CHECK_THAT(findVoids(field, *jobs, question).error().message, Catch::StartsWith("the end `from` of the way lies"));
+  CHECK_THAT(findVoids(field, *jobs, question).error().message, Catch::StartsWith("the end `from` of the path lies"));
   question.ends->from[2] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(findVoids(field, *jobs, question).error().message == "the end `from` of the way is not finite");
+  CHECK(findVoids(field, *jobs, question).error().message == "the end `from` of the path is not finite");
 }
 
 /// What a search tells of its progress: the counts of each look or walk.

@@ -52,8 +52,8 @@ TEST_CASE("a rule is found by its name, by its import's, and by a path", "[frame
   REQUIRE(findFramedRule(program, "Post"));
   REQUIRE(findFramedRule(program, "cave.Column"));
   CHECK(findFramedRule(program, "Row/Post[2]")->by_path);
-  CHECK(why(findFramedRule(program, "Pots")) == "--frame: rule 'Pots' is not there: did you mean 'Post'?");
-  CHECK(why(findFramedRule(program, "Column")) == "--frame: rule 'Column' is not there: did you mean 'cave.Column'?");
+  CHECK(why(findFramedRule(program, "Pots")) == "--frame: there is no rule 'Pots': did you mean 'Post'?");
+  CHECK(why(findFramedRule(program, "Column")) == "--frame: there is no rule 'Column': did you mean 'cave.Column'?");
   CHECK(why(findFramedRule(program, "cave.Colum")).ends_with("did you mean 'cave.Column'?"));
   CHECK(why(findFramedRule(program, "Elephant")).find("the grammar has ") != std::string::npos);
   CHECK(why(findFramedRule(program, "Row//Post")).find("expected") != std::string::npos);

@@ -55,7 +55,7 @@ TEST_CASE("a device that lacks one thing is refused by its name", "[vulkan]") {
     std::function<void(DeviceInfo&)> spoil;
   } lacks[] = {
       {"Vulkan 1.1.200", [](DeviceInfo& info) { info.api_version = VK_MAKE_API_VERSION(0, 1, 1, 200); }},
-      {"a queue that computes", [](DeviceInfo& info) { info.computes = false; }},
+      {"a compute queue", [](DeviceInfo& info) { info.computes = false; }},
       {"timelineSemaphore", [](DeviceInfo& info) { info.timeline_semaphores = false; }},
       {"subgroup operations in compute", [](DeviceInfo& info) { info.subgroups_compute = false; }},
       {"basic", [](DeviceInfo& info) { info.subgroup_operations ^= VK_SUBGROUP_FEATURE_BASIC_BIT; }},

@@ -27,7 +27,7 @@ inline bool haveDevice() {
     if (const auto device = Device::open(watched())) keepLibraries();
     const auto devices = listDevices();
     if (!devices) return devices.error().message;
-    std::string lacks = "no usable Vulkan device here";
+    std::string lacks = "there is no usable Vulkan device";
     for (const DeviceInfo& info : *devices) {
       const std::string lack = lackOf(info);
       if (lack.empty()) return lack;

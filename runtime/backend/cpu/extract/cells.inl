@@ -1,21 +1,21 @@
-// From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them
-// the types and functions of shaders/common/real.h, and
+// Makes triangles from active cells, a vector of loops at a time. The includer of the .inl files must define the types
+// and functions of shaders/common/real.h, and
 //   kLanes                     lanes of a vector
-//   loadValues, loadLanes      lanes that lie behind each other
+//   loadValues, loadLanes      loads of consecutive lanes
 //   loadFour                   four numbers of each lane
 //   loadAt, loadIntAt          gathers
-//   storeLanes                 lanes behind each other
-//   storeThree, storeFour      the lanes' numbers in turn
-//   squareRoot, quotient       as IEEE 754 has them
+//   storeLanes                 stores consecutive lanes
+//   storeThree, storeFour      interleaves the lanes' numbers
+//   squareRoot, quotient       as in IEEE 754
 //   scaledDouble               Int times double, rounded to float
 //   minInt, maxInt             of integers
 //   maskOf, all, any           a bit a lane; whether all are true, whether one is
 //   spreadBits<n>              64 bytes of n words: bit i of word k becomes bit k of byte i
 //   writeTriangles<n>          the triangles of a loop's triangulation
-//   addSteps                   the vertices of a cell's edges: the numbers of the samples that these begin at, with
-//                              `steps`, a byte each, added to those of the edges 4 to 11
+//   addSteps                   the vertices of a cell's edges: the numbers of the edges' first samples, with `steps`,
+//                              a byte each, added for the edges 4 to 11
 
-/// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. How far along it a vertex lies is added there.
+/// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. The vertex's offset along the edge is added.
 struct CubePlaces {
   uint32_t of_edge[kCubeEdges];
 };
@@ -30,11 +30,11 @@ constexpr CubePlaces makeCubePlaces() {
 }
 inline constexpr CubePlaces kCubePlaces = makeCubePlaces();
 
-/// Whether some loop of N edges has a chord that chordMask forbids: the cube's loops of 6 and 7 (tests/unit/backend).
+/// Whether some loop of N edges has a chord that chordMask forbids: only loops of 6 and 7 edges (tests/unit/backend).
 template <size_t N>
 inline constexpr bool kForbids = N >= 6;
 
-/// kLanes loops of one length: their vertices; and by point its place, and the chordMask of its edge.
+/// kLanes loops of one length: their vertices; and for each point its place and the chordMask of its edge.
 template <size_t N>
 struct LoopLanes {
   alignas(64) uint32_t vertex[kLanes][8];
@@ -111,18 +111,18 @@ void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
   storeLanes(way[0][N - 1], ways);
 }
 
-/// A loop that waits: the vertices of its cell by edge of the cube, its own edges, and where its triangles go.
+/// A queued loop: the vertices of its cell by edge of the cube, its own edges, and the place for its triangles.
 struct alignas(64) WaitingLoop {
   uint32_t number[kCubeEdges];
   const uint8_t* edges;
   uint32_t* out;
 };
 
-/// Loops by length, until there are enough for a vector. Which length comes next cannot be foreseen, so that cells are
-/// added without a branch on it.
+/// Queues of loops by length, until a vector is full. The next length is unpredictable, so cells are added without a
+/// branch on it.
 class LoopQueues {
  public:
-  /// offsets[v - first]: placeOffset of vertex v. Triangles go to `out` and behind it.
+  /// offsets[v - first]: placeOffset of vertex v. Triangles are written to `out` and after it.
   LoopQueues(const uint32_t* offsets, size_t first, uint32_t* out) : offsets_(offsets), first_(first), out_(out) {
     for (size_t n = 0; n < kLengths; ++n) {
       next_[kShortest + n] = waiting_[n];
@@ -130,7 +130,7 @@ class LoopQueues {
     }
   }
 
-  /// The loops of a cell. `place(number)` writes the vertices of the cell's edges.
+  /// Adds the loops of a cell. `place(number)` writes the vertices of the cell's edges.
   template <class Place>
   FN void add(uint64_t cell_case, const Place& place) {
     const uint32_t loop = kCubeFirstLoop[cell_case];
@@ -204,7 +204,7 @@ class LoopQueues {
           if constexpr (kForbids<N>) lanes.faces[i][lane] = chordMask(kCubeEdgeFaces[e], e, N);
         }
       }
-      // Lanes behind the last loop hold another: any will do.
+      // Fill unused lanes with a copy of another loop; any will do.
       for (size_t lane = some; lane < kLanes; ++lane) {
         for (size_t i = 0; i < N; ++i) {
           lanes.place[i][lane] = lanes.place[i][0];
@@ -226,10 +226,10 @@ class LoopQueues {
 };
 static_assert(kLongestCubeLoop == 7);
 
-/// What is added to the number of a sample's first vertex for that of a cube's edge: bytes for the edges 4 to 11, since
-/// those of 0 to 3 are the first of their samples. By a case, whose samples' own edges they follow; and by what lies
-/// beyond the cell, for a sample whose edge along x (bits 0 to 2: rows 0 to 2 at high x) or y (3, 4: row 1 at low and
-/// high x) leaves the cell.
+/// Offsets from the number of a sample's first vertex to that of a cube's edge: bytes for the edges 4 to 11, since
+/// edges 0 to 3 are the first of their samples. One part depends on the case, which shows the samples' own edges. The
+/// other depends on the edges beyond the cell: those along x (bits 0 to 2: rows 0 to 2 at high x) or y (bits 3, 4: row
+/// 1 at low and high x) that leave it.
 struct CellSteps {
   uint64_t of_case[256], of_high[32];
 };
@@ -253,7 +253,7 @@ constexpr CellSteps makeCellSteps() {
 }
 inline constexpr CellSteps kCellSteps = makeCellSteps();
 
-/// The triangles of a layer's cells. `low` and `high` number the owners of the planes below and above.
+/// Adds the triangles of a layer's cells. `low` and `high` number the owners of the planes below and above.
 inline void meshCells(const uint64_t* cells, size_t count, size_t size_x, const uint32_t* low, const uint32_t* high,
                       LoopQueues& queues) {
   const uint32_t *const low1 = low + size_x, *const high1 = high + size_x;

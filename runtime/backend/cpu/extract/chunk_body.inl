@@ -1,7 +1,7 @@
-// The body of a chunk, as mesh/body.h has it. See mesh_kernels.h; an includer defines what cells.inl says.
+// The body of a chunk, as in mesh/body.h. See mesh_kernels.h; cells.inl lists the includer's definitions.
 
-/// A vector of edges of plane z: where they are crossed, and the first `count` vertices and keys, from number `vertex`
-/// on.
+/// Processes a vector of edges of plane z: computes their crossings, and writes the first `count` vertices and keys
+/// from number `vertex` on.
 inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
                             size_t count, size_t vertex, bool keys, MeshScratch& scratch, MeshPart& part) {
   constexpr int32_t kSide = kChunkSamples;
@@ -32,7 +32,7 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
     memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
   }
 
-  // As vertexUnits has it: at most one coordinate lies between samples.
+  // As in vertexUnits: at most one coordinate lies between samples.
   const Int along = toIntBits(toUintBits(wrapAdd(wrapMul(t, cell), broadcastInt(kSubcell / 2))) >> 8);
   storeLanes(wrapAdd(corner_x, sel(e.along_x, along, zero)), scratch.place_x.data() + vertex);
   storeLanes(wrapAdd(corner_y, sel(e.along_y, along, zero)), scratch.place_y.data() + vertex);

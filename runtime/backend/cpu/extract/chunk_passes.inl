@@ -1,4 +1,4 @@
-// What a chunk needs beside its triangles: loops that the compiler makes vectors of by itself.
+// Further passes over a chunk: loops that the compiler vectorises.
 
 inline uint32_t countSolid(const ChunkSamples& samples) {
   constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;

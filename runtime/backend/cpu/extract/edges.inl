@@ -1,6 +1,6 @@
-// A vector of crossed edges: what grids and chunks have in common. See cells.inl.
+// A vector of crossed edges, for grids and chunks. See cells.inl.
 
-/// Edges of plane z, a vector of them.
+/// A vector of edges of plane z.
 struct EdgeLanes {
   Int x, y, z, axis;
   Bool along_x, along_y, along_z;
@@ -18,7 +18,7 @@ FN EdgeLanes unpackEdges(const uint32_t* edges, size_t z) {
           axis == broadcastInt(2)};
 }
 
-/// crossing() of mesh/vertex.h. The division of floats is off by one at most, which the rest tells.
+/// crossing() of mesh/vertex.h. The float division is off by one at most; the code after it corrects that.
 FN Int crossingOf(Int q0, Int q1) {
   const Int zero = broadcastInt(0), one = broadcastInt(1);
   const Int a = sel(q0 < zero, wrapSub(zero, q0), q0), b = sel(q1 < zero, wrapSub(zero, q1), q1);
@@ -31,7 +31,7 @@ FN Int crossingOf(Int q0, Int q1) {
   return sel(t > broadcastInt(255), broadcastInt(255), t);
 }
 
-/// How far along its edge a vertex lies, as makeCubePlaces wants it.
+/// The vertex's offset along its edge, in the format of makeCubePlaces.
 FN Int placeOffset(const EdgeLanes& e, Int t) {
   return wrapMul(t, sel(e.along_x, broadcastInt(1), sel(e.along_y, broadcastInt(1 << 9), broadcastInt(1 << 18))));
 }

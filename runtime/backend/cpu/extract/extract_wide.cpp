@@ -1,4 +1,4 @@
-// The passes for every vector instruction set that this compiler can make, from one source (Highway includes this file
+// The passes for every vector instruction set that this compiler supports, from one source (Highway includes this file
 // once for each).
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-// Where Highway has no vectors there is extract_scalar.cpp.
+// Without Highway vectors, extract_scalar.cpp is used.
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace sgm {
@@ -79,7 +79,7 @@ FN void spreadBits(const uint64_t* words, uint8_t* out) {
   }
 }
 
-// Corners of a way's triangles, each a lane: those of 8, and then those of the rest.
+// Corners of a triangulation's triangles, one lane each: first 8, then the rest.
 template <size_t N>
 struct TriangleLanes {
   alignas(64) uint32_t corner[static_cast<size_t>(triangulation::kWays[N])][16];
@@ -94,7 +94,7 @@ constexpr TriangleLanes<N> makeTriangleLanes() {
 template <size_t N>
 inline constexpr TriangleLanes<N> kTriangleLanes = makeTriangleLanes<N>();
 
-// Stores end with the loop's last corner: what lies behind it may have been written before.
+// Stores end with the loop's last corner: the memory after it may already be written.
 template <size_t N>
 FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
   const uint32_t* corners = kTriangleLanes<N>.corner[way];
@@ -161,7 +161,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sgm {
 
-// A set's passes. The namespaces of the sets are all there is to tell them apart by.
+// The passes of an instruction set; only the namespaces differ.
 #define SGM_EXTRACT(name, set, list)                                                                      \
   {                                                                                                       \
     name, set::extract::signsOfRow, list, set::extract::meshSlab, set::extract::countSolid,               \

@@ -1,13 +1,13 @@
-// What lists of crossed edges and active cells are made from, and how they are packed. See mesh_kernels.h; an includer
-// defines what cells.inl says.
+// The input of the lists of crossed edges and active cells, and their packing. See mesh_kernels.h; cells.inl lists the
+// includer's definitions.
 
 FN uint64_t wordMask(size_t word, size_t count) {
   const size_t first = word * 64;
   return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
 }
 
-/// The groups of four rows that may have crossed edges or active cells: those whose samples, with the next group's, are
-/// not proven to be all alike. A word's last cells end in the next one.
+/// The groups of four rows that may have crossed edges or active cells: those not proven uniform together with the next
+/// group, in which a word's last cells end.
 FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2]) {
   const size_t group = lattice.group(), groups = group == 1 ? lattice.words : (lattice.words + group - 1) / group;
   if (lattice.words == 1 || lattice.uniform == nullptr) return wordMask(0, groups);
@@ -17,13 +17,13 @@ FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const 
     empty &= row[0];
     solid &= row[1];
   }
-  // Groups behind the last are uniform in both ways; whatever a row ends with, nothing begins there.
+  // Groups after the last count as uniform in both ways: no edge begins after the end of a row.
   constexpr uint64_t kLast = uint64_t{1} << 63;
   return ~((empty & (empty >> 1 | kLast)) | (solid & (solid >> 1 | kLast))) & wordMask(0, groups);
 }
 
-/// Of the rows first..last - 1, 64 at most and of one word each, bit i: whether row first + i, the next one and those
-/// above both are not all void, nor all solid.
+/// For the rows first..last - 1, at most 64 with one word each: bit i is set if row first + i, the next row and the two
+/// above them are neither all void nor all solid.
 FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {
   const uint64_t *low = lattice.row(0, z), *high = lattice.row(0, z_above), solid = wordMask(0, lattice.size[0]);
   uint64_t mixed = 0;
@@ -35,20 +35,20 @@ FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size
   return mixed;
 }
 
-/// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
+/// The packing of a crossed edge of a plane: its axis, then the y and x of the sample that owns it.
 inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
 
-/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its
-/// case.
+/// Packs an active cell of a layer: the index of its lowest sample in the plane, the edges beyond it (CellSteps), and
+/// its case.
 constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
   return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }
 
-/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number
+/// Sets the number of the first vertex of each sample that owns some. `edges` are a plane's; the first one has number
 /// `first`.
 inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
-  // From the last to the first, so that what a sample's first edge writes stays.
+  // Backwards, so that the value of a sample's first edge remains.
   for (size_t i = count; i-- > 0;)
     numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] =
         static_cast<uint32_t>(first + i);

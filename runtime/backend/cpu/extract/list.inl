@@ -1,8 +1,8 @@
-// What is read from signs alone: crossed edges, active cells and their cases, how much there will be. See
-// mesh_kernels.h; an includer defines what cells.inl says.
+// Everything that follows from signs alone: crossed edges, active cells, their cases, and counts. See mesh_kernels.h;
+// cells.inl lists the includer's definitions.
 
-/// Signs of a row at a word's samples, and at those one further: behind the row's last sample that one again, so that
-/// no edge begins there.
+/// Signs of a row at a word's samples, and at the next samples. The row's last sample is followed by itself, so that no
+/// edge begins there.
 struct RowSigns {
   uint64_t low, high;
 };
@@ -13,7 +13,7 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
   return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
 }
 
-/// Calls f(word) for the words of groups whose bits are set, in turn.
+/// Calls f(word) for the words of the groups whose bits are set, in order.
 template <class F>
 FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   const size_t group = lattice.group();
@@ -23,7 +23,7 @@ FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   }
 }
 
-/// By case, bits 0 to 2: whether an edge along x is crossed in the rows (y, z), (y + 1, z), (y, z + 1).
+/// By case: bits 0 to 2 tell whether the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are crossed.
 struct CaseEdges {
   uint8_t along_x[256];
 };
@@ -37,17 +37,17 @@ constexpr CaseEdges makeCaseEdges() {
 }
 inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 
-/// The active cells of a word, and what is needed to tell their cases.
+/// The active cells of a word, and the data for their cases.
 struct WordCells {
-  const uint64_t* corner;  ///< signs at the cells' corners in the order of a case's bits, and a word more
-  uint32_t next_case;      ///< of the cell behind the word's last; 0 where there is none
-  uint64_t along_y[2];     ///< whether an edge along y goes on beyond the cell, at its low and its high x
+  const uint64_t* corner;  ///< signs at the cells' corners in the order of a case's bits, plus one word
+  uint32_t next_case;      ///< of the cell after the word's last one; 0 if there is none
+  uint64_t along_y[2];     ///< whether an edge along y continues beyond the cell, at its low and its high x
   uint64_t active;
-  size_t place;  ///< of the word's first cell in the plane
+  size_t place;  ///< index of the word's first cell in the plane
 };
 
-/// Calls f(bit, mask) for the bits that are set, then perhaps f(64, 0): how many are set cannot be foreseen, so that a
-/// branch for each costs more than a call in vain.
+/// Calls f(bit, mask) for the bits that are set, and perhaps f(64, 0) at the end: the number of bits is unpredictable,
+/// so a branch for each costs more than a useless call.
 template <class F>
 FN void forBits(uint64_t bits, F&& f) {
   do {
@@ -58,9 +58,9 @@ FN void forBits(uint64_t bits, F&& f) {
   } while (bits != 0);
 }
 
-/// How a word's crossed edges and active cells are listed: one bit after the other.
+/// Lists a word's crossed edges and active cells one bit after the other.
 struct OneByOne {
-  /// Of samples from `first` on, packed: whether their edges along x, y and z are crossed. Returns how many are.
+  /// Lists, packed, the edges along x, y and z that are crossed, for samples from `first` on. Returns their number.
   FN static size_t edges(uint64_t x, uint64_t y, uint64_t z, uint32_t first, uint32_t* out) {
     uint32_t* next = out;
     forBits(x | y | z, [&](size_t bit, uint64_t mask) {
@@ -76,7 +76,7 @@ struct OneByOne {
     return static_cast<size_t>(next - out);
   }
 
-  /// Returns the triangles that the cells make.
+  /// Returns the number of triangles of the cells.
   FN static uint64_t cells(const WordCells& word, uint64_t* out) {
     uint8_t cases[64 + 1];
     spreadBits<8>(word.corner, cases);
@@ -94,8 +94,8 @@ struct OneByOne {
   }
 };
 
-/// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices;
-/// and the active cells of the layer above, in their order.
+/// Lists what rows of plane z own: crossed edges, by sample and axis, in the order of vertices; and the active cells of
+/// the layer above, in their order.
 inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
                            uint64_t* cells) {
   ListCounts counts;
@@ -118,7 +118,7 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
         every &= s.low & s.high;
       }
       corner[8] = 0;
-      // A sample that owns a crossed edge begins a cell whose corners differ, if not one beyond the lattice.
+      // A sample that owns a crossed edge begins an active cell, unless the cell lies outside of the lattice.
       if ((some & ~every) == 0) return;
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
       if ((x | y_edges | z_edges) != 0) {

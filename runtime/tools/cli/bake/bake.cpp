@@ -1,4 +1,4 @@
-// sgm bake: a region of a world at some levels, meshed ahead of time into a store that worlds stream from.
+// sgm bake: meshes a region of a world at some levels ahead of time, into a store that worlds stream from.
 
 #include <fmt/core.h>
 
@@ -86,29 +86,29 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
     return;
   }
   if (report.there_before) {
-    fmt::print("{}: is baked already (world {})\n", options.out, world);
+    fmt::print("{}: already baked (world {})\n", options.out, world);
     return;
   }
-  fmt::print("{}: {} tiles, {} of them made before, {:.1f} s\n", options.out, report.tiles, report.made_before,
+  fmt::print("{}: {} tiles, {} of them baked before, {:.1f} s\n", options.out, report.tiles, report.made_before,
              report.seconds);
   if (!report.merged) {
-    fmt::print("  The world is in the store when all shards are done: then sgm bake --merge\n");
+    fmt::print("  The world is not in the store yet: when all shards are done, run sgm bake --merge\n");
     return;
   }
   const store::WorldSummary& baked = report.merged->world;
   const uint64_t bytes = baked.pack_bytes + report.index_bytes;
   fmt::print("  world    {}\n", world);
-  fmt::print("  chunks   {}, {} triangles; {} contents that differ\n", baked.chunks, baked.measured.triangles,
+  fmt::print("  chunks   {}, {} triangles; {} different contents\n", baked.chunks, baked.measured.triangles,
              baked.contents);
   fmt::print(
-      "  files    {} packs of {:.1f} MB, of which {:.1f} are new, an index of {:.2f} MB: {:.2f} bytes a triangle\n",
+      "  files    {} packs of {:.1f} MB ({:.1f} MB of them new), an index of {:.2f} MB, {:.2f} bytes per triangle\n",
       baked.packs, static_cast<double>(baked.pack_bytes) / 1e6, static_cast<double>(report.merged->new_bytes) / 1e6,
       static_cast<double>(report.index_bytes) / 1e6, perTriangle(bytes, baked.measured.triangles));
   fmt::print("  measured {:.1f} m2 on all levels, {}\n", baked.measured.area,
-             baked.measured.sound() ? "no defect" : "with defects: see the manifest");
+             baked.measured.sound() ? "no defects" : "with defects: the manifest lists them");
 }
 
-/// Bakes the tiles; those that are done already count as done.
+/// Bakes the tiles; finished ones count as done.
 Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::TileKey>& tiles,
                          const std::vector<uint64_t>& costs, size_t first, size_t last) {
   Report report;
@@ -189,7 +189,7 @@ Exit bake(const BakeOptions& options) {
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
     const Result<Report> baked = bakeTiles(*bakery, tiles, *costs, first, last);
     if (!baked) {
-      // Another worker may have had the same tiles, and all have been merged meanwhile.
+      // Another worker may have baked the same tiles, and merged them meanwhile.
       const Result<bool> there = isThere();
       return there && *there ? finish() : complain(baked.error());
     }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slurm's controller answers many; once in a while is enough.
+/// Slurm's controller serves many users, so poll it rarely.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
 void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState& state, bool there) {
@@ -34,17 +34,17 @@ void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState&
                    .text());
     return;
   }
-  fmt::print("{}: jobs {}, {} and {}: {} of {} shards wait, {} run, {} failed; merge {}, verification {}\n",
+  fmt::print("{}: jobs {}, {} and {}: {} of {} shards waiting, {} running, {} failed; merge {}, verification {}\n",
              options.out, jobs.shards, jobs.merge, jobs.verification, state.waiting, jobs.count, state.running,
-             state.failed, state.merge.empty() ? "not known" : state.merge,
-             state.verification.empty() ? "not known" : state.verification);
+             state.failed, state.merge.empty() ? "unknown" : state.merge,
+             state.verification.empty() ? "unknown" : state.verification);
 }
 
 Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& name) {
   const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
   std::error_code error;
   const std::string program = fs::read_symlink("/proc/self/exe", error).string();
-  if (error) return Error{Code::io, "where this program lies cannot be told: " + systemMessage(error)};
+  if (error) return Error{Code::io, "cannot find the path of this program: " + systemMessage(error)};
   SlurmBake bake;
   bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
                options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};
@@ -61,12 +61,11 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
-/// Of a command of Slurm's; where that is not there, what to do without.
+/// For an error of a Slurm command; if the command is missing, adds the alternatives.
 Error withoutSlurm(const Error& error) {
   if (error.code != Code::unsupported) return error;
   return {Code::io, error.message +
-                        ". Where there is no Slurm, --shard bakes a share, and samples/bake has it done by "
-                        "other schedulers"};
+                        ". Without Slurm, bake each share with --shard; samples/bake has scripts for other schedulers"};
 }
 
 }  // namespace
@@ -81,8 +80,8 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
   const Result<SlurmJobs> jobs = is_new ? submitJobs(*bake) : Result<SlurmJobs>(**found);
   if (!jobs) return complain(withoutSlurm(jobs.error()));
   fmt::print(stderr,
-             "sgm: jobs {} (shards), {} (merge) and {} (verification) of Slurm {}; stopping this ends none of them, "
-             "scancel does\n",
+             "sgm: Slurm jobs {} (shards), {} (merge) and {} (verification) {}; stopping this program does not end "
+             "them, scancel does\n",
              jobs->shards, jobs->merge, jobs->verification, is_new ? "are submitted" : "are under way");
   Result<SlurmState> state = stateOf(*jobs);
   {
@@ -101,13 +100,14 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
   if (*there && state->verification == "COMPLETED") return Exit::done;
   if (*there && state->verification.empty()) {
     return complain(Exit::input,
-                    "the world is there, but Slurm does not tell how its verification has ended: sgm store verify says "
-                    "whether it is whole");
+                    "the world is in the store, but Slurm does not report how its verification ended: check it with "
+                    "sgm store verify");
   }
-  return complain(Exit::input,
-                  fmt::format("not all of it has ended well: '{}' has what the jobs have printed; the same command "
-                              "bakes what is missing",
-                              bake->folder.string()));
+  return complain(
+      Exit::input,
+      fmt::format(
+          "some of the jobs did not succeed: '{}' has their output; run the same command again to bake what is missing",
+          bake->folder.string()));
 }
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// sgm bake --slurm: submits a bake, and shows how far it is.
+// sgm bake --slurm: submits a bake, and shows its progress.
 
 #include <functional>
 
@@ -9,9 +9,9 @@
 
 namespace sgm::cli {
 
-/// Submits a bake into a store that is there, or finds it under way; unless --detach, returns when all has ended, with
-/// a bar on a terminal meanwhile. Being stopped ends the watching alone. name: of the bake, the same for the same bake.
-/// isThere: whether the store has it; what Slurm remembers of jobs does not tell.
+/// Submits a bake into an existing store, or finds its running jobs; unless --detach, waits for their end, with a
+/// progress bar on a terminal. Interrupting it stops only the waiting. name: of the bake, the same for the same bake.
+/// isThere: whether the store has the world, since Slurm's job records cannot tell.
 Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere);
 
 }  // namespace sgm::cli

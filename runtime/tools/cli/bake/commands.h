@@ -1,5 +1,5 @@
 #pragma once
-// The commands about worlds baked ahead of time.
+// The commands for worlds baked ahead of time.
 
 #include <cstdint>
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace sgm::cli {
 
-/// What is said of a device whose meshes are not the same as all others'.
+/// The error for a device whose meshes differ from those of other devices.
 inline constexpr const char* kNotExact =
-    "this device's meshes are not those of every other: take --backend cpu for a store";
+    "the meshes of this device differ from those of other devices: use --backend cpu for a store";
 
 struct BakeOptions : WorldOptions {
   std::string out;                  ///< the store's folder
-  std::string levels = "0..4";      ///< as readLevels takes them
-  std::string shard;                ///< as readShard takes it; empty: all, and merged
-  bool merge = false;               ///< merge what shards have made
-  uint64_t slurm = 0;               ///< so many shards as jobs of Slurm; 0: here
+  std::string levels = "0..4";      ///< as for readLevels
+  std::string shard;                ///< as for readShard; empty: all tiles, then a merge
+  bool merge = false;               ///< merges finished shards
+  uint64_t slurm = 0;               ///< number of shards, as jobs of Slurm; 0: bakes here
   std::vector<std::string> sbatch;  ///< options of these jobs
-  bool detach = false;              ///< submit them, and do not wait
+  bool detach = false;              ///< submits them without waiting
 };
 Exit bake(const BakeOptions& options);
 
 struct StoreOptions {
   std::string store;
-  std::string world;  ///< the beginning of one's name; empty: all
+  std::string world;  ///< the beginning of its name; empty: all
   bool json = false;
 };
 Exit storeInfo(const StoreOptions& options);
@@ -38,13 +38,13 @@ struct StoreVerifyOptions : WorldOptions {
   std::string store;
   std::string world;
   uint64_t samples = 100;
-  uint64_t draw = 1;  ///< seed of what is drawn
+  uint64_t draw = 1;  ///< seed of the random sample
 };
 Exit storeVerify(const StoreVerifyOptions& options);
 
 struct StoreDiffOptions {
   std::string store, other;
-  std::string from, to;  ///< worlds of theirs, by the beginning of their names; empty: the only ones
+  std::string from, to;  ///< worlds, by the beginning of their names; empty: the only ones
   bool list = false;
   bool json = false;
 };

@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// As a shell reads it back.
+/// Quoted for a POSIX shell.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -54,22 +54,22 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   command.push_back(script.string());
   const Result<std::string> said = outputOrError(command);
   if (!said) return said.error();
-  // "NUMBER", or "NUMBER;CLUSTER" where there are several; and whatever else a site has sbatch say.
+  // "NUMBER", or "NUMBER;CLUSTER" with several clusters; a site may add other lines.
   std::istringstream lines(*said);
   for (std::string words; std::getline(lines, words);) {
     const std::string number = words.substr(0, words.find(';'));
     if (isNumber(number)) return number;
   }
-  return Error{Code::io, "sbatch tells no number of a job: " + *said};
+  return Error{Code::io, "sbatch printed no job number: " + *said};
 }
 
-/// Tasks and jobs by state, of "NUMBER_TASK STATE" a line.
+/// States of tasks and jobs, from lines "NUMBER_TASK STATE".
 using States = std::vector<std::pair<std::string, std::string>>;
 
 Result<States> statesFrom(const std::vector<std::string>& command) {
   const Result<ProgramOutput> told = outputOf(command);
   if (!told) return told.error();
-  // So the queue says that it knows none of them.
+  // The queue prints this if it knows none of them.
   if (told->status != 0 && told->output.find("Invalid job id") != std::string::npos) return States();
   if (told->status != 0) return Error{Code::io, command[0] + ": " + trimmed(told->output)};
   States states;
@@ -79,7 +79,7 @@ Result<States> statesFrom(const std::vector<std::string>& command) {
     std::string job, how;
     if (!(words >> job >> how)) continue;
     job = job.substr(0, job.find('_'));
-    // Warnings are no jobs.
+    // Skip warnings.
     if (isNumber(job)) states.emplace_back(job, how);
   }
   return states;
@@ -118,7 +118,7 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
     own.push_back(log(what + ".txt"));
     return submit(bake, what, line, own);
   };
-  // Jobs that nothing follows, or nobody knows of, would be in the way of those of the next call.
+  // Cancel jobs that nothing follows, or that are not recorded: they would collide with those of the next call.
   const auto giveUp = [&](const Error& error) {
     for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
       if (!job.empty()) (void)outputOf({"scancel", job});
@@ -145,7 +145,7 @@ Result<SlurmState> stateOf(const SlurmJobs& jobs) {
   if (!ended) ended = statesFrom({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
   SlurmState state;
   state.ended = queue->empty();
-  // What the queue says last, since it is what holds.
+  // The queue comes last, because its states are current.
   for (const States* states : std::initializer_list<const States*>{ended ? &*ended : nullptr, &*queue}) {
     for (size_t i = 0; states != nullptr && i < states->size(); ++i) {
       const auto& [job, how] = (*states)[i];

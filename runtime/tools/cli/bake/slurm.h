@@ -1,6 +1,6 @@
 #pragma once
-// A bake as jobs of Slurm: an array of shards, the merge when all have ended well, the verification after that. Slurm
-// starts a shard anew whose node has died; whatever a shard had done by then stays done.
+// A bake as jobs of Slurm: an array of shards, the merge after all have succeeded, then the verification. If a node
+// dies, Slurm restarts its shard, which keeps its finished tiles.
 
 #include <filesystem>
 #include <optional>
@@ -17,10 +17,10 @@ struct SlurmBake {
   uint64_t shards = 1;
   std::vector<std::string> options;  ///< of sbatch, for every job
   std::string name;                  ///< of the jobs
-  std::filesystem::path folder;      ///< is there; scripts, what jobs print, and their numbers
+  std::filesystem::path folder;      ///< exists; holds scripts, the jobs' output, and their numbers
 };
 
-/// Numbers of jobs.
+/// Job numbers.
 struct SlurmJobs {
   std::string shards, merge, verification;
   uint64_t count = 0;  ///< of shards
@@ -28,19 +28,19 @@ struct SlurmJobs {
 
 struct SlurmState {
   uint64_t waiting = 0, running = 0,
-           failed = 0;              ///< shards; those that are none of it have ended well, as far as known
-  std::string merge, verification;  ///< as Slurm calls it: "PENDING"; empty: not known
-  bool ended = false;               ///< nothing of it is in the queue
+           failed = 0;              ///< shards; all others have succeeded, as far as known
+  std::string merge, verification;  ///< Slurm's word: "PENDING"; empty: unknown
+  bool ended = false;               ///< no job is in the queue
 };
 
-// Errors: unsupported where a command of Slurm's is not there; io where one fails, with what it says.
+// Errors: unsupported if a command of Slurm is missing; io if it fails, with its output.
 
-/// Jobs of an earlier call, of whatever count of shards, that wait or run still; none where there are none.
+/// Jobs of an earlier call, with any number of shards, that still wait or run; nullopt if there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
-/// No job stays where one could not be submitted.
+/// If a job cannot be submitted, cancels the others.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
-/// What waits and runs is what the queue has, which knows it at once. How the others have ended is told by Slurm's
-/// accounting, which may lag behind, or else by the queue, which forgets it after some minutes.
+/// Waiting and running jobs come from the queue, which is current. The results of ended jobs come from Slurm's
+/// accounting, which may lag behind, or without it from the queue, which forgets them after some minutes.
 Result<SlurmState> stateOf(const SlurmJobs& jobs);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// sgm store: what a store of baked worlds has, whether it is whole, how two bakes differ, and what nobody needs.
+// sgm store: lists and verifies a store of baked worlds, compares two bakes, and removes unused files.
 
 #include <fmt/core.h>
 
@@ -30,7 +30,7 @@ Result<void> checkFolder(const store::Folder& folder) {
   return folder.check();
 }
 
-/// Those of a store whose name begins so, all where nothing is said; what cannot be read among them, too.
+/// The worlds whose names begin with `name` (all if it is empty), including unreadable ones.
 Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& folder, const std::string& name) {
   if (Result<void> can = store::available(); !can) return can.error();
   if (Result<void> good = checkFolder(folder); !good) return good.error();
@@ -42,21 +42,21 @@ Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& fo
   }
   if (name.empty() || worlds.size() == 1) return worlds;
   return Error{Code::invalid_argument,
-               fmt::format("'{}' has {} worlds whose name begins with {}: sgm store info lists them",
+               fmt::format("'{}' has {} worlds whose name begins with {}: list them with sgm store info",
                            folder.root().string(), worlds.size(), name)};
 }
 
-/// The one that is meant.
+/// The only world that matches.
 Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string& name) {
   Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, name);
   if (!worlds) return worlds.error();
   if (worlds->size() == 1) return std::move(worlds->front());
   return Error{Code::invalid_argument,
-               fmt::format("'{}' has {} worlds: say which with --from or --to (sgm store info lists them)",
+               fmt::format("'{}' has {} worlds: choose one with --from or --to (sgm store info lists them)",
                            folder.root().string(), worlds->size())};
 }
 
-/// What is wrong, to stderr.
+/// Prints problems to stderr.
 void tell(const store::Problems& problems) {
   for (const std::string& problem : problems.told) fmt::print(stderr, "sgm: error: {}\n", problem);
   if (problems.count > problems.told.size())
@@ -65,7 +65,7 @@ void tell(const store::Problems& problems) {
 
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
 
-/// What the manifest of a world says it was baked from; nothing where that cannot be read.
+/// The origin in a world's manifest; nullopt if it cannot be read.
 std::optional<Json> originOf(const fs::path& manifest) {
   std::ifstream text(manifest);
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
@@ -89,7 +89,7 @@ std::optional<Json> originOf(const fs::path& manifest) {
   return origin;
 }
 
-/// Some chunks of the world that the options say, baked again. Adds to what is told as JSON.
+/// Bakes some chunks of the world of the options again, and compares. Adds the result to `json`.
 Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, Json& json) {
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
@@ -104,9 +104,11 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, J
   if (!key) return complain(key.error());
   std::error_code error;
   if (!fs::exists(folder.world(*key), error)) {
-    return complain(Exit::input, fmt::format("'{}' has no bake of '{}' with this seed, these parameters and cells: sgm "
-                                             "store info lists what it has",
-                                             options.store, options.file));
+    return complain(
+        Exit::input,
+        fmt::format(
+            "'{}' has no bake of '{}' with this seed, these parameters and cells: sgm store info lists its bakes",
+            options.store, options.file));
   }
   const Result<store::WorldFile> file = store::WorldFile::open(folder.world(*key));
   if (!file) return complain(file.error());
@@ -158,7 +160,7 @@ Exit storeInfo(const StoreOptions& options) {
                    {"pack_bytes", summary->pack_bytes}});
     if (options.json) continue;
     fmt::print("{}\n", name);
-    fmt::print("  from     {}\n", has_origin ? origin.line() : "a manifest that cannot be read");
+    fmt::print("  from     {}\n", has_origin ? origin.line() : "unknown: the manifest cannot be read");
     fmt::print("  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n", metres(region.box.lo.x),
                metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x), metres(region.box.hi.y),
                metres(region.box.hi.z), region.first_level, region.last_level, metres(region.finest_cell));
@@ -176,14 +178,14 @@ Exit storeVerify(const StoreVerifyOptions& options) {
   const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
   if (!worlds) return complain(worlds.error());
   if (worlds->empty()) {
-    return complain(Exit::input,
-                    fmt::format("'{}' has no worlds to verify: a bake is there when it is merged (sgm bake, and for "
-                                "shards sgm bake --merge)",
-                                options.store));
+    return complain(
+        Exit::input,
+        fmt::format("'{}' has no worlds to verify: bake one with sgm bake, or merge shards with sgm bake --merge",
+                    options.store));
   }
   Exit status = Exit::done;
   Json json = Json::object();
-  // Whatever the options say wrong is told before all is read.
+  // Report wrong options before reading everything.
   if (!options.file.empty()) status = bakeAgain(options, folder, json);
   if (status == Exit::usage || status == Exit::backend) return status;
   Json all = Json::array();
@@ -213,7 +215,7 @@ Exit storeVerify(const StoreVerifyOptions& options) {
       fmt::print("{}: {} chunks in {} tiles, {} contents in {} packs ({:.1f} MB), {} borders between chunks: {}\n",
                  store::nameOf(world->index.world), found.chunks, found.tiles, found.contents, found.packs,
                  megabytes(found.bytes), found.borders,
-                 found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
+                 found.problems.count == 0 ? "complete and closed" : fmt::format("{} problems", found.problems.count));
     }
   }
   json["worlds"] = std::move(all);
@@ -228,7 +230,7 @@ Exit storeDiff(const StoreDiffOptions& options) {
   if (!after) return complain(after.error());
   if (before->index.region.finest_cell != after->index.region.finest_cell) {
     return complain(Exit::input,
-                    fmt::format("the worlds have cells of {} and {} m: chunks of one are none of the other",
+                    fmt::format("the worlds have cells of {} and {} m: only worlds with equal cells can be compared",
                                 metres(before->index.region.finest_cell), metres(after->index.region.finest_cell)));
   }
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();

@@ -1,5 +1,5 @@
 #pragma once
-// How a command changes a store that other processes may be changing.
+// Changes a store that other processes may be changing.
 
 #include <fmt/core.h>
 
@@ -9,12 +9,12 @@
 
 namespace sgm::cli {
 
-/// change(patience), at once; where another process has the store, says so and does it when its turn comes.
+/// Calls change(patience) with patience 0; if another process holds the store, says so and waits for its turn.
 template <class Change>
 auto inTurn(const store::Folder& store, const Change& change) {
   auto changed = change(std::chrono::milliseconds(0));
   if (changed || changed.error().code != Code::busy) return changed;
-  fmt::print(stderr, "sgm: another process merges into '{}', or cleans it: waiting for it, {} minutes at most\n",
+  fmt::print(stderr, "sgm: another process is merging into '{}' or cleaning it: waiting for it, {} minutes at most\n",
              store.root().string(), store::StoreLock::kPatience.count());
   return change(store::StoreLock::kPatience);
 }

@@ -1,4 +1,4 @@
-// sgm bench chunks: how fast this machine meshes a region of a grammar's world, by each instruction set.
+// sgm bench chunks: measures how fast this machine meshes a region of a grammar's world, for each instruction set.
 
 #include <fmt/core.h>
 
@@ -17,12 +17,12 @@
 namespace sgm::cli {
 namespace {
 
-/// Milliseconds, and what was made in them.
+/// Times in milliseconds, and the results.
 struct Row {
   std::string set;
   unsigned threads = 0;
-  double first = 0, median = 0;             ///< of all chunks: with nothing derived, and warm
-  double chunk_median = 0, chunk_most = 0;  ///< of chunks with a surface, one after the other; one thread alone
+  double first = 0, median = 0;             ///< of all chunks: without cached derivations, and with them
+  double chunk_median = 0, chunk_most = 0;  ///< of chunks with a surface, one by one; only with one thread
   size_t chunks = 0, surfaces = 0, triangles = 0;
   ContentHash hash;
 };
@@ -33,7 +33,7 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// One set with so many threads.
+/// One instruction set with a number of threads.
 class Contest {
  public:
   Contest(const OpenedWorld& opened, const BenchChunksOptions& options, std::string set, unsigned threads)
@@ -147,7 +147,8 @@ void print(const BenchChunksOptions& options, const std::vector<Row>& rows) {
 
 Exit benchChunks(const BenchChunksOptions& options) {
   if (options.backend == "vulkan" || options.backend == "cuda")
-    return complain(Exit::usage, "--backend: the processor alone is measured here; sgm bench paper compares devices");
+    return complain(Exit::usage,
+                    "--backend: this command measures only the processor; compare devices with sgm bench paper");
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   std::vector<Row> rows;
@@ -158,7 +159,7 @@ Exit benchChunks(const BenchChunksOptions& options) {
     for (const unsigned count : threads) {
       Result<Row> row = Contest(opened, options, set.kernels->name, count).run(opened.region);
       if (!row) return complain(row.error());
-      // One processor: the same row twice.
+      // With one processor, this is the same row again.
       if (count != 1 && row->threads == 1) continue;
       rows.push_back(std::move(*row));
     }
@@ -172,7 +173,7 @@ Exit benchChunks(const BenchChunksOptions& options) {
   }
   for (const Row& row : rows) {
     if (row.hash == rows.front().hash) continue;
-    return complain(Exit::input, fmt::format("{} with {} threads makes other meshes than {}: please report this",
+    return complain(Exit::input, fmt::format("{} with {} threads makes other meshes than {}: please report this bug",
                                              row.set, row.threads, rows.front().set));
   }
   return Exit::done;

@@ -13,25 +13,27 @@ using measure::ClassDistance;
 using measure::Master;
 using measure::MasterKey;
 
-/// The key that masters have for the mode that is asked for; density: as classifyTriangles() has it.
+/// The reference histograms' key for the requested mode; density: as in classifyTriangles().
 Result<MasterKey> keyFor(const std::string& mode, const masters::MasterSet& set, double density) {
   std::string there;
   for (const measure::MasterLimits& limits : set.limits) {
     const MasterKey& key = limits.key;
     const bool ours = key.version == measure::kMasterVersion;
-    there += fmt::format("{}{}{}", there.empty() ? "" : "; ", textOf(key),
-                         ours ? "" : fmt::format(" (of version {}: sgm masters build makes them anew)", key.version));
+    there +=
+        fmt::format("{}{}{}", there.empty() ? "" : "; ", textOf(key),
+                    ours ? "" : fmt::format(" (of version {}: build them again with sgm masters build)", key.version));
     if (!ours) continue;
     if (measure::nameOf(key.mode) != mode) continue;
     if (key.density == 0 || key.density == density) return key;
   }
   if (mode != measure::nameOf(measure::HistogramMode::curvature) && density == 0) {
     return Error{Code::invalid_argument,
-                 "mode " + mode + " depends on the density: say with --ld how many cells per metre the mesh has"};
+                 "mode " + mode + " depends on the density: give the cells per metre of the mesh with --ld"};
   }
-  return Error{Code::invalid_argument, fmt::format("there are no masters for mode {} at {:.6g} cells per metre, but "
-                                                   "for: {}",
-                                                   mode, density, there)};
+  return Error{
+      Code::invalid_argument,
+      fmt::format("there are no reference histograms for mode {} at {:.6g} cells per metre; there are some for: {}",
+                  mode, density, there)};
 }
 
 }  // namespace
@@ -79,12 +81,12 @@ std::string textOf(const Classified& classified, const std::string& what) {
   std::string text = said.reason.empty()
                          ? fmt::format("{}: {}, by a margin of {:.2f}\n", what, said.verdict, said.margin)
                          : fmt::format("{}: {}: {}\n", what, said.verdict, said.reason);
-  text += fmt::format("  {:<12}{:>10}{:>9}  nearest master\n", "class", "MSE", "EMD");
+  text += fmt::format("  {:<12}{:>10}{:>9}  nearest reference\n", "class", "MSE", "EMD");
   for (const ClassDistance& of : said.classes) {
     text += fmt::format("  {:<12}{:>10.6f}{:>9.4f}  {}\n", of.class_name, of.mse, of.emd, of.nearest);
   }
-  text += fmt::format("  the earth mover's distance says {}\n", said.second_opinion);
-  return text + fmt::format("  masters: {}, for {}\n", classified.from, textOf(classified.limits.key));
+  text += fmt::format("  by the earth mover's distance: {}\n", said.second_opinion);
+  return text + fmt::format("  reference histograms: {}, for {}\n", classified.from, textOf(classified.limits.key));
 }
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm classify` and `sgm inspect` find out of which class a mesh is.
+// The classification of a mesh, for `sgm classify` and `sgm inspect`.
 
 #include <string>
 #include <vector>
@@ -15,18 +15,18 @@ struct Classified {
   measure::Classification said;
   measure::MasterLimits limits;  ///< and the key
   measure::Histogram histogram;
-  std::string from;                      ///< where the masters are from
-  std::vector<measure::Master> nearest;  ///< the nearest one of each class by mse, as said.classes has them
+  std::string from;                      ///< source of the reference histograms
+  std::vector<measure::Master> nearest;  ///< the nearest of each class by mse, in the order of said.classes
 };
 
-/// By the masters that a base has for this mode of histogram. density: cells per metre of the mesh, 0 where it is not
-/// known. Errors: invalid_argument where there are no masters for these; those of innerHistogram and classify.
+/// Uses the base's reference histograms for this mode. density: cells per metre of the mesh, 0 if unknown. Errors:
+/// invalid_argument if there are none for mode and density; those of innerHistogram and classify.
 Result<Classified> classifyTriangles(const asset::TriangleMesh& mesh, const std::string& mode, double density,
                                      const masters::OpenedBase& base, JobSystem& jobs);
 
-/// What `sgm classify --json` prints, without what it says of the file or region.
+/// The output of `sgm classify --json`, without the part about the file or region.
 Json toJson(const Classified& classified);
-/// The same in lines for people. what: was classified.
+/// The same as lines of text. what: the classified file or region.
 std::string textOf(const Classified& classified, const std::string& what);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// sgm classify: whether a mesh is a cave, a cloud, a building, or none of these.
+// sgm classify: tells whether a mesh is a cave, a cloud, a building, or none of these.
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 namespace sgm::cli {
 namespace {
 
-/// What is printed of a mesh.
+/// The printed report of a mesh.
 Result<std::string> reportOf(const asset::TriangleMesh& mesh, const ClassifyOptions& options,
                              const masters::OpenedBase& base, double density, Json json) {
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
@@ -51,14 +51,15 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
     if (base && !base->notice.empty()) fmt::print(stderr, "sgm: warning: {}\n", base->notice);
     return base;
   }
-  // A file that is named may be anything: it is not moved out of its place.
+  // Unlike the default base, a file that the user names is never moved aside.
   masters::ReadBase read = masters::readBase(file);
   if (read.damage == masters::Damage::none) return masters::OpenedBase{std::move(*read.set), file, {}};
   const bool io = read.damage == masters::Damage::io;
   return Error{
       io ? Code::io : Code::bad_input,
       io ? fmt::format("cannot read {}: {}", file, read.what)
-         : fmt::format("{} is no base of masters: {}; sgm masters build --out FILE makes one", file, read.what)};
+         : fmt::format("{} is not a database of reference histograms: {}; make one with sgm masters build --out FILE",
+                       file, read.what)};
 }
 
 Exit classifyMesh(const ClassifyOptions& options) {

@@ -1,5 +1,5 @@
 #pragma once
-// The commands that tell classes of meshes apart, and the process that inspects an upload.
+// The commands that classify meshes, and the process that inspects an upload.
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 namespace sgm::cli {
 
 struct ClassifyOptions : WorldOptions {
-  std::string masters;  ///< a base; empty: the one at its own place, or those that are built in
+  std::string masters;  ///< a base; empty: the default base, or the built-in reference histograms
   std::string mode = "curvature";
   uint64_t memory = 4096;  ///< MB
   double seconds = 300;
@@ -20,19 +20,19 @@ Exit classifyMesh(const ClassifyOptions& options);
 
 struct InspectOptions {
   std::string kind;        ///< "glb", "obj", "ply", "stl" or "sgm"
-  std::string name;        ///< a client's, for people; may be anything
-  std::string masters;     ///< a base; empty: those that are built in
+  std::string name;        ///< the client's, for display; any text
+  std::string masters;     ///< a base; empty: the built-in reference histograms
   uint64_t memory = 2048;  ///< MB
   uint64_t seconds = 60;
-  bool list_masters = false, store_masters = false;  ///< instead of all else
-  std::string region, cell, seed;                    ///< of a grammar, as they were sent; empty: not at all
+  bool list_masters = false, store_masters = false;  ///< does this alone
+  std::string region, cell, seed;                    ///< of a grammar, as they were sent; empty: not sent
   std::vector<std::string> sets;
 };
 /// Standard input to standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview.
 Exit inspect(const InspectOptions& options);
 
 struct MastersBuildOptions {
-  std::string out;   ///< empty: its own place, unless `emit` is there
+  std::string out;   ///< empty: the default base, unless `emit` is given
   std::string emit;  ///< a source file; empty: none
   uint64_t models = 12;
   uint64_t seed = 1;

@@ -1,5 +1,5 @@
-// sgm inspect: the process that reads what the metrics service was sent. It is limited before it reads, opens no file
-// but the base of masters, and says what it found once, at the end.
+// sgm inspect: the process that reads uploads of the metrics service. It limits itself before it reads, opens no file
+// but the base of reference histograms, and writes its result once, at the end.
 
 #include "tools/cli/classify/inspect.h"
 
@@ -26,9 +26,9 @@
 namespace sgm::cli {
 namespace {
 
-/// Of any file that the process writes: more than an answer takes, or a base.
+/// For any file that the process writes: more than an answer or a base needs.
 constexpr rlim_t kMostFileBytes = rlim_t{256} << 20;
-/// Its streams, a base with its journal, and what libraries open for a moment.
+/// For its streams, a base with its journal, and files that libraries open briefly.
 constexpr rlim_t kMostDescriptors = 32;
 
 void holdTo(const InspectOptions& options) {
@@ -36,13 +36,13 @@ void holdTo(const InspectOptions& options) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
 #if defined(SYS_close_range)
-  // What a host has left open behind the standard streams.
+  // Close descriptors that the host has leaked.
   syscall(SYS_close_range, 3u, ~0u, 0u);
 #endif
 #endif
   const rlimit files{kMostFileBytes, kMostFileBytes};
   setrlimit(RLIMIT_FSIZE, &files);
-  // RLIMIT_NPROC stays: it counts all that the user runs, and a busy machine would leave no thread to this process.
+  // Do not set RLIMIT_NPROC: it counts all processes of the user, so on a busy machine this one could start no thread.
   const rlimit descriptors{kMostDescriptors, kMostDescriptors};
   setrlimit(RLIMIT_NOFILE, &descriptors);
   ProcessLimits limits;
@@ -95,7 +95,7 @@ std::string framed(const InspectAnswer& answer) {
 
 InspectAnswer answerOf(const InspectOptions& options) {
   if (options.list_masters) return {listedMasters(options), {}};
-  // Before what may be crafted is read.
+  // Open the base before reading untrusted input.
   std::optional<Result<masters::OpenedBase>> base;
   if (!options.store_masters) base = inspectedBase(options.masters);
   const Result<std::vector<std::byte>> bytes = readInput();
@@ -137,7 +137,7 @@ InspectProblem outOfMemory(const InspectOptions& options) {
   problem.status = 500;
   problem.code = "validator_limit";
   problem.detail = fmt::format(
-      "judging this takes more than {} MB of memory, the service's limit: send something smaller", options.memory);
+      "the validation takes more than {} MB of memory, the limit of the service: send a smaller file", options.memory);
   return problem;
 }
 

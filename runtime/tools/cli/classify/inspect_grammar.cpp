@@ -1,4 +1,4 @@
-// A grammar that was uploaded, meshed.
+// Meshes an uploaded grammar.
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@
 namespace sgm::cli {
 namespace {
 
-/// As many as `sgm classify` takes where no region is given; a region that is given may have no more.
+/// The maximum of `sgm classify` without a region; here also for a given region.
 constexpr uint64_t kMostChunks = 4096;
 
 Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics) {
@@ -45,7 +45,7 @@ InspectProblem wrongGrammar(const std::vector<Diagnostic>& diagnostics) {
   return problem;
 }
 
-/// As it was sent, which is not on a command line: "--cell: 0 is ..." speaks of cell.
+/// Adapts messages to parameters of a request: "--cell: 0 is ..." becomes "cell: 0 is ...".
 Error ofParameters(Error error) {
   for (size_t at = 0; (at = error.message.find("--", at)) != std::string::npos;) error.message.erase(at, 2);
   return error;
@@ -93,7 +93,7 @@ InspectedGrammar meshUploadedGrammar(std::span<const std::byte> text, const Insp
   };
   const Result<WorldOptions> world = worldOptions(options);
   if (!world) return refuse(world.error());
-  // Without a resolver nothing but the standard library is imported.
+  // Without a resolver, only the standard library can be imported.
   const CompileResult compiled =
       compileGrammar({reinterpret_cast<const char*>(text.data()), text.size()}, options.name, CompileOptions{});
   if (!compiled.program) {

@@ -1,4 +1,4 @@
-// The masters, as the metrics service shows and takes them.
+// The reference histograms of the metrics service: reads and stores them.
 
 #include <filesystem>
 
@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Exactly: numbers are written so that they are read again as they are.
+/// Lossless: numbers survive a round trip.
 Json keyJson(const measure::MasterKey& key) {
   return {{"mode", measure::nameOf(key.mode)},
           {"bins", key.bins},

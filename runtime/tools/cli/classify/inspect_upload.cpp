@@ -1,4 +1,4 @@
-// What there is to say of an upload: its measures, its class, and a preview.
+// The report on an upload: its measures, its class, and a preview.
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +17,7 @@ namespace {
 
 using measure::MeshMeasures;
 
-/// A mesh, and what is known of it by itself.
+/// A mesh, and facts about its source.
 struct Subject {
   asset::TriangleMesh mesh;
   std::optional<measure::Cut> cut;  ///< of a region
@@ -51,7 +51,7 @@ std::string nameOf(const InspectOptions& options) {
   return options.name.empty() ? "upload." + options.kind : options.name;
 }
 
-/// Into the JSON of a glTF file, as far as the message says; empty if it says nothing of one.
+/// JSON pointer into a glTF file, if the message names a place; otherwise empty.
 std::string placeOf(const std::string& message) {
   constexpr std::string_view kAccessor = "accessor ";
   const std::string_view pointer = asset::pointerIn(message);
@@ -62,7 +62,7 @@ std::string placeOf(const std::string& message) {
 
 InspectAnswer refused(const InspectProblem& problem) { return {toJson(problem), {}}; }
 
-/// Error: that of a machine, which is not the upload's.
+/// Error: that of the machine, not of the upload.
 InspectAnswer judged(const Subject& subject, const InspectOptions& options, const Result<masters::OpenedBase>& base,
                      const Stopwatch& watch) {
   const asset::TriangleMesh& mesh = subject.mesh;
@@ -71,7 +71,7 @@ InspectAnswer judged(const Subject& subject, const InspectOptions& options, cons
   measure::MeshSettings settings;
   settings.cut = subject.cut;
 
-  // The three need nothing of each other.
+  // The three are independent of each other.
   std::optional<Result<MeshMeasures>> measures;
   std::optional<Result<Classified>> classified;
   Preview preview;
@@ -123,7 +123,7 @@ InspectAnswer inspectUpload(std::span<const std::byte> bytes, const InspectOptio
   }
   if (saysOfRegion(options))
     return refused(problemOf(
-        {Code::bad_input, "region, cell, seed and set are for grammars: a mesh is judged as it is"}, options));
+        {Code::bad_input, "region, cell, seed and set are for grammars: leave them out for a mesh"}, options));
   const asset::MeshFileKind kind = *asset::meshFileKind("." + options.kind);
   Result<asset::TriangleMesh> mesh = readMeshBytes(bytes, kind);
   if (!mesh) {

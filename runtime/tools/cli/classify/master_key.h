@@ -1,5 +1,5 @@
 #pragma once
-// What the command says of masters, and where it takes them from.
+// Output and choice of the reference histograms.
 
 #include <string>
 
@@ -12,8 +12,8 @@ namespace sgm::cli {
 std::string textOf(const measure::MasterKey& key);
 Json toJson(const measure::MasterKey& key);
 
-/// The base of that name; without one that at its own place, or the masters that are built in. What became of a damaged
-/// one goes to stderr. Errors: those of openBase; bad_input for a file that is no base.
+/// The base of that name; without a name the default base, or the built-in reference histograms. Reports on stderr what
+/// became of a damaged one. Errors: those of openBase; bad_input for a file that is not a base.
 Result<masters::OpenedBase> mastersOf(const std::string& file);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// sgm masters: makes the master histograms that `classify` compares with, and lists them.
+// sgm masters: makes the reference histograms that `classify` compares with, and lists them.
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// What classes the masters of a key are of, and how many.
+/// The classes of a key's reference histograms, and their numbers.
 std::vector<std::pair<std::string, size_t>> classesOf(const std::vector<measure::Master>& masters) {
   std::vector<std::pair<std::string, size_t>> classes;
   for (const measure::Master& master : masters) {
@@ -27,7 +27,7 @@ std::string summaryOf(const masters::MasterSet& set) {
   for (const measure::MasterLimits& limits : set.limits) {
     text += fmt::format("  {}:", textOf(limits.key));
     for (const auto& [name, count] : classesOf(set.of(limits.key))) text += fmt::format(" {} {}", count, name);
-    text += fmt::format("; unknown past MSE {:.3g} or EMD {:.3g}\n", limits.mse, limits.emd);
+    text += fmt::format("; unknown above MSE {:.3g} or EMD {:.3g}\n", limits.mse, limits.emd);
   }
   return text;
 }
@@ -66,9 +66,9 @@ Result<masters::MasterSet> build(const MastersBuildOptions& options) {
 Exit buildMasters(const MastersBuildOptions& options) {
   const std::string out = options.out.empty() && options.emit.empty() ? masters::defaultBase().string() : options.out;
   if (out.empty() && options.emit.empty()) {
-    return complain(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: say with --out where the base is to be");
+    return complain(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: name the database with --out");
   }
-  // What cannot be written shows before the work.
+  // Report an unwritable file before the work.
   if (!out.empty()) {
     if (options.out.empty()) {
       if (const Result<masters::OpenedBase> there = mastersOf({}); !there) return complain(there.error());
@@ -94,8 +94,8 @@ Exit buildMasters(const MastersBuildOptions& options) {
     if (const Result<void> done = masters::writeBase(out, *set); !done) return complain(done.error());
     fmt::print("{}: ", out);
   }
-  fmt::print("{} masters of {} models, {:.1f} s\n{}", set->masters.size(), options.models * masters::families().size(),
-             watch.seconds(), summaryOf(*set));
+  fmt::print("{} reference histograms of {} models, {:.1f} s\n{}", set->masters.size(),
+             options.models * masters::families().size(), watch.seconds(), summaryOf(*set));
   return Exit::done;
 }
 
@@ -106,7 +106,7 @@ Exit listMasters(const MastersListOptions& options) {
     fmt::print("{}\n", Json{{"masters", base->from}, {"keys", keysJson(base->set)}}.text());
     return Exit::done;
   }
-  fmt::print("{}: {} masters\n{}", base->from, base->set.masters.size(), summaryOf(base->set));
+  fmt::print("{}: {} reference histograms\n{}", base->from, base->set.masters.size(), summaryOf(base->set));
   for (const measure::MasterLimits& limits : base->set.limits) {
     fmt::print("\n{}\n", textOf(limits.key));
     for (const measure::Master& m : base->set.of(limits.key)) fmt::print("  {} ({} models)\n", m.name, m.models);

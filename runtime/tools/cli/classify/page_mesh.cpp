@@ -12,14 +12,14 @@ namespace {
 
 using Position = std::array<float, 3>;
 
-/// Places further out are no numbers to `measure` either.
+/// `measure`, too, treats places farther out as non-finite.
 constexpr double kFarthest = 1e37;
 
 bool isPlace(const asset::Point& p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Every so manyth triangle: of a mesh that cannot be simplified.
+/// Keeps every n-th triangle, for a mesh that cannot be simplified.
 void thinOut(std::vector<uint32_t>& indices) {
   const size_t count = indices.size() / 3, step = (count + kMostPreviewTriangles - 1) / kMostPreviewTriangles;
   size_t kept = 0;
@@ -29,8 +29,8 @@ void thinOut(std::vector<uint32_t>& indices) {
   indices.resize(3 * kept);
 }
 
-/// Joins points at one place, and keeps no other point there: the simplifier takes them for the two sides of a seam,
-/// which it must not move, and of a mesh in which each triangle has points of its own it could collapse no edge.
+/// Merges points at the same place. Otherwise the simplifier would treat them as the two sides of a seam, which it must
+/// not move, and could collapse no edge of a mesh whose triangles share no points.
 void weld(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   std::vector<uint32_t> remap(positions.size());
   const size_t count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), positions.data(),
@@ -46,7 +46,7 @@ Position cross(const Position& a, const Position& b, const Position& c) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// Of each point, weighted by areas.
+/// For each point, weighted by area.
 std::vector<Position> normalsOf(const std::vector<uint32_t>& indices, const std::vector<Position>& positions) {
   std::vector<Position> normals(positions.size(), Position{});
   for (size_t i = 0; i < indices.size(); i += 3) {
@@ -57,7 +57,7 @@ std::vector<Position> normalsOf(const std::vector<uint32_t>& indices, const std:
   return normals;
 }
 
-/// Triangles that the simplifier has folded over: they lie on others, which show the surface there as it is.
+/// Drops triangles that the simplifier has folded over: other triangles show the surface there.
 void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& positions,
                 const std::vector<Position>& normals) {
   size_t kept = 0;
@@ -72,8 +72,8 @@ void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& pos
   if (kept > 0) indices.resize(kept);
 }
 
-/// Along edges first, which hardly turns a triangle over. Clusters of points, which may, and show as specks then, are
-/// for meshes whose parts are too many to keep each.
+/// Collapses edges first, which rarely flips a triangle. Clustering of points, which flips some into specks, is for
+/// meshes with too many parts to keep each.
 void simplify(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   constexpr size_t kMost = 3 * kMostPreviewTriangles;
   constexpr float kAnyError = 1;

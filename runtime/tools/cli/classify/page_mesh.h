@@ -1,5 +1,5 @@
 #pragma once
-// A mesh for a look at it on a page: small, whatever the mesh is.
+// A small version of any mesh, for a preview on a page.
 
 #include <array>
 #include <cstdint>
@@ -13,13 +13,14 @@ namespace sgm::cli {
 inline constexpr size_t kMostPreviewTriangles = 60'000;
 
 struct Preview {
-  asset::Point origin;                          ///< in the mesh's world; the positions count from it
+  asset::Point origin;                          ///< in the mesh's world; positions are relative to it
   std::vector<std::array<float, 3>> positions;  ///< finite, and each is used
-  std::vector<uint32_t> indices;                ///< of triangles, as few as may be
+  std::vector<uint32_t> indices;                ///< of triangles, at most kMostPreviewTriangles unless this cannot be
+                                                ///< reached
   std::array<float, 3> low{}, high{};           ///< of the positions
 };
 
-/// Of the triangles whose corners are numbers. Empty where there are none.
+/// Of the triangles with finite corners. Empty if there are none.
 Preview previewOf(const asset::TriangleMesh& mesh);
 
 /// "SGMPREV1", uint32 points, uint32 triangles, the positions, the indices; little-endian.

@@ -12,15 +12,15 @@
 namespace sgm::cli {
 
 struct FlyOptions : WorldOptions {
-  std::string path;  ///< a JSON file; empty: the flight finds its own way
+  std::string path;  ///< a JSON file; empty: the flight plans its own path
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
-  double edits = 0;                   ///< digs a second of the path
-  bool animate = false;               ///< drive parameters while flying
-  std::vector<std::string> animated;  ///< these; none: all that the grammar declares animated
+  double edits = 0;                   ///< digs per second of the path
+  bool animate = false;               ///< animates parameters during the flight
+  std::vector<std::string> animated;  ///< these parameters; empty: all that the grammar declares animated
   bool check = false, unpaced = false, compare = false;
-  bool measure = false;  ///< every chunk that is meshed
+  bool measure = false;  ///< measures every meshed chunk
   int top_level = 6;
   double finest = 24, finest_margin = 6, view = 600;  ///< metres
   uint64_t mesh_mb = 256;
@@ -29,10 +29,10 @@ struct FlyOptions : WorldOptions {
   std::string light = "auto";  ///< of pictures, as RenderOptions::light
   bool levels = false;
   std::string video;                ///< an .mp4 file; empty: none
-  std::string journal, cache;       ///< a file and a folder of the world's; empty: none
+  std::string journal, cache;       ///< a file and a folder of the world; empty: none
   std::vector<std::string> stores;  ///< folders of baked worlds
   bool serve = false, keep_serving = false;
-  ServingOptions serving;  ///< where `serve` is set
+  ServingOptions serving;  ///< used if `serve` is set
 };
 Exit fly(const FlyOptions& options);
 

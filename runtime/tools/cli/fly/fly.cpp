@@ -1,4 +1,4 @@
-// sgm fly: streams a world along a path, and says how well that went.
+// sgm fly: streams a world along a path, and reports the quality of the streaming.
 
 #include <fmt/core.h>
 
@@ -35,7 +35,7 @@ template <class T, auto End>
 using Owner = std::unique_ptr<T, EndWith<End>>;
 
 struct Scene {
-  /// Warnings of the world go nowhere: what they are about is told as the command's error.
+  /// suppresses the world's warnings while the command reports them as an error
   std::atomic<bool> quiet = false;
   Owner<sgm_runtime, sgm_runtime_destroy> runtime;
   Owner<sgm_grammar, sgm_grammar_destroy> grammar;
@@ -53,13 +53,13 @@ Exit reportError(const sgm_error& error) {
   return complain(status, error.message);
 }
 
-/// What the world has to say, beside a progress bar: a damaged journal, a folder that cannot be written.
+/// Prints warnings of the world: a damaged journal, an unwritable folder.
 void tellWarning(void* scene, sgm_log_level level, const char* message) {
   if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
     std::fprintf(stderr, "sgm: warning: %s\n", message);
 }
 
-/// Has the journal hold all edits. The message of what went wrong is the caller's to tell.
+/// Makes the journal hold all edits. The caller prints the error.
 Result<void> keepEdits(Scene& scene) {
   scene.quiet = true;
   sgm_error error = SGM_ERROR_INIT;
@@ -68,7 +68,7 @@ Result<void> keepEdits(Scene& scene) {
   return {};
 }
 
-/// What the options say, through the public interface. Messages of the grammar have been printed before.
+/// Builds the scene of the options through the public interface, after messages of the grammar have been printed.
 Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
@@ -117,13 +117,13 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
 
   sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
   world_desc.top_level = options.top_level;
-  // A margin for what is on its way while the viewer moves on.
+  // A margin for chunks that arrive while the viewer moves on.
   world_desc.finest_distance = options.finest + options.finest_margin;
   world_desc.view_distance = options.view;
   world_desc.mesh_bytes = options.mesh_mb << 20;
   world_desc.collider_distance = kWalkableDistance;
   if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
-  // A flight to compare with meshes for itself.
+  // The second flight meshes everything itself.
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
   std::vector<const char*> stores;
   for (const std::string& store : options.stores) stores.push_back(store.c_str());
@@ -133,7 +133,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   }
   if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
   if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
-  // A flight to compare with is not reported.
+  // The second flight is not measured.
   if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
   sgm_world* world = nullptr;
   if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportError(error);
@@ -150,7 +150,7 @@ Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
 
 /// The hash of level 0 around the flight's end.
 Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
-  // Grown to whole chunks it must not leave the world.
+  // The box, grown to whole chunks, must stay in the world.
   const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;
   int32_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -196,7 +196,8 @@ std::string worldName(std::string_view text) {
   return name.empty() ? "world" : name;
 }
 
-/// A service that watches the scene's world, and says on stderr where: standard output is the report's.
+/// Starts a service that watches the scene's world, and prints its address to stderr: standard output is for the
+/// report.
 Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   Result<Serving> serving = Serving::start(options.serving);
   if (!serving) return serving;
@@ -206,7 +207,7 @@ Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   return serving;
 }
 
-/// pictures: null where the flight is by distance, to compare.
+/// pictures: null for the second flight, by distance.
 FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Scene scene;
   const bool serves = options.serve && pictures != nullptr;
@@ -248,11 +249,11 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
-  // Before all that may fail: what was dug is not there again.
+  // Before all that may fail: the dug edits exist only here.
   const Result<void> kept = keepEdits(scene);
   if (!kept && !report) return {{}, complain(kept.error())};
   if (signals && signals->came() && !report) {
-    fmt::print(stderr, "ended before the flight was over: there is no report\n");
+    fmt::print(stderr, "stopped before the end of the flight: there is no report\n");
     return {{}, Exit::done};
   }
   if (!report && report.error().code != Code::cancelled) return {{}, complain(report.error())};

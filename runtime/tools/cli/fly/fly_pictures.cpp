@@ -9,11 +9,11 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kFramesAPicture = 2;  // of the video
+constexpr uint64_t kFramesAPicture = 2;  // in the video
 constexpr uint64_t kFramesALook = 60;    // at the light
-constexpr double kLeap = 20;             // metres from one frame to the next; the fastest flight makes less
+constexpr double kLeap = 20;             // metres from one frame to the next; the fastest flight stays below
 
-/// The world, with what was dug and driven, as light sees it.
+/// The world, with its edits and parameters, for computing light.
 LitWorld litWorld(const FlownScene& scene) {
   sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
   sgm_grammar_domain(scene.grammar, &domain);
@@ -48,11 +48,11 @@ bool FlyPictures::inSheet(uint64_t frame) const {
 
 bool FlyPictures::inVideo(uint64_t frame) const { return video_ != nullptr && frame % kFramesAPicture == 0; }
 
-/// At fixed frames, whichever are drawn: the same flight has the same light on a sheet and in a video.
+/// At fixed frames, so that the same flight has the same light on a sheet and in a video.
 Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const FlightPlace& place) {
   const bool leapt = last_ && glm::distance(last_->position, place.position) > kLeap;
   last_ = place;
-  // No jump of lamp or haze between the looks.
+  // Between looks, lamp and haze change gradually.
   depth_ += (seen_depth_ - depth_) / static_cast<double>(kFramesALook);
   if (frame % kFramesALook != 0 && !leapt) return {};
   CameraPlace camera;
@@ -63,10 +63,10 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   camera.aspect = static_cast<double>(wish.width) / wish.height;
   LitWorld world = litWorld(scene);
   const std::optional<Light> wanted = lightNamed(options_.light);
-  if (wanted || options_.levels) world.roofless = false;  // no question
+  if (wanted || options_.levels) world.roofless = false;  // without --light auto, it does not matter
   const Result<Outlook> outlook = lookOut(world, camera);
   if (!outlook) return outlook.error();
-  // On a way through the rock all stays as it was.
+  // Inside rock, keep the previous light.
   if (outlook->buried && frame > 0) return {};
   seen_depth_ = outlook->depth;
   if (leapt || frame == 0) depth_ = seen_depth_;

@@ -15,13 +15,13 @@
 
 namespace sgm::cli {
 
-/// What is flown through.
+/// The scene of the flight.
 struct FlownScene {
   const sgm_grammar* grammar = nullptr;
   sgm_world* world = nullptr;
 };
 
-/// How many pictures were lit by what.
+/// Number of pictures by their light.
 struct PictureLights {
   uint64_t sun = 0, lamp = 0, none = 0;
 };
@@ -31,11 +31,11 @@ class FlyPictures {
  public:
   explicit FlyPictures(const FlyOptions& options) : options_(options) {}
 
-  /// Opens the files, the device and the encoder that are asked for: a flight may take long, and be for nothing.
+  /// Opens the files, the device and the encoder, so that errors show before a long flight.
   Result<void> begin();
   /// Whether the sheet or the video has this frame.
   bool wants(uint64_t frame) const { return inSheet(frame) || inVideo(frame); }
-  /// Told of every frame. False where it cannot be drawn or written; finish() says why.
+  /// Call for every frame. False if it cannot be drawn or written; finish() returns the error.
   bool take(const FlownScene& scene, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
   Result<void> finish();
   const PictureLights& lights() const { return lights_; }
@@ -51,9 +51,9 @@ class FlyPictures {
   std::optional<FileWriter> sheet_;
   std::unique_ptr<VideoFile> video_;
   std::vector<Image> images_;
-  Light light_ = Light::sun;  ///< of now
+  Light light_ = Light::sun;  ///< current
   SteadyLight steady_;
-  double seen_depth_ = 1, depth_ = 1;  ///< metres, at the last look, and as it is drawn
+  double seen_depth_ = 1, depth_ = 1;  ///< metres: at the last look, and as drawn
   std::optional<FlightPlace> last_;
   PictureLights lights_;
   std::optional<Error> error_;

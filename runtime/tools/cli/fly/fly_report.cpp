@@ -8,7 +8,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Frames of changes until a dig is drawn: the one that is being made ready, and the next.
+/// Frames of changes until a dig is drawn: the one in preparation, and the next.
 constexpr double kMostDigFrames = 2;
 
 double shareOf(uint64_t part, uint64_t whole) {
@@ -101,86 +101,88 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
 
 void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance) {
   const FlightReport& r = flown.report;
-  fmt::print("{} frames at {} m/s, {} changes of what is drawn, {:.1f} s\n", r.frames, options.speed, r.commits,
-             r.seconds);
+  fmt::print("{} frames at {} m/s, {} frames of changes, {:.1f} s\n", r.frames, options.speed, r.commits, r.seconds);
   if (options.check) {
     const FrameReport& worst = r.checked.worst;
     fmt::print(
-        "  surface   {} open edges, {} non-manifold, {} overlaps in any frame (up to {} triangles); {} of {} "
-        "whole checks failed\n",
+        "  surface   {} open edges, {} non-manifold, {} overlaps in any frame (up to {} triangles); {} of {} checks of "
+        "a whole frame failed\n",
         worst.open_edges, worst.nonmanifold_edges, worst.overlaps, worst.triangles, r.checked.whole_failures,
         r.checked.whole_checks);
     fmt::print("            {} degenerate triangles, {} flat, {} folded, {} self intersections, {} between parts\n",
                worst.degenerate_triangles, worst.flat_triangles, worst.folded_triangles, worst.self_intersections,
                r.checked.between_parts);
   }
-  fmt::print("  frame     {:.3f} ms of the caller's thread in the middle, {:.3f} at 99 %, {:.3f} at most\n",
+  fmt::print("  frame     {:.3f} ms of the caller's thread (median), {:.3f} at 99 %, {:.3f} at most\n",
              r.main_thread.p50, r.main_thread.p99, r.main_thread.max);
   if (r.walkable_ms >= 0) {
-    fmt::print("  start     all that is seen within {} m of level 0, and with colliders, after {:.0f} ms\n",
+    fmt::print("  start     everything visible within {} m has level 0 and colliders after {:.0f} ms\n",
                kWalkableDistance, r.walkable_ms);
   } else if (r.commits == 0) {
-    fmt::print("  start     over before anything was drawn: fly longer (--frames), or with larger cells (--cell)\n");
+    fmt::print(
+        "  start     the flight ended before anything was drawn: fly longer (--frames), or with larger cells "
+        "(--cell)\n");
   } else if (r.seen > 0) {
-    fmt::print("  start     over before all that is seen within {} m was of level 0: fly longer (--frames)\n",
-               kWalkableDistance);
+    fmt::print(
+        "  start     the flight ended before everything visible within {} m had level 0: fly longer (--frames)\n",
+        kWalkableDistance);
   }
   if (r.seen > 0) {
-    fmt::print("  level 0   {:.2f} % of the surfaces seen within {} m, all of them in {:.2f} % of frames\n",
+    fmt::print("  level 0   {:.2f} % of the surfaces visible within {} m, all of them in {:.2f} % of the frames\n",
                100 * shareOf(r.seen_finest, r.seen), options.finest, 100 * shareOf(r.frames_covered, r.frames_seen));
   } else {
-    fmt::print("  level 0   no surface was seen within {} m of the way: --path takes another\n", options.finest);
+    fmt::print("  level 0   no surface was visible within {} m: choose another path with --path\n", options.finest);
   }
-  fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % in vain\n", r.stats.chunks_meshed,
-             r.stats.finest_meshed, r.stats.seam_jobs, 100 * shareOf(r.stats.chunks_in_vain, r.stats.chunks_meshed));
+  fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % never drawn\n",
+             r.stats.chunks_meshed, r.stats.finest_meshed, r.stats.seam_jobs,
+             100 * shareOf(r.stats.chunks_in_vain, r.stats.chunks_meshed));
   if (r.stats.rounded_cells > 0) {
-    fmt::print("  edges     {} of their cells keep rounded ones, since sharp ones would fold or cut the surface\n",
+    fmt::print("  edges     {} cells keep rounded edges, since sharp ones would fold or cut the surface\n",
                r.stats.rounded_cells);
   }
   if (!r.stale.empty()) {
     const Spread stale = spreadOf(r.stale);
-    fmt::print("  leaps     2 frames later {:.1f} % of the work for the old place was left, {:.1f} % in the middle\n",
+    fmt::print("  leaps     2 frames later at most {:.1f} % of the work for the old place was left (median {:.1f} %)\n",
                100 * stale.max, 100 * stale.p50);
   }
   if (flown.fields > 0) {
     fmt::print(
-        "  fields    {} with other parameters, {} of them drawn; they and digs had {} chunks meshed again, {:.1f} % of "
-        "all\n",
+        "  fields    {} with other parameters, {} of them drawn; for them and for digs {} chunks were meshed again, "
+        "{:.1f} % of all\n",
         flown.fields, flown.fields_drawn, r.stats.chunks_outdated,
         100 * shareOf(r.stats.chunks_outdated, r.stats.chunks_meshed));
   }
   if (r.digs.digs() > 0) {
-    fmt::print(
-        "  digs      {} ({} cuts, {} adds, {} undos), drawn {} frames of changes later in the middle, {} at most\n",
-        r.digs.digs(), r.digs.cuts, r.digs.adds, r.digs.undos, r.digs.frames.p50, r.digs.frames.max);
-    fmt::print("            after {:.0f} ms in the middle, {:.0f} at 99 %, {:.0f} at most; up to {} chunks waited\n",
+    fmt::print("  digs      {} ({} cuts, {} adds, {} undos), drawn {} frames of changes later (median), {} at most\n",
+               r.digs.digs(), r.digs.cuts, r.digs.adds, r.digs.undos, r.digs.frames.p50, r.digs.frames.max);
+    fmt::print("            after {:.0f} ms (median), {:.0f} at 99 %, {:.0f} at most; up to {} chunks waited\n",
                r.digs.milliseconds.p50, r.digs.milliseconds.p99, r.digs.milliseconds.max, r.digs.most_queued);
   }
   if (by_distance) {
-    fmt::print("  reach     {} of level 0 instead of {} by distance alone: {:.1f} % saved\n", r.stats.finest_meshed,
-               by_distance->stats.finest_meshed,
+    fmt::print("  reach     {} chunks of level 0 instead of {} by distance alone: {:.1f} % saved\n",
+               r.stats.finest_meshed, by_distance->stats.finest_meshed,
                100 * (1 - shareOf(r.stats.finest_meshed, by_distance->stats.finest_meshed)));
   }
-  fmt::print("  colliders {} at the end; {} missing within {} m, {} not as drawn, {} of nothing drawn\n",
+  fmt::print("  colliders {} at the end; {} missing within {} m, {} unlike the drawn mesh, {} without a drawn mesh\n",
              r.colliders.colliders, r.colliders.missing, kWalkableDistance, r.colliders.unlike, r.colliders.stray);
-  fmt::print("  memory    {:.1f} MB of meshes at most, {:.1f} of colliders, {:.1f} in all; {:.2f} MB in one frame\n",
+  fmt::print("  memory    at most {:.1f} MB of meshes, {:.1f} of colliders, {:.1f} in all; {:.2f} MB in one frame\n",
              megabytes(r.stats.peak_mesh_bytes), megabytes(r.peak_collider_bytes), megabytes(flown.runtime_peak_bytes),
              megabytes(r.peak_handed_over));
   if (!options.cache.empty()) {
-    fmt::print("  cache     {} parts of chunks found, {} not ({} damaged), {:.1f} MB\n", r.stats.cache_hits,
+    fmt::print("  cache     {} parts of chunks found, {} not found ({} damaged), {:.1f} MB\n", r.stats.cache_hits,
                r.stats.cache_misses, r.stats.cache_damaged, megabytes(r.stats.cache_bytes));
   }
   if (!options.stores.empty()) {
-    fmt::print("  stores    {} parts of chunks found, {} not ({} damaged), {:.1f} MB read\n", r.stats.store_hits,
+    fmt::print("  stores    {} parts of chunks found, {} not found ({} damaged), {:.1f} MB read\n", r.stats.store_hits,
                r.stats.store_misses, r.stats.store_damaged, megabytes(r.stats.store_bytes));
   }
   if (flown.backend.chunks > 0) {
-    fmt::print("  device    {} meshed {} parts of chunks, the CPU {} in its stead; lost {} times\n",
+    fmt::print("  device    {} meshed {} parts of chunks, the CPU {} instead; the device was lost {} times\n",
                flown.backend.device, flown.backend.chunks - flown.backend.chunks_on_cpu, flown.backend.chunks_on_cpu,
                flown.backend.losses);
   }
   if (flown.lights.sun + flown.lights.lamp > 0 && options.light == "auto") {
-    fmt::print("  light     pictures by the sun: {}, by a lamp: {} (--light chooses)\n", flown.lights.sun,
+    fmt::print("  light     pictures lit by the sun: {}, by a lamp: {} (--light chooses)\n", flown.lights.sun,
                flown.lights.lamp);
   }
   if (flown.measures) print(*flown.measures);
@@ -193,7 +195,7 @@ std::optional<std::string> defectOf(const Flown& flown) {
   if (!report.checked.worst.valid() || report.checked.between_parts > 0)
     return "a frame's surface has triangles that are flat, fold or cut each other";
   if (report.checked.whole_failures > 0) return "a check of a whole frame failed";
-  if (!report.colliders.fit()) return "colliders are not those of what is drawn";
+  if (!report.colliders.fit()) return "colliders differ from the drawn meshes";
   if (report.digs.frames.max > kMostDigFrames)
     return fmt::format("a dig was drawn {} frames of changes later", report.digs.frames.max);
   if (flown.measures) return defectOf(*flown.measures);

@@ -1,4 +1,4 @@
-// sgm check: is a grammar right, and does its world keep what it expects?
+// sgm check: checks grammars, and whether their worlds meet their expectations.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kMostSeeds = 10;  ///< named in one line
 
-/// What --expect works with, made once for all files.
+/// Resources of --expect, shared by all files.
 struct Workshop {
   std::unique_ptr<JobSystem> jobs;
   std::unique_ptr<Backend> backend;

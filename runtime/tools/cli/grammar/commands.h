@@ -1,5 +1,5 @@
 #pragma once
-// The commands about the text of grammars.
+// The commands for the text of grammars.
 
 #include <cstdint>
 #include <string>

@@ -31,7 +31,7 @@ std::string valueText(Measure measure, const Measured& measured) {
 }
 
 struct MeasuredSpread {
-  size_t count = 0;  ///< of the values that could be measured
+  size_t count = 0;  ///< of the measured values
   double least = 0, mean = 0, most = 0;
 };
 
@@ -62,7 +62,7 @@ std::string spreadText(Measure measure, const std::vector<Measured>& measured) {
                             numberText(measure, spread.most), unitOf(measure));
 }
 
-/// One statement with one seed.
+/// The result of one statement with one seed.
 struct Said {
   const Program& program;
   const Expectation& statement;
@@ -80,7 +80,7 @@ struct Said {
   }
 };
 
-/// "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ...", of pieces that are counted. Nothing where there are none.
+/// "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ...", for measures that count pieces. nullopt if there are none.
 std::optional<std::string> piecesText(const Measured& measured) {
   constexpr size_t kMostNamed = 4;
   const std::vector<MeasuredPiece>& pieces = measured.pieces;
@@ -116,7 +116,7 @@ Diagnostic diagnosticOf(const Said& said) {
     const Error& error = *said.outcome.error;
     d.message = fmt::format("`{}` cannot be evaluated: {}", measure, error.message);
     if (error.line > 0) d.notes.push_back(fmt::format("at line {}, column {}", error.line, error.column));
-    // What cannot be evaluated may have no region, either.
+    // A failed evaluation may have no region.
     if (!said.outcome.region.empty()) d.notes.push_back(said.where());
     return d;
   }
@@ -238,7 +238,7 @@ ExpectationSummary sayExpectations(const CompileResult& compiled, const WorldOpt
       } else if (said.outcome.holds()) {
         print(said);
       } else {
-        // Both streams in the order of the file where they end in one place.
+        // Keeps the order of the file if both streams go to one place.
         std::fflush(stdout);
         fmt::print(stderr, "{}", renderDiagnostic(diagnosticOf(said), program.modules[0].text));
       }

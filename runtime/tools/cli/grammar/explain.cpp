@@ -1,4 +1,4 @@
-// sgm explain: which rules have made a place.
+// sgm explain: tells which rules made a place.
 
 #include "query/explain.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNearSurface = 64 * kUnitsPerMetre;
 
-/// As the language says it.
+/// The word of the language.
 std::string_view wordFor(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::sphere:
@@ -83,7 +83,7 @@ std::string measureText(const ExplainedNode& node) {
   }
 }
 
-/// What was found at one place.
+/// The findings at one place.
 struct Answer {
   const Program& program;
   std::string_view file;
@@ -159,15 +159,15 @@ std::string labelText(const Answer& answer) {
   return text;
 }
 
-/// Why the place is solid or open.
+/// Explains why the place is solid or open.
 std::string reason(const Answer& answer) {
   const Explanation& found = answer.found;
-  if (found.nodes.empty()) return "the domain's own, no shape comes near";
+  if (found.nodes.empty()) return "no shape is near, the domain decides";
   const std::string& path = found.nodes[found.leaf].path;
   bool cut = false;
   for (size_t i = 0; i <= found.leaf; ++i) cut = cut || found.nodes[i].cuts;
-  if (found.solid) return cut ? "beside what is cut by " + path : "made by " + path;
-  return cut ? "cut by " + path : "outside of what is nearest, " + path;
+  if (found.solid) return cut ? "beside the cut by " + path : "made by " + path;
+  return cut ? "cut by " + path : "outside of the nearest shape, " + path;
 }
 
 void printAnswer(const Answer& answer) {
@@ -230,7 +230,7 @@ Exit explain(const ExplainOptions& options) {
       p[axis] = saturate(static_cast<int64_t>(std::llround((**surface).position[static_cast<size_t>(axis)])));
     Result<Answer> answer = answerAt(p);
     if (!answer) return complain(answer.error());
-    // Its sides are those of the surface, whichever the rounded place lies on.
+    // Material and tag are those of the surface, on whichever side the rounded place lies.
     answer->found.material = (**surface).material;
     answer->found.tag = (**surface).tag;
     there.emplace(std::move(*answer));

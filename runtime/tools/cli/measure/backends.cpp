@@ -1,4 +1,4 @@
-// sgm backends: what can compute here, and what can draw.
+// sgm backends: lists devices for computing and for drawing.
 
 #include <fmt/core.h>
 
@@ -72,7 +72,7 @@ void printDevice(const cuda::DeviceInfo& device) {
              lack.empty() ? "usable, exact" : "not usable: " + lack);
 }
 
-/// A list of devices, or why there is none.
+/// Prints a list of devices, or the error.
 template <class Device>
 void printDevices(const char* kind, const Result<std::vector<Device>>& devices) {
   fmt::print("\n{} devices:\n", kind);
@@ -132,7 +132,7 @@ Exit listBackends(bool json) {
   for (size_t i = 1; i < infos.size(); ++i) {
     const sgm_backend_info& info = infos[i];
     if (info.usable != 0) {
-      fmt::print("{:<8}usable: {}, {} at a time{}\n", info.name, info.device, info.concurrency,
+      fmt::print("{:<8}usable: {}, {} chunks concurrently{}\n", info.name, info.device, info.concurrency,
                  info.exact != 0 ? ", exact" : ", not exact");
     } else {
       fmt::print("{:<8}not usable: {}\n", info.name, info.reason);

@@ -19,15 +19,15 @@ struct MeasureOptions : WorldOptions {
   bool unique_edges = false;
   std::optional<double> cubes;  ///< metres
   bool no_self_intersections = false;
-  bool strict = false;                             ///< fail where the mesh is not valid
-  std::vector<std::string> of_grammars, of_files;  ///< options that were given which only these have
-  bool field = false;                              ///< also against the grammar's field
-  int levels = 0;                                  ///< also so many pairs of levels, from `level` on
-  bool drawing = false;                            ///< also what drawing it costs
-  std::optional<double> texels;                    ///< also the texels of a texture of this resolution
+  bool strict = false;                             ///< fails if the mesh is not valid
+  std::vector<std::string> of_grammars, of_files;  ///< given options that only grammars or only files have
+  bool field = false;                              ///< also compares with the grammar's field
+  int levels = 0;                                  ///< also compares this many pairs of levels, from `level` on
+  bool drawing = false;                            ///< also measures the cost of drawing
+  std::optional<double> texels;                    ///< also the texel density of a texture of this resolution
   std::string against;                             ///< also the distance to this file's mesh; empty: none
-  std::string from, to;                            ///< of a way through the void, points in metres; both or neither
-  std::optional<double> radius;  ///< metres: of who is to go there; given, or with a way, the void is measured
+  std::string from, to;                            ///< of a path through the void, points in metres; both or neither
+  std::optional<double> radius;  ///< metres: of the agent; if given, or with a path, the void is measured
   uint64_t memory = 4096;        ///< MB
   double seconds = 300;
 };

@@ -38,7 +38,7 @@ DrawingCost drawingCost(const measure::Triangles& mesh) {
     }
   }
   if (indices.empty()) return cost;
-  // As it comes far from 0, floats would move its corners onto each other.
+  // Scaled, since far from 0, floats would merge its corners.
   const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   const double scale = size > 0 ? 1 / size : 0;
   std::vector<float> positions;

@@ -1,4 +1,4 @@
-// sgm measure: what a mesh file, or a grammar's region, measures, and whether it is the surface of a solid.
+// sgm measure: measures a mesh file or a grammar's region, and tells whether it is the surface of a solid.
 
 #include <fmt/core.h>
 
@@ -28,19 +28,19 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// What is to be measured.
+/// The mesh to measure, with its sections.
 struct Subject {
   const asset::TriangleMesh& mesh;
   std::optional<measure::Cut> cut;                        ///< of a region
-  Json json;                                              ///< what is known of it by itself
-  std::string text;                                       ///< the same, behind its name
-  std::string_view unit;                                  ///< as textOf() has it
-  std::vector<std::pair<std::string, Section>> sections;  ///< what stands below, by their names in JSON
+  Json json;                                              ///< facts about its source
+  std::string text;                                       ///< the same as text, after its name
+  std::string_view unit;                                  ///< as for textOf()
+  std::vector<std::pair<std::string, Section>> sections;  ///< optional sections, by their names in JSON
 };
 
 constexpr char kSound = '+', kUnsound = '-';
 
-/// What is printed, behind kSound or kUnsound.
+/// The output, after kSound or kUnsound.
 Result<std::string> reportOf(const Subject& subject, const MeasureOptions& options, JobSystem& jobs,
                              const Stopwatch& watch) {
   measure::MeshSettings settings = settingsOf(options);
@@ -72,7 +72,7 @@ Exit printed(const Result<std::string>& report, bool strict) {
   return strict && report->front() == kUnsound ? Exit::input : Exit::done;
 }
 
-/// other: of the file that --against names.
+/// other: mesh of the file of --against.
 Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh other, const MeasureOptions& options,
                         JobSystem& jobs) {
   for (measure::Point& p : other.points) p = p + (other.origin - mesh.origin);
@@ -110,7 +110,7 @@ Result<std::string> measureFile(const MeasureOptions& options) {
   return reportOf(subject, options, **jobs, watch);
 }
 
-/// Each level of the region, and of what it grows to, against the next one.
+/// Compares each level of the region, extended to whole chunks, with the next one.
 Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world, Backend& backend, JobSystem& jobs,
                          const Region& region) {
   Section all;
@@ -138,7 +138,7 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
   return all;
 }
 
-/// Of what the region's mesh was made.
+/// The sources of the region's mesh.
 std::string textOf(const WorldOptions& options, const Region& region) {
   const IntBox& extent = region.meshed.extent;
   return fmt::format(", seed {}, cells of {} m, region {},{},{}:{},{},{} m", options.seed, metres(region.cell),
@@ -195,7 +195,7 @@ Exit measureMesh(const MeasureOptions& options) {
   const bool grammar = isGrammarFile(options.file);
   if (asksForVoid(options)) {
     if (grammar) return measureVoid(options);
-    return complain(Exit::usage, "--from, --to and --radius ask for the void of a grammar: a mesh file has none");
+    return complain(Exit::usage, "--from, --to and --radius measure the void of a grammar: a mesh file has none");
   }
   ProcessLimits limits;
   limits.memory = options.memory << 20;

@@ -69,29 +69,29 @@ std::vector<std::string> problemsOf(const MeshMeasures& m, Point origin) {
     problems.back() += fmt::format("{}at {:.6g},{:.6g},{:.6g}", count == 1 ? ", " : ", the first ", at.x, at.y, at.z);
   };
   const MeshReport& i = m.identity;
-  say(m.non_finite, "triangle has a corner that is no number, or beyond 1e37",
-      "triangles have corners that are no numbers, or beyond 1e37");
-  say(i.open_edges - m.cut_edges, "edge has one triangle alone: there is a hole",
-      "edges have one triangle alone: there are holes", DefectKind::open_edge);
-  say(i.unmatched_edges - i.open_edges, "edge has triangles that face different ways",
-      "edges have triangles that face different ways", DefectKind::turned_edge);
-  say(i.non_manifold_edges, "edge has three triangles or more", "edges have three triangles or more",
-      DefectKind::nonmanifold_edge);
-  say(i.pinched_vertices, "point hangs several parts together", "points hang several parts together",
-      DefectKind::pinched_vertex);
-  say(i.duplicate_triangles, "triangle is there twice", "triangles are there twice", DefectKind::duplicate);
+  say(m.non_finite, "triangle has a corner that is not finite, or beyond 1e37",
+      "triangles have corners that are not finite, or beyond 1e37");
+  say(i.open_edges - m.cut_edges, "open edge (with one triangle): there is a hole",
+      "open edges (with one triangle): there are holes", DefectKind::open_edge);
+  say(i.unmatched_edges - i.open_edges, "misoriented edge: its triangles face different sides",
+      "misoriented edges: their triangles face different sides", DefectKind::turned_edge);
+  say(i.non_manifold_edges, "non-manifold edge: it has three triangles or more",
+      "non-manifold edges: they have three triangles or more", DefectKind::nonmanifold_edge);
+  say(i.pinched_vertices, "non-manifold vertex: it joins several parts",
+      "non-manifold vertices: they join several parts", DefectKind::pinched_vertex);
+  say(i.duplicate_triangles, "duplicate triangle", "duplicate triangles", DefectKind::duplicate);
   say(i.degenerate_triangles, "triangle has two corners in one place", "triangles have two corners in one place",
       DefectKind::degenerate);
   say(m.flat_triangles, "triangle has no area: its corners lie on a line",
       "triangles have no area: their corners lie on lines", DefectKind::flat);
   say(m.nesting.inside_out, "closed part is inside out", "closed parts are inside out", DefectKind::inside_out);
-  say(m.nesting.nested, "closed part stands in the solid of another, or cuts it",
-      "closed parts stand in the solid of others, or cut it", DefectKind::nested);
+  say(m.nesting.nested, "closed part lies in the solid of another, or cuts it",
+      "closed parts lie in the solid of others, or cut it", DefectKind::nested);
   if (m.self_intersections) {
-    say(m.self_intersections->folded, "pair of triangles lies upon each other at a common edge",
-        "pairs of triangles lie upon each other at a common edge", DefectKind::folded);
-    say(m.self_intersections->cuts(), "pair of triangles cuts or touches each other",
-        "pairs of triangles cut or touch each other", DefectKind::self_intersection);
+    say(m.self_intersections->folded, "folded pair of triangles: they overlap at a common edge",
+        "folded pairs of triangles: they overlap at a common edge", DefectKind::folded);
+    say(m.self_intersections->cuts(), "pair of triangles intersects or touches",
+        "pairs of triangles intersect or touch", DefectKind::self_intersection);
   }
   return problems;
 }
@@ -99,11 +99,11 @@ std::vector<std::string> problemsOf(const MeshMeasures& m, Point origin) {
 std::vector<std::string> unknownsOf(const MeshMeasures& m) {
   std::vector<std::string> unknowns;
   if (m.self_intersections && !m.self_intersections->complete) {
-    unknowns.push_back("too many triangles lie close to each other to look at all pairs: more of them may cut");
+    unknowns.push_back("too many triangles lie close together to test all pairs: more of them may intersect");
   }
   if (m.nesting.not_judged > 0) {
     unknowns.push_back(many(m.nesting.not_judged, "closed part has", "closed parts have") +
-                       " too much above to say what they stand in");
+                       " too many triangles above to decide what they lie in");
   }
   return unknowns;
 }
@@ -190,17 +190,17 @@ std::string volumeText(const MeshMeasures& m, std::string_view unit) {
     const bool cut_alone = m.cut_edges > 0 && m.cut_edges == m.identity.unmatched_edges && m.non_finite == 0;
     return volume + fmt::format(", which means little: the surface is {}", cut_alone ? "cut" : "not closed");
   }
-  return volume + (m.overlaps() ? " (divergence theorem), which counts what lies in several parts several times"
+  return volume + (m.overlaps() ? " (divergence theorem), which counts overlaps of parts several times"
                                 : " (divergence theorem)");
 }
 
 std::string verdictText(const MeshMeasures& m) {
   if (!problemsOf(m).empty()) return "not the surface of a solid:";
-  if (!unknownsOf(m).empty()) return "not known:";
+  if (!unknownsOf(m).empty()) return "unknown:";
   if (m.triangles == 0) return "empty: there are no triangles";
-  const std::string_view unless = m.self_intersections ? "" : ", unless it cuts itself, which was not looked for";
+  const std::string_view unless = m.self_intersections ? "" : ", unless it intersects itself, which was not tested";
   if (m.cut_edges > 0) {
-    return fmt::format("whole but for the region's border, which cuts it along {}{}",
+    return fmt::format("closed except at the region's border, which cuts it along {}{}",
                        many(m.cut_edges, "edge", "edges"), unless);
   }
   return fmt::format("{}the closed surface of a solid{}", m.self_intersections ? "valid: " : "", unless);
@@ -228,7 +228,7 @@ std::string textOf(const MeshMeasures& m, Point origin, std::string_view unit) {
   line("parts", fmt::format("{} (the paper's section 7.3), {}, Euler characteristic {}, genus {}",
                             many(m.parts.objects, "object", "objects"), many(m.parts.shells.size(), "shell", "shells"),
                             m.euler(), m.genus() ? std::to_string(*m.genus()) : "not defined"));
-  line("bends",
+  line("dihedral",
        fmt::format("{:.1f} % of the edges flat, {:.1f} % convex, {:.1f} % concave, by normals averaged at points",
                    100 * m.histogram.flat, 100 * m.histogram.convex, 100 * m.histogram.concave));
   if (m.slivers > 0) line("slivers", fmt::format("{} (quality below {})", m.slivers, measure::kSliver));

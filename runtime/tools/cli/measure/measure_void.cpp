@@ -33,16 +33,16 @@ const char* nameOf(WayVerdict verdict) {
   return "apart";
 }
 
-/// The widest agent's radius is a limit that the search stops at.
+/// Whether the search stopped at its limit of radius.
 bool isOpenEnded(const VoidWay& way, int32_t cell) { return way.widest >= double{kMostClearance} * cell; }
 
 std::string widestText(const VoidWay& way, int32_t cell) {
   if (way.widest == 0) return "no agent passes, however small";
-  if (isOpenEnded(way, cell)) return fmt::format("agents of radius {:.4g} m and more pass", inMetres(way.widest));
+  if (isOpenEnded(way, cell)) return fmt::format("agents of radius {:.4g} m and larger pass", inMetres(way.widest));
   return fmt::format("agents of radius below {:.4g} m pass", inMetres(way.widest));
 }
 
-/// Why there is no way.
+/// Why there is no path.
 std::string whyNot(const VoidWay& way, const MeasureOptions& options, const VoidAnswer& answer, int32_t cell) {
   const auto narrow = [&](const char* option, double clearance) {
     return fmt::format("an agent of radius {:.4g} m does not fit at {}: rock is {:.4g} m away",
@@ -59,7 +59,7 @@ std::string whyNot(const VoidWay& way, const MeasureOptions& options, const Void
       return narrow("--to", way.to_clearance);
     default:
       return fmt::format(
-          "there is no way in the region: --from lies in a void of {:.4g} m3, --to in another of {:.4g} "
+          "there is no path in the region: --from lies in a void of {:.4g} m3, --to in another of {:.4g} "
           "m3; {}",
           static_cast<double>(way.from_samples) * answer.sample, static_cast<double>(way.to_samples) * answer.sample,
           widestText(way, cell));
@@ -134,8 +134,8 @@ std::string textOf(const VoidAnswer& answer, const MeasureOptions& options, int3
   if (!answer.way) return text;
   const VoidWay& way = *answer.way;
   if (way.verdict == WayVerdict::found)
-    text += fmt::format("  way        {:.6g} m, {} places\n", inMetres(way.length), way.places.size());
-  // Where rock is at an end, that is why no agent passes, and the error says so.
+    text += fmt::format("  path       {:.6g} m, {} places\n", inMetres(way.length), way.places.size());
+  // If an end is in rock, no agent passes, and the error says so.
   if (way.verdict == WayVerdict::from_in_rock || way.verdict == WayVerdict::to_in_rock) return text;
   return text + fmt::format("  widest     {}\n", widestText(way, cell));
 }
@@ -183,7 +183,7 @@ Exit measureVoid(const MeasureOptions& options) {
   }();
   if (!answer) return complain(answer.error());
   const double seconds = watch.seconds();
-  // A region of very many cells was looked at without deriving all of them at once: then there are no notes of it.
+  // If the region has too many cells to derive at once, there are no notes.
   const Result<std::vector<DeriveNote>> notes = world.notes(answer->extent, cell);
   if (!notes && notes.error().code != Code::limit) return complain(notes.error());
   if (notes) warnOfNotes(options.file, *notes);

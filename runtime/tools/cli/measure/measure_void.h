@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm measure` says of a grammar's void instead of its surface, and of a way through it.
+// The report of `sgm measure` on a grammar's void instead of its surface, and on a path through it.
 
 #include "tools/cli/measure/commands.h"
 #include "tools/support/console.h"
@@ -9,7 +9,7 @@ namespace sgm::cli {
 /// Whether the options ask for the void.
 bool asksForVoid(const MeasureOptions& options);
 
-/// The voids of a region, and a way where --from and --to ask for one. Exit::input where there is none.
+/// Reports the voids of a region, and a path if --from and --to request one. Exit::input if there is no path.
 Exit measureVoid(const MeasureOptions& options);
 
 }  // namespace sgm::cli

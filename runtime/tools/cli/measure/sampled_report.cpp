@@ -33,7 +33,7 @@ Json oneSidedJson(const measure::OneSided& d, measure::Point origin) {
           {"rms", d.rms},           {"samples", d.samples}, {"farthest", {at.x, at.y, at.z}}};
 }
 
-/// Both ways, and the larger of them.
+/// Both directions, and their maximum.
 Json distanceJson(const measure::Hausdorff& d, measure::Point origin) {
   return {{"at_least", d.atLeast()},
           {"at_most", d.atMost()},
@@ -61,10 +61,10 @@ Json texelJson(const measure::TexelDensities& d, double resolution) {
 }
 
 std::string texelText(const measure::TexelDensities& d, double resolution) {
-  if (d.triangles == 0) return "none: no triangle has an area here and in the texture";
+  if (d.triangles == 0) return "none: no triangle has an area both in space and in the texture";
   std::string text = fmt::format(
-      "{:.4g} a unit of length at the median, {:.4g} to {:.4g} on nine tenths of the area, {:.4g} to {:.4g} in all, "
-      "{:.3g} times, of a texture of {:.6g}",
+      "{:.4g} per unit of length at the median, {:.4g} to {:.4g} on nine tenths of the area, {:.4g} to {:.4g} in all, "
+      "a ratio of {:.3g}, for a texture of {:.6g}",
       d.median, d.p5, d.p95, d.least, d.most, d.ratio(), resolution);
   if (d.unmapped > 0) text += fmt::format("; {} triangles have no area in the texture", d.unmapped);
   return text;
@@ -102,18 +102,19 @@ Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin) {
   section.text = lineOf("normals", anglesText(found.normals, "vertices")) +
                  lineOf("faces", anglesText(found.faces, "triangles' corners"));
   if (found.bent + found.flat > 0) {
-    section.text += lineOf("creases", fmt::format("hold {} of {} vertices, {} with their normal inward, plateaus {}: "
-                                                  "left out of the angles",
-                                                  found.bent, found.vertices, found.bent_inward, found.flat));
+    section.text += lineOf(
+        "creases", fmt::format("hold {} of {} vertices ({} with an inward normal), plateaus {}: left out of the angles",
+                               found.bent, found.vertices, found.bent_inward, found.flat));
   }
   section.text += lineOf(
       "residual", fmt::format("|f| {:.4g} m at most ({:.3g} cells, at {:.6g},{:.6g},{:.6g}), {:.4g} m at the 99th "
-                              "percentile, {:.4g} m on the average",
+                              "percentile, {:.4g} m on average",
                               found.residual_max * in_metres, found.residual_max * in_cells, at[0], at[1], at[2],
                               found.residual_p99 * in_metres, found.residual_mean * in_metres));
-  section.text += lineOf("", fmt::format("by the gradient's length {:.4g} m at most ({:.3g} cells), {:.4g} m, {:.4g} m",
-                                         found.offset_max * in_metres, found.offset_max * in_cells,
-                                         found.offset_p99 * in_metres, found.offset_mean * in_metres));
+  section.text +=
+      lineOf("", fmt::format("over the gradient's length {:.4g} m at most ({:.3g} cells), {:.4g} m, {:.4g} m",
+                             found.offset_max * in_metres, found.offset_max * in_cells, found.offset_p99 * in_metres,
+                             found.offset_mean * in_metres));
   return section;
 }
 
@@ -129,8 +130,8 @@ Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, 
                   {"left_out", {found.fine_left_out, found.coarse_left_out}}};
   const std::string pair = fmt::format("{} and {}: ", fine, fine + 1);
   if (!found.distance) {
-    section.text = lineOf("levels", pair + fmt::format("one has a surface here and the other none: detail is declared "
-                                                       "for one alone, or is thinner than a cell of {} m",
+    section.text = lineOf("levels", pair + fmt::format("one has a surface here and the other has none: detail is "
+                                                       "declared for one level only, or is thinner than a cell of {} m",
                                                        cell));
     return section;
   }
@@ -143,16 +144,17 @@ Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, 
   if (found.fine_triangles + found.coarse_triangles == 0) {
     const bool empty = found.fine_left_out + found.coarse_left_out == 0;
     section.text = lineOf("levels", pair + (empty ? "neither has a surface here"
-                                                  : "no triangle is away from the region's cut: take a larger region"));
+                                                  : "all triangles are at the region's cut: choose a larger region"));
     return section;
   }
   section.text = lineOf(
       "levels",
-      pair + fmt::format("{:.4g} to {:.4g} m apart, {:.3g} to {:.3g} cells of {} m{}", d.atLeast(), d.atMost(),
-                         d.atLeast() / cell, d.atMost() / cell, cell,
-                         d.atLeast() > bound
-                             ? fmt::format(": more than the {:.3g} of a field without detail by level", kLevelBound)
-                             : ""));
+      pair + fmt::format(
+                 "{:.4g} to {:.4g} m apart, {:.3g} to {:.3g} cells of {} m{}", d.atLeast(), d.atMost(),
+                 d.atLeast() / cell, d.atMost() / cell, cell,
+                 d.atLeast() > bound
+                     ? fmt::format(": more than {:.3g}, the bound for a field without detail by level", kLevelBound)
+                     : ""));
   section.text += lineOf("", "to the coarse one " + oneSidedText(d.there, from));
   section.text += lineOf("", "to the fine one " + oneSidedText(d.back, from));
   if (found.fine_left_out + found.coarse_left_out > 0) {
@@ -182,11 +184,12 @@ Section drawingSection(const DrawingCost& found) {
                   {"acmr", found.acmr},
                   {"atvr", found.atvr},
                   {"overdraw", found.overdraw}};
-  section.text = lineOf(
-      "drawing", found.triangles == 0 ? "no triangle that could be drawn"
-                                      : fmt::format("{:.3f} vertices a triangle (ACMR), each {:.3f} times (ATVR), with "
-                                                    "a cache of {}; each pixel {:.3f} times (overdraw)",
-                                                    found.acmr, found.atvr, kVertexCache, found.overdraw));
+  section.text =
+      lineOf("drawing", found.triangles == 0
+                            ? "no triangle that could be drawn"
+                            : fmt::format("{:.3f} vertices per triangle (ACMR), each {:.3f} times (ATVR), with "
+                                          "a cache of {}; each pixel {:.3f} times (overdraw)",
+                                          found.acmr, found.atvr, kVertexCache, found.overdraw));
   return section;
 }
 
@@ -204,7 +207,7 @@ Section texelSection(const Region& region, double resolution) {
   std::vector<std::array<float, 2>> coordinates;
   coordinates.reserve(unwrapped.wedges.size());
   for (const Wedge& wedge : unwrapped.wedges) coordinates.push_back({wedge.u, wedge.v});
-  // Three planes texture the others, each with tiles of the same size.
+  // All other triangles have triplanar coordinates, with tiles of equal size.
   std::vector<measure::Triangle> charted, corners;
   double area = 0, by_planes = 0;
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -230,7 +233,7 @@ Section texelSection(const Region& region, double resolution) {
   if (found.triangles > 0 || share == 0) section.text = lineOf("texels", texelText(found, resolution));
   if (share > 0) {
     section.text += lineOf(section.text.empty() ? "texels" : "",
-                           fmt::format("{:.4g} everywhere on the {:.1f} % of the area that three planes texture",
+                           fmt::format("{:.4g} everywhere on the {:.1f} % of the area with triplanar texturing",
                                        resolution / metres(kTile), 100 * share));
   }
   return section;

@@ -1,5 +1,5 @@
 #pragma once
-// What `sgm measure` says where it is asked for more than the mesh by itself tells.
+// Optional sections of `sgm measure`, which need more than the mesh itself.
 
 #include <string>
 
@@ -13,28 +13,28 @@
 
 namespace sgm::cli {
 
-/// For --json, and in lines for people.
+/// For --json, and as lines of text.
 struct Section {
   Json json;
   std::string text;
 };
 
-/// cell: the mesh's, units. origin: where its positions count from.
+/// cell: the mesh's, units. origin: of its positions.
 Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin);
 
-/// One pair of levels: fine and fine + 1. coarse_cell: units. origin: where the fine one's positions count from.
+/// One pair of levels: fine and fine + 1. coarse_cell: units. origin: of the fine one's positions.
 Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, Int3 origin);
 
-/// with: the name of the other mesh. triangles: how many that has. origin: where both count from.
+/// with: the name of the other mesh. triangles: its number of triangles. origin: of both meshes.
 Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles,
                         measure::Point origin);
 
-/// What drawing it costs.
+/// The cost of drawing it.
 Section drawingSection(const DrawingCost& found);
 
-/// Of a file. resolution: texels on the edge of its texture.
+/// For a file. resolution: texels on the edge of its texture.
 Section texelSection(const asset::TriangleMesh& mesh, double resolution);
-/// Of a region that has been textured, in tiles of kTile.
+/// For a textured region, in tiles of kTile.
 Section texelSection(const Region& region, double resolution);
 
 }  // namespace sgm::cli

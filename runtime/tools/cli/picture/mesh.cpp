@@ -1,4 +1,4 @@
-// sgm mesh: a region of a grammar's world as one mesh file.
+// sgm mesh: writes a region of a grammar's world to a mesh file.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -59,7 +59,7 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   if (const Int3 o = region.meshed.mesh.origin; o != Int3{})
     fmt::print("  origin   {},{},{} m: positions count from here\n", metres(o.x), metres(o.y), metres(o.z));
   fmt::print("  area     {:.1f} m2 (equation 7: half of each triangle's cross product)\n", summary.measures.area);
-  fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (divergence theorem, closed in the region's border)\n",
+  fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (divergence theorem, closed at the region's border)\n",
              summary.volume, summary.void_volume);
   fmt::print("  cubes    {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
              summary.cubes, summary.void_cubes);
@@ -67,16 +67,15 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   if (region.texture) {
     const TexelDensity& density = region.texture->density;
     fmt::print(
-        "  texture  tiles of 1 m lie {:.2f} to {:.2f} times as dense on 90 % of the surface, {:.2f} in the middle; "
-        "{:.1f} % of the vertices are doubled by charts and "
-        "materials\n",
+        "  texture  tiles of 1 m are {:.2f} to {:.2f} times as dense on 90 % of the surface, {:.2f} at the median; "
+        "{:.1f} % of the vertices are duplicated by charts and materials\n",
         density.low, density.high, density.middle, 100 * density.seams);
   }
   fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend,
              region.device);
 }
 
-/// What is measured of the region; volumes are those inside of it.
+/// Measures the region; volumes are those inside of it.
 Result<void> measureRegion(const WorldField& world, const Region& region, const MeshOptions& options,
                            Summary& summary) {
   const IntBox& extent = region.meshed.extent;
@@ -97,7 +96,7 @@ Exit mesh(const MeshOptions& options) {
   if (options.uv && !options.out.empty() && !MeshFile::holdsTexture(options.out)) {
     return complain(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
   }
-  // The file first: meshing may take long, and be for nothing.
+  // Open the file first: an error must show before a long meshing.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
     Result<MeshFile> opened = MeshFile::create(options.out, &unfinished_files);

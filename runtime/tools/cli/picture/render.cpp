@@ -1,4 +1,4 @@
-// sgm render: a picture of a region of a grammar's world.
+// sgm render: draws a picture of a region of a grammar's world.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@ std::string cornerText(Int3 corner) {
   return fmt::format("{:.10f},{:.10f},{:.10f}", metres(corner.x), metres(corner.y), metres(corner.z));
 }
 
-/// Options that name the camera which was chosen in a region of equal cells, and that region.
+/// The options, with the camera that was chosen in a region of equal cells, and with that region.
 Result<RenderOptions> withCamera(const RenderOptions& options, const Region& region) {
   const Result<RegionScene> scene = sceneOf(options, region);
   if (!scene) return scene.error();
@@ -34,8 +34,8 @@ Result<RenderOptions> withCamera(const RenderOptions& options, const Region& reg
   return settled;
 }
 
-/// The region as the options say. Where cells shall be small near a camera that they do not name, that camera is chosen
-/// first, among equal cells, and the region meshed again.
+/// Meshes the region of the options. If cells are to be small near a camera that the options do not give, first chooses
+/// the camera with equal cells, then meshes the region again.
 RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;
@@ -43,7 +43,7 @@ RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& d
   if (!settled) return {std::nullopt, complain(settled.error())};
   options = std::move(*settled);
   RegionPlan plan = picturePlan(options, density);
-  plan.notes = false;  // they were told
+  plan.notes = false;  // already printed
   Result<Region> again = meshProgram(made.region->program, options, plan);
   if (!again) return {std::nullopt, complain(again.error())};
   made.region = std::move(*again);
@@ -58,7 +58,7 @@ Exit render(const RenderOptions& asked) {
   if (!hasExtension(options.out, ".png"))
     return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   if (!options.seeds.empty()) return drawSeeds(options);
-  // The device and the file first: meshing may take long, and be for nothing.
+  // Open the device and the file first: an error must show before a long meshing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
@@ -77,7 +77,7 @@ Exit render(const RenderOptions& asked) {
   if (Result<void> ok = writePng(image, *file); !ok) return complain(ok.error());
   if (!options.at.empty() && !view.at_anchor)
     fmt::print(stderr,
-               "note: --at {} is not used: no such anchor stands in a room or a cave; --camera looks from anywhere\n",
+               "note: --at {} is ignored: no such anchor is in a room or a cave; place the camera with --camera\n",
                options.at);
 
   const RenderCamera& camera = view.camera;
@@ -102,14 +102,15 @@ Exit render(const RenderOptions& asked) {
                image.height, region.meshed.mesh.indices.size() / 3, region.seconds, watch.seconds(),
                renderer->info().name);
     if (density)
-      fmt::print("  density  at {} points in {:.2f} s, {} of {} bricks proven to be clear or full\n",
+      fmt::print("  density  at {} points in {:.2f} s, {} of {} bricks proven to be empty or full\n",
                  density->values.size(), density->seconds, density->figures.uniform, density->figures.bricks);
-    if (isCut(region)) fmt::print("  border   cuts the surface, which goes on: --region takes more of it, or less\n");
+    if (isCut(region))
+      fmt::print("  border   cuts the surface, which continues outside: --region shows more or less of it\n");
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
                view.enclosed ? ", inside" : "");
     if (picture->framed) fmt::print("  frame    {}\n", textOf(*picture->framed));
     if (picture->daylight)
-      fmt::print("  light    {}: {:.1f} % of the sky is open to what the camera sees (--light chooses)\n",
+      fmt::print("  light    {}: {:.1f} % of the sky is open to the visible surfaces (--light chooses)\n",
                  lightName(picture->light), 100 * *picture->daylight);
   }
   return Exit::done;

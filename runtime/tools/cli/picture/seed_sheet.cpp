@@ -32,7 +32,7 @@ struct SeedPicture {
 
 int columnsFor(size_t count) { return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))); }
 
-/// Of one of so many columns, with room for the sheet's margins.
+/// Size of the picture in one of `columns` columns, with room for the sheet's margins.
 PictureSize pictureSize(const PictureSize& sheet, int columns) {
   constexpr int kMargins = 8;
   const int width = (sheet.width - kMargins) / columns - kMargins;
@@ -54,7 +54,7 @@ Result<void> drawSeed(const Renderer& renderer, const std::shared_ptr<const Prog
   return {};
 }
 
-/// The reason in as many lines as it takes, on grey.
+/// The error as wrapped text, on grey.
 Image failedPicture(const PictureSize& size, const Error& error) {
   constexpr uint8_t kGrey = 64;
   constexpr survey::Ink kPale{220, 200, 190};
@@ -83,7 +83,7 @@ Image failedPicture(const PictureSize& size, const Error& error) {
   return image;
 }
 
-/// The number in a corner: white on a dark edge, to be read on every picture.
+/// Draws the number into a corner: white with a dark edge, legible on every picture.
 void stamp(Image& image, uint64_t seed) {
   const double height = std::clamp(image.height / 18.0, 6.0, 18.0);
   const survey::Point at{0.8 * height, image.height - 0.8 * height};
@@ -95,7 +95,7 @@ void stamp(Image& image, uint64_t seed) {
   survey::drawOnto(image, {edge, letters});
 }
 
-/// Each thing that is wrong once, with all seeds that it is wrong with. Returns the first one's status.
+/// Prints each error once, with all its seeds. Returns the status of the first.
 Exit tellFailures(const std::vector<SeedPicture>& pictures) {
   Exit status = Exit::done;
   std::vector<bool> told(pictures.size());

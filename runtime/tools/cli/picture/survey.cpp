@@ -24,7 +24,7 @@ std::string boxText(const IntBox& box) {
                      metres(box.lo.y), metres(box.hi.y), metres(box.lo.z), metres(box.hi.z));
 }
 
-/// What was sampled, and drawn of it.
+/// The samples, and the drawing.
 struct Survey {
   survey::Columns columns;
   std::optional<survey::Slice> slice;
@@ -104,7 +104,7 @@ Exit drawSurvey(const RenderOptions& options) {
   const PictureSize size = *readSize(options.size);
   if (size.width < survey::kLeastSheet || size.height < survey::kLeastSheet)
     return complain(Exit::usage,
-                    fmt::format("--size: a plan or a section takes at least {0}x{0} pixels", survey::kLeastSheet));
+                    fmt::format("--size: a plan or a section needs at least {0}x{0} pixels", survey::kLeastSheet));
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
   if (!file) return complain(file.error());
   std::optional<RegionDensity> no_density;

@@ -1,5 +1,5 @@
 #pragma once
-// `sgm render --plan` and `--section`: a survey of a region in place of a picture.
+// `sgm render --plan` and `--section`: a survey of a region instead of a picture.
 
 #include "tools/support/console.h"
 #include "tools/support/render_options.h"

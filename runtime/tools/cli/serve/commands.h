@@ -1,5 +1,5 @@
 #pragma once
-// The commands that serve others: the metrics service and the language server.
+// The commands that run servers: the metrics service and the language server.
 
 #include "tools/support/console.h"
 #include "tools/support/serving.h"
@@ -12,7 +12,7 @@ struct ServeOptions {
 };
 Exit serve(const ServeOptions& options);
 
-/// The language server: standard input to standard output, until it is told to exit.
+/// The language server on standard input and output, until it is told to exit.
 Exit serveLanguage();
 
 }  // namespace sgm::cli

@@ -18,11 +18,11 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // of a message
-constexpr size_t kMostHeaderBytes = 64 << 10;        // of all lines before a message
-constexpr int kDeepest = 256;                        // arrays and objects within each other
+constexpr size_t kMostHeaderBytes = 64 << 10;        // of all header lines of a message
+constexpr int kDeepest = 256;                        // nesting of arrays and objects
 
-/// Whether arrays and objects are nested deeper than any message has them. The library copies and prints values by
-/// recursion, and its stack ends. Of text that is no JSON it says something.
+/// Whether arrays and objects are nested too deeply: the JSON library copies and prints values by recursion, and its
+/// stack is limited. For text that is not JSON, the result is arbitrary.
 bool isTooDeep(std::string_view json) {
   int depth = 0;
   bool in_text = false;
@@ -42,12 +42,12 @@ bool isTooDeep(std::string_view json) {
   return false;
 }
 
-/// Reads messages: headers, an empty line, as many bytes as they say. Nothing at the end of the input.
+/// Reads messages: headers, an empty line, then Content-Length bytes. next() returns nullopt at the end of the input.
 class MessageReader {
  public:
   explicit MessageReader(std::istream& in) : in_(in) {}
 
-  /// The bytes of the next message; of one that is too large an empty text.
+  /// The bytes of the next message; empty if it is too large.
   std::optional<std::string> next() {
     const std::optional<uint64_t> length = headers();
     if (!length) return std::nullopt;
@@ -60,7 +60,7 @@ class MessageReader {
     if (static_cast<uint64_t>(in_.gcount()) != *length) return std::nullopt;
     return bytes;
   }
-  /// The input went on, but not with a message.
+  /// Whether the input went on with something other than a message.
   bool lost() const { return lost_; }
 
  private:
@@ -91,7 +91,7 @@ class MessageReader {
     return std::nullopt;
   }
 
-  /// False at the end of the input, or of the bytes that headers may have.
+  /// False at the end of the input, or after too many header bytes.
   bool headerLine(std::string& line, size_t& left) {
     line.clear();
     for (char c = 0; left > 0 && in_.get(c); --left) {
@@ -106,7 +106,7 @@ class MessageReader {
 };
 
 bool send(const nlohmann::json& message) {
-  // What an editor sent may not be UTF-8.
+  // An editor's text may not be valid UTF-8.
   const std::string bytes = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   fmt::print("Content-Length: {}\r\n\r\n{}", bytes.size(), bytes);
   return std::fflush(stdout) == 0;
@@ -124,16 +124,16 @@ Exit serveLanguage() {
     const nlohmann::json message =
         too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : nlohmann::json::parse(*bytes, nullptr, false);
     if (message.is_discarded()) {
-      const std::string why = bytes->empty() ? fmt::format("a message has 1 to {} bytes", kMostBytes)
-                              : too_deep     ? fmt::format("arrays and objects are at most {} deep", kDeepest)
-                                             : "this is no JSON";
+      const std::string why = bytes->empty() ? fmt::format("a message must have 1 to {} bytes", kMostBytes)
+                              : too_deep     ? fmt::format("arrays and objects may be nested at most {} deep", kDeepest)
+                                             : "this is not JSON";
       if (!send(LanguageServer::answerToGarbage(why))) return Exit::file;
       continue;
     }
     for (const nlohmann::json& answer : server.handle(message))
       if (!send(answer)) return Exit::file;
   }
-  if (reader.lost()) return complain(Exit::input, "lsp: the input is no message of the Language Server Protocol");
+  if (reader.lost()) return complain(Exit::input, "lsp: the input is not a message of the Language Server Protocol");
   return server.endedWell() ? Exit::done : Exit::input;
 }
 

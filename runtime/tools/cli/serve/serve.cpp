@@ -1,4 +1,4 @@
-// sgm serve: a page and an interface over HTTP that judge meshes, until a signal ends it.
+// sgm serve: serves a page and an HTTP interface that measure and classify meshes, until a signal ends it.
 
 #include <fmt/core.h>
 

@@ -25,12 +25,12 @@ Result<std::string> readToken(const std::string& file) {
   return token;
 }
 
-/// This very program, which inspects what is uploaded.
+/// Path of this program, which also inspects uploads.
 Result<std::string> ownProgram() {
   std::string path(PATH_MAX, '\0');
   const ssize_t size = readlink("/proc/self/exe", path.data(), path.size());
   if (size <= 0 || static_cast<size_t>(size) >= path.size())
-    return Error{Code::io, fmt::format("cannot find this program's own file: {}", systemMessage(errno))};
+    return Error{Code::io, fmt::format("cannot find the path of this program: {}", systemMessage(errno))};
   path.resize(static_cast<size_t>(size));
   return path;
 }
@@ -40,7 +40,7 @@ std::string urlOf(const std::string& address, uint16_t port) {
                                                 : fmt::format("http://[{}]:{}", address, port);
 }
 
-/// Each client takes a file, and a shell gives as few as 1,024.
+/// Each client needs a descriptor, and shells allow as few as 1,024.
 void allowManyFiles() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;

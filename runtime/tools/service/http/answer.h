@@ -1,5 +1,5 @@
 #pragma once
-// The head of an answer, as it goes over the line.
+// The head of an answer, as sent.
 
 #include <string>
 #include <string_view>
@@ -8,25 +8,25 @@
 
 namespace sgm::service::http {
 
-/// What of an answer the connection decides.
+/// The connection's part of an answer.
 struct AnswerFrame {
   bool http11 = true;     ///< the request's version
   bool close = false;     ///< the connection ends with this answer
-  std::string_view date;  ///< for the field Date; empty: left out
+  std::string_view date;  ///< for the field Date; empty: omitted
 };
 
-/// May it be sent: a final status, and fields that stay within their lines?
+/// Whether it is valid: a final status, and no field with a line break.
 bool isSendable(const Response& response);
 
-/// May an answer of that status have a body (RFC 9112, 6.3)?
+/// Whether an answer of that status may have a body (RFC 9112, 6.3).
 bool mayHaveBody(int status);
 
-/// From the status line to the empty line. Writes the fields that every answer has, but for Cache-Control,
-/// Referrer-Policy and X-Content-Type-Options where response.fields has them. Those of framing (Connection,
-/// Content-Length, Content-Type, Date, Transfer-Encoding) are the server's: in response.fields they are passed over.
+/// From the status line to the empty line. Adds the fields that every answer has; response.fields may override
+/// Cache-Control, Referrer-Policy and X-Content-Type-Options. The server sets the fields of framing (Connection,
+/// Content-Length, Content-Type, Date, Transfer-Encoding), and ignores those in response.fields.
 std::string answerHead(const Response& response, const AnswerFrame& frame);
 
-/// For the field Date: "Sun, 06 Nov 1994 08:49:37 GMT", of seconds since 1970.
+/// For the field Date: "Sun, 06 Nov 1994 08:49:37 GMT", from seconds since 1970.
 std::string httpDate(long long seconds);
 
 }  // namespace sgm::service::http

@@ -1,5 +1,5 @@
 #pragma once
-// Letters as HTTP sees them: ASCII alone, whatever the locale.
+// Letters in HTTP: only ASCII, for any locale.
 
 #include <algorithm>
 #include <string_view>
@@ -10,13 +10,13 @@ constexpr bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 |
 
 constexpr char lowerLetter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Equal but for the case of letters.
+/// Equal except for the case of letters.
 inline bool sameLetters(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return lowerLetter(x) == lowerLetter(y); });
 }
 
-/// Of one hexadecimal digit; -1 where it is none.
+/// Value of a hexadecimal digit; -1 for other characters.
 constexpr int hexValue(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   const char lower = lowerLetter(c);

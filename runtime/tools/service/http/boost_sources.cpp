@@ -1,4 +1,4 @@
-// What Asio and Beast would otherwise compile anew in every file that includes them.
+// The compiled parts of Asio and Beast, which every file would otherwise compile again.
 
 #include <boost/asio/impl/src.hpp>
 #include <boost/beast/src.hpp>

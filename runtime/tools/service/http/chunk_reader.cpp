@@ -8,13 +8,13 @@ namespace sgm::service::http {
 
 namespace {
 
-/// Of the extensions and trailers of one body together.
+/// Limit of the extensions and trailers of one body.
 constexpr uint32_t kMostBeside = 4096;
 
-/// A size of 64 bits.
+/// Hexadecimal digits of 64 bits.
 constexpr uint32_t kMostDigits = 16;
 
-Problem badChunk() { return {400, "bad_request", "The body's chunks are not as HTTP has them.", {}}; }
+Problem badChunk() { return {400, "bad_request", "The chunks of the body are not valid HTTP.", {}}; }
 
 }  // namespace
 
@@ -44,7 +44,10 @@ std::optional<Problem> ChunkReader::take(char c) {
   const auto ignore = [&]() -> std::optional<Problem> {
     if (isControl(c) && c != '\t') return badChunk();
     if (++beside_ > kMostBeside)
-      return Problem{431, "header_too_large", "The body's chunks have more beside them than this server reads.", {}};
+      return Problem{431,
+                     "header_too_large",
+                     "The chunks of the body have longer extensions and trailers than this server reads.",
+                     {}};
     return std::nullopt;
   };
   switch (state_) {
@@ -59,7 +62,7 @@ std::optional<Problem> ChunkReader::take(char c) {
       state_ = State::after_size;
       [[fallthrough]];
     case State::after_size:
-      // Spaces may stand before an extension alone: what else they end, others may read otherwise.
+      // Spaces may only precede an extension: other parsers may treat other uses differently.
       if (c == ';')
         state_ = State::extension;
       else if (c != ' ' && c != '\t')
@@ -93,7 +96,7 @@ std::optional<Problem> ChunkReader::take(char c) {
 
 std::optional<Problem> ChunkReader::endSize() {
   digits_ = 0;
-  if (in_chunk_ > room_) return Problem{413, "too_large", "The body is larger than this address takes.", {}};
+  if (in_chunk_ > room_) return Problem{413, "too_large", "The body is larger than this path accepts.", {}};
   room_ -= in_chunk_;
   state_ = in_chunk_ > 0 ? State::data : State::trailer_begin;
   return std::nullopt;

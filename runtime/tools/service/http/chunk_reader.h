@@ -1,5 +1,5 @@
 #pragma once
-// A body in chunks (RFC 9112, 7.1), taken apart byte by byte: it means the same however it was cut on its way.
+// Parses a chunked body (RFC 9112, 7.1) byte by byte, so the result does not depend on how the bytes arrive in pieces.
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +11,11 @@ namespace sgm::service::http {
 
 class ChunkReader {
  public:
-  /// most_bytes: of what the chunks hold; more is a 413, said before it is read.
+  /// most_bytes: limit of the decoded body; a chunk that exceeds it gives a 413 before it is read.
   explicit ChunkReader(uint64_t most_bytes) : room_(most_bytes) {}
 
-  /// Takes bytes up to the next piece of the body or its end; `bytes` loses what was taken. Empty: neither is there
-  /// yet. piece points into `bytes`. A refusal is the last thing it says.
+  /// Consumes bytes up to the next piece of the body or its end, and removes them from `bytes`. piece: empty if neither
+  /// is reached; otherwise a part of `bytes`. Must not be called again after a problem.
   std::optional<Problem> next(std::string_view& bytes, std::string_view& piece);
   bool ended() const { return state_ == State::ended; }
 
@@ -38,10 +38,10 @@ class ChunkReader {
   std::optional<Problem> endSize();
 
   State state_ = State::size;
-  uint64_t room_;          ///< what the body may still hold
-  uint64_t in_chunk_ = 0;  ///< of the chunk's bytes, those to come
+  uint64_t room_;          ///< bytes that the body may still have
+  uint64_t in_chunk_ = 0;  ///< remaining bytes of the current chunk
   uint32_t digits_ = 0;
-  uint32_t beside_ = 0;  ///< bytes of extensions and trailers, which nothing here reads
+  uint32_t beside_ = 0;  ///< bytes of extensions and trailers, which are ignored
 };
 
 }  // namespace sgm::service::http

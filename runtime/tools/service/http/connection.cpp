@@ -20,7 +20,7 @@ namespace net = boost::asio;
 using ErrorCode = boost::system::error_code;
 
 Response failed() {
-  return makeResponse(Problem{500, "internal_error", "The server could not answer; its log may say why.", {}});
+  return makeResponse(Problem{500, "internal_error", "The server could not answer; its log may give the reason.", {}});
 }
 
 Response unavailable(const char* code, const char* detail) {
@@ -30,9 +30,9 @@ Response unavailable(const char* code, const char* detail) {
   return response;
 }
 
-/// A client that has closed looks like one that only has no more to say, and a host that has lost its power like one
-/// that thinks. Asked by its system whether it is there, the first resets the connection once its system has forgotten
-/// it, and the second does not answer.
+/// Enables TCP keep-alive. A closed client looks like one that has only finished sending, and a host without power like
+/// an idle one. When probed, the former's system resets the connection once it has forgotten it, and the latter does
+/// not answer.
 void askWhetherThere(net::ip::tcp::socket& socket) {
   ErrorCode ignored;
   socket.set_option(net::socket_base::keep_alive(true), ignored);
@@ -52,7 +52,7 @@ ReaderLimits readerLimits(const ServerSettings& settings) {
 
 }  // namespace
 
-/// Holds the connection until it is called. Where memory runs out the connection closes rather than stay as it is.
+/// Keeps the connection alive until the call. When out of memory, closes the connection, which would otherwise hang.
 template <class Call>
 auto Connection::guarded(Call call) {
   return [self = shared_from_this(), call](const ErrorCode& error, auto...) {
@@ -98,11 +98,11 @@ void Connection::close() noexcept {
   loop_.forget(shared_from_this(), turned_away_);
 }
 
-/// A phase has its time from its beginning: what the client does within it does not give it more.
+/// A phase's time starts at its beginning; the client's activity does not extend it.
 void Connection::enter(Phase phase, std::chrono::milliseconds time) {
   phase_ = phase;
   deadline_ = Clock::now() + time;
-  // A later deadline is looked at when the timer goes off for the earlier one: most requests never touch the timer.
+  // A later deadline is checked when the timer for the earlier one fires, so most requests never set the timer.
   if (deadline_ < alarm_) setAlarm();
 }
 
@@ -132,8 +132,8 @@ void Connection::onTooSlow() {
   send(makeResponse(Problem{408, "timeout", "The request took too long to arrive.", {}}), true);
 }
 
-/// For a reset, also while nothing is read or written. An end of the client's saying is none. Urgent data is told of in
-/// the same way, again and again until it is read: who sends it is watched no more.
+/// Waits for a reset, also while nothing is read or written. A half-closed connection does not count. Urgent data
+/// causes the same event until it is read, so a client that sends it is no longer watched.
 void Connection::watch() {
   socket_.async_wait(net::socket_base::wait_error, guarded([this](const ErrorCode& error) {
                        pollfd ended{socket_.native_handle(), 0, 0};
@@ -190,7 +190,7 @@ void Connection::read(std::string_view bytes) {
   }
 }
 
-/// False: the request is answered already.
+/// False if the request has been answered.
 bool Connection::admit() {
   Admission admission;
   try {
@@ -223,7 +223,7 @@ void Connection::work() {
   try {
     loop_.handler.answer(reader_.request(), std::move(body_), std::move(reply));
   } catch (...) {
-    // The reply has gone with the call, or whoever has it answers.
+    // The reply was destroyed in the call, or its owner will answer.
   }
 }
 
@@ -252,7 +252,7 @@ void Connection::send(Response response, bool last) {
   letGoOfAnswer();
   if (reader_.request().method != "HEAD" && mayHaveBody(response.status)) {
     if (!loop_.unsent.hold(response.body))
-      response = unavailable("too_much_unsent", "Too many clients are slow to take their answers; try again later.");
+      response = unavailable("too_much_unsent", "Too many clients read their answers slowly; try again later.");
     answer_body_ = response.body;
   }
   last_answer_ = last || response.close || !reader_.keepAlive() || loop_.stopping;

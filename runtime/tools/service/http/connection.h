@@ -1,5 +1,5 @@
 #pragma once
-// One client: its requests one after another, and how long it may take for each part of them.
+// One client: its successive requests, and the time limits of their phases.
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
@@ -18,16 +18,16 @@ namespace sgm::service::http {
 
 class Connection final : public Answered, public std::enable_shared_from_this<Connection> {
  public:
-  /// loop outlives it. Nothing happens before start() or turnAway().
+  /// loop outlives it. Does nothing before start() or turnAway().
   Connection(Loop& loop, boost::asio::ip::tcp::socket socket);
 
   void start();
-  /// Says 503, and closes.
+  /// Answers 503 and closes.
   void turnAway();
   void deliver(std::optional<Response> response) override;
-  /// The server is stopping: closes where no request is being answered.
+  /// The server is stopping: closes unless a request is being answered.
   void stopSoon();
-  /// At once. It may be destroyed by then.
+  /// Closes immediately. The connection may be destroyed after this.
   void close() noexcept;
 
  private:
@@ -59,11 +59,11 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   boost::asio::steady_timer timer_;
   Phase phase_ = Phase::idle;
   Clock::time_point deadline_ = Clock::time_point::max();
-  Clock::time_point alarm_ = Clock::time_point::max();  ///< when the timer looks at the deadline; never later than it
+  Clock::time_point alarm_ = Clock::time_point::max();  ///< when the timer checks the deadline; never later than it
   std::shared_ptr<std::atomic<bool>> gone_ = std::make_shared<std::atomic<bool>>(false);
-  uint32_t turn_ = 0;  ///< of waiting for bytes: an earlier one that was given up means nothing
+  uint32_t turn_ = 0;  ///< number of the current wait for bytes: cancelled waits are ignored
   RequestReader reader_;
-  std::string kept_;  ///< read, and to be looked at once the request in work is answered
+  std::string kept_;  ///< bytes read after the current request, for the next one
   std::unique_ptr<Body> body_;
   std::string answer_head_;
   std::shared_ptr<const std::string> answer_body_;

@@ -20,7 +20,7 @@ std::string_view view(beast::string_view text) { return {text.data(), text.size(
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Refused before the target is looked at: another version may write it in another way.
+/// Checked before the target, which another version may write differently.
 std::optional<Problem> checkVersion(std::string_view line) {
   const std::string_view version = line.substr(line.rfind(' ') + 1);
   const bool is_version = version.size() == 8 && version.substr(0, 5) == "HTTP/" && isDigit(version[5]) &&
@@ -41,11 +41,11 @@ std::optional<Problem> readLength(Head& head) {
   const Request& request = head.request;
   const size_t lengths = countOf(request, "Content-Length"), encodings = countOf(request, "Transfer-Encoding");
   if (lengths > 1 || encodings > 1 || (lengths > 0 && encodings > 0))
-    return badRequest("The length of the body must be said once, by Content-Length or by Transfer-Encoding.");
+    return badRequest("The length of the body must be given once, by Content-Length or by Transfer-Encoding.");
   if (encodings > 0) {
     if (!head.http11) return badRequest("HTTP/1.0 has no Transfer-Encoding.");
     if (!sameLetters(*request.field("Transfer-Encoding"), "chunked"))
-      return Problem{501, "transfer_encoding", "This server knows no Transfer-Encoding but chunked.", {}};
+      return Problem{501, "transfer_encoding", "This server supports no Transfer-Encoding but chunked.", {}};
     head.chunked = true;
   }
   if (lengths > 0) {
@@ -61,14 +61,14 @@ std::optional<Problem> readLength(Head& head) {
 
 std::optional<Problem> checkHost(const Head& head) {
   const size_t hosts = countOf(head.request, "Host");
-  if (hosts > 1 || (hosts == 0 && head.http11)) return badRequest("The field Host must be there once.");
+  if (hosts > 1 || (hosts == 0 && head.http11)) return badRequest("The request must have the field Host once.");
   if (hosts == 0) return std::nullopt;
   const std::string_view host = *head.request.field("Host");
   const bool is_host = std::all_of(host.begin(), host.end(), [](char c) {
     return isDigit(c) || (lowerLetter(c) >= 'a' && lowerLetter(c) <= 'z') ||
            std::string_view("-._~%!$&'()*+;=:[]").find(c) != std::string_view::npos;
   });
-  if (!is_host) return badRequest("The field Host must be a name or an address, and perhaps a port.");
+  if (!is_host) return badRequest("The field Host must be a name or an address, with or without a port.");
   return std::nullopt;
 }
 
@@ -80,10 +80,10 @@ std::optional<Problem> readHead(std::string_view text, Head& head) {
 
   beast::http::request_parser<beast::http::empty_body> parser;
   parser.header_limit(static_cast<uint32_t>(std::min<size_t>(text.size(), UINT32_MAX)));
-  parser.body_limit(UINT64_MAX);  // its "none" refuses every length; the limit is the reader's
+  parser.body_limit(UINT64_MAX);  // its "none" rejects every length; the reader checks the limit
   beast::error_code error;
   parser.put(boost::asio::const_buffer(text.data(), text.size()), error);
-  if (error || !parser.is_header_done()) return badRequest("The request's header is not one of HTTP.");
+  if (error || !parser.is_header_done()) return badRequest("The request's header is not valid HTTP.");
 
   head = Head();
   head.http11 = parser.get().version() == 11;
@@ -94,10 +94,10 @@ std::optional<Problem> readHead(std::string_view text, Head& head) {
 
   if (auto problem = checkHost(head)) return problem;
   if (auto problem = readLength(head)) return problem;
-  if (head.request.method == "CONNECT") return badRequest("This server is no proxy.");
+  if (head.request.method == "CONNECT") return badRequest("This server is not a proxy.");
   if (auto problem = readTarget(view(parser.get().target()), head.request.field("Host"), head.request)) return problem;
 
-  // RFC 9110, 10.1.1: HTTP/1.0 has no 100, so nothing to wait for.
+  // RFC 9110, 10.1.1: HTTP/1.0 has no 100, so an expectation in it is ignored.
   if (const auto expectation = head.request.field("Expect")) {
     const bool known = sameLetters(*expectation, "100-continue") && countOf(head.request, "Expect") == 1;
     head.expects_continue = known && head.http11;

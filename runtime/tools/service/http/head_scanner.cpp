@@ -36,7 +36,7 @@ std::optional<Problem> HeadScanner::take(char c) {
     return std::nullopt;
   }
   if (c == '\n') return badHead("A line must end with a carriage return and a line feed.");
-  if (isControl(c) && (c != '\t' || request_line)) return badHead("The header holds a control character.");
+  if (isControl(c) && (c != '\t' || request_line)) return badHead("The header has a control character.");
   if (request_line && static_cast<unsigned char>(c) >= 0x80)
     return badHead("The request line must be ASCII; percent-encode other characters.");
   if (!request_line && line_bytes_ == 0) {
@@ -51,7 +51,7 @@ std::optional<Problem> HeadScanner::take(char c) {
 
 std::optional<Problem> HeadScanner::endLine() {
   if (line_bytes_ == 0 && lines_ == 0) {
-    // One empty line is forgiven (RFC 9112, 2.2): old clients send it behind a body.
+    // Accept one empty line (RFC 9112, 2.2), which old clients send after a body.
     if (skipped_line_) return badHead("The request line is missing.");
     skipped_line_ = true;
     text_.clear();

@@ -1,6 +1,6 @@
 #pragma once
-// Finds where a request's head ends, and refuses it at the first byte that no head may have there, or that is too many:
-// before anything parses it, and wherever the bytes were cut on their way.
+// Finds the end of a request's head, and rejects it at the first invalid byte, or the first byte beyond a limit, before
+// any parsing. The result does not depend on how the bytes arrive in pieces.
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@
 namespace sgm::service::http {
 
 struct ReaderLimits {
-  size_t line_bytes = 8192;   ///< of the request line, and of each field, without their ends
+  size_t line_bytes = 8192;   ///< of the request line, and of each field, without line ends
   size_t head_bytes = 32768;  ///< of the whole head
   size_t fields = 64;
 };
@@ -22,17 +22,17 @@ class HeadScanner {
  public:
   explicit HeadScanner(const ReaderLimits& limits) : limits_(limits) {}
 
-  /// Takes bytes up to the end of the head; `bytes` loses what was taken. A refusal is the last thing it says.
+  /// Consumes bytes up to the end of the head, and removes them from `bytes`. Must not be called again after a problem.
   std::optional<Problem> scan(std::string_view& bytes);
   bool whole() const { return whole_; }
-  /// Has a byte been taken, of an empty line before the head too?
+  /// Whether a byte has been consumed, including an empty line before the head.
   bool begun() const { return begun_; }
   /// From the first letter of the request line to the empty line's end.
   const std::string& text() const { return text_; }
-  /// For the next request, without its memory.
+  /// Prepares for the next request, and frees memory.
   void reset() {
     HeadScanner fresh(limits_);
-    std::swap(*this, fresh);  // an assignment would keep the text's memory
+    std::swap(*this, fresh);  // an assignment would keep the text's capacity
   }
 
  private:

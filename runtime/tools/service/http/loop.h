@@ -1,5 +1,5 @@
 #pragma once
-// What the connections of one server share. Of its thread alone, but for the counts and the mailbox.
+// State that the connections of a server share. Only for its thread, except the counts and the mailbox.
 
 #include <array>
 #include <atomic>
@@ -32,16 +32,16 @@ struct Loop {
   LoopCounts counts;
   boost::asio::io_context context{1};
   std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(context);
-  /// One for all: a connection without bytes to read has no memory for them.
+  /// Shared, so that idle connections need no buffers.
   std::vector<char> buffer = std::vector<char>(size_t{16} << 10);
   std::unordered_set<std::shared_ptr<Connection>> connections;
   Unsent unsent{settings.unsent_bytes};
-  size_t turned_away_now = 0;  ///< of the connections, those that only hear of the 503
+  size_t turned_away_now = 0;  ///< connections that only receive the 503
   bool stopping = false;
 
-  /// For the field Date. Made once a second.
+  /// For the field Date. Formatted once a second.
   std::string_view date();
-  /// Of a connection that has closed. The last one ends a loop that is stopping.
+  /// Removes a closed connection. The last one ends a stopping loop.
   void forget(const std::shared_ptr<Connection>& connection, bool turned_away);
 
  private:

@@ -9,19 +9,20 @@
 
 namespace sgm::service::http {
 
-/// An answer on its way, with room for what Asio keeps of a posted call.
+/// An answer in transit, with memory for Asio's posted call.
 struct Letter {
   explicit Letter(std::weak_ptr<Answered> receiver) : to(std::move(receiver)) {}
 
   std::weak_ptr<Answered> to;
   std::optional<Response> response;
   alignas(std::max_align_t) std::array<std::byte, 256> room{};
-  bool room_taken = false;  ///< Asio allocates before it hands the call over, so one thread at a time looks at this
+  bool room_taken = false;  ///< no lock: Asio allocates before it passes on the call, so one thread at a time reads
+                            ///< this
 };
 
 namespace {
 
-/// Gives out a letter's room, and memory where that is not enough.
+/// Allocates in a letter's own memory, or on the heap if that is too small.
 template <class T>
 struct LetterAllocator {
   using value_type = T;
@@ -61,7 +62,7 @@ struct Delivery {
   std::shared_ptr<Letter> letter;
 };
 
-/// What the copies of one Reply share: posts the letter once, without an answer where they all have gone.
+/// Shared by the copies of a Reply: posts the letter once, without an answer if all copies are destroyed.
 class Ticket {
  public:
   Ticket(std::shared_ptr<Mailbox> mailbox, std::shared_ptr<Letter> letter)

@@ -1,5 +1,5 @@
 #pragma once
-// How an answer comes from any thread to the thread of its server.
+// Passes an answer from any thread to its server's thread.
 
 #include <boost/asio/io_context.hpp>
 #include <memory>
@@ -10,23 +10,23 @@
 
 namespace sgm::service::http {
 
-/// Who waits for an answer. Called on the server's thread.
+/// The receiver of an answer. Called in the server's thread.
 class Answered {
  public:
   virtual ~Answered() = default;
-  /// Nothing: whoever had to answer has let go of it.
+  /// nullopt: the reply was destroyed without an answer.
   virtual void deliver(std::optional<Response> response) = 0;
 };
 
 struct Letter;
 
-/// Of one server; outlives it where replies do.
+/// The mailbox of one server; replies may keep it alive longer.
 class Mailbox {
  public:
   explicit Mailbox(boost::asio::io_context& context) : context_(&context) {}
-  /// What is posted from then on is thrown away.
+  /// Discards letters that are posted later.
   void close();
-  /// Needs no memory: an answer that could not be delivered would leave its client waiting.
+  /// Allocates nothing: an answer that could not be delivered would leave its client waiting.
   void post(std::shared_ptr<Letter> letter) noexcept;
 
  private:
@@ -34,7 +34,7 @@ class Mailbox {
   boost::asio::io_context* context_;
 };
 
-/// A Reply to `to`, which may be gone by then.
+/// A Reply to `to`, which may be destroyed meanwhile.
 Reply makeReply(std::shared_ptr<Mailbox> mailbox, std::weak_ptr<Answered> to);
 
 }  // namespace sgm::service::http

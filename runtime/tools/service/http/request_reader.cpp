@@ -57,14 +57,15 @@ RequestReader::Event RequestReader::readBody(std::string_view& bytes) {
 
 std::optional<Problem> RequestReader::checkBody() const {
   if (head_.expects_other)
-    return Problem{417, "expectation_failed", "This server knows no expectation but 100-continue.", {}};
+    return Problem{417, "expectation_failed", "This server supports no expectation but 100-continue.", {}};
   if (head_.encoded_content)
     return Problem{415, "content_encoding", "Send the body as it is, without Content-Encoding.", {}};
   const std::string& method = head_.request.method;
   if (!head_.chunked && !head_.length && (method == "POST" || method == "PUT" || method == "PATCH"))
-    return Problem{411, "length_required", "Say the body's length with Content-Length, or send it in chunks.", {}};
+    return Problem{
+        411, "length_required", "Give the length of the body with Content-Length, or send it in chunks.", {}};
   if (head_.length.value_or(0) > most_bytes_)
-    return Problem{413, "too_large", "The body is larger than this address takes.", {}};
+    return Problem{413, "too_large", "The body is larger than this path accepts.", {}};
   return std::nullopt;
 }
 

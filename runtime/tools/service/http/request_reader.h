@@ -1,6 +1,6 @@
 #pragma once
-// Requests out of the bytes of a connection. It knows neither sockets nor clocks: what it says depends on the bytes
-// alone, not on how they were cut on their way.
+// Parses requests from the bytes of a connection, without sockets or clocks: the result depends only on the bytes, not
+// on how they arrive in pieces.
 
 #include <atomic>
 #include <cstdint>
@@ -19,39 +19,40 @@ namespace sgm::service::http {
 class RequestReader {
  public:
   enum class Event {
-    starved,  ///< all bytes are taken, and more are needed
-    head,     ///< request() is there; allow() is to be called before the next step
+    starved,  ///< all bytes are consumed, and more are needed
+    head,     ///< request() is valid; call allow() before the next step
     go_on,    ///< the client waits for 100 (Continue) before it sends the body
-    piece,    ///< piece() is the next one of the body, never empty
-    end,      ///< the request is whole; the next step begins the next one
-    refused,  ///< refusal() says why; nothing else follows
+    piece,    ///< piece() is the next piece of the body, never empty
+    end,      ///< the request is complete; the next step starts the next one
+    refused,  ///< refusal() is the problem; no further events
   };
 
   /// gone: for the requests (Request::gone).
   explicit RequestReader(const ReaderLimits& limits, std::shared_ptr<const std::atomic<bool>> gone = nullptr)
       : scanner_(limits), gone_(std::move(gone)) {}
 
-  /// One step. `bytes` loses what was taken. Without bytes it says what is known already, or that it is starved.
+  /// One step. Removes consumed bytes from `bytes`. Without bytes, returns a pending event, or starved.
   Event next(std::string_view& bytes);
 
-  /// From head to end.
+  /// Valid from head to end.
   const Request& request() const { return head_.request; }
-  /// How large a body may be that is wanted; none is where this is not called. A body that is larger, whose length the
-  /// client does not say (POST, PUT, PATCH), or that is encoded, is refused in the next step.
+  /// The maximal size of an accepted body; 0 without a call. The next step rejects a body that is larger, that is
+  /// encoded, or whose length is missing (POST, PUT, PATCH).
   void allow(uint64_t most_bytes) { most_bytes_ = most_bytes; }
-  /// After head, of a request without a body: it is answered, whatever it asked for. The next step begins the next one.
+  /// After head, for a request without a body that has been answered without its checks. The next step starts the next
+  /// one.
   void finish() { state_ = State::end; }
-  /// Into the bytes that next() was given.
+  /// A part of the bytes passed to next().
   std::string_view piece() const { return piece_; }
   const Problem& refusal() const { return refusal_; }
 
-  /// Between two requests, with no byte of the next one.
+  /// Between two requests, before the first byte of the next one.
   bool between() const { return state_ == State::head && !scanner_.begun(); }
-  /// Is a request's head being read, or about to be?
+  /// Whether a request's head is being read, or the reader waits for one.
   bool inHead() const { return state_ == State::head; }
-  /// From head to end: does the client send a body?
+  /// From head to end: whether the client sends a body.
   bool hasBody() const { return head_.hasBody(); }
-  /// From head to end: may another request follow?
+  /// From head to end: whether another request may follow.
   bool keepAlive() const { return head_.keep_alive; }
   bool http11() const { return head_.http11; }
 
@@ -66,7 +67,7 @@ class RequestReader {
   Head head_;
   State state_ = State::head;
   uint64_t most_bytes_ = 0;
-  uint64_t to_come_ = 0;  ///< of a body of known length
+  uint64_t to_come_ = 0;  ///< remaining bytes of a body of known length
   ChunkReader chunks_{0};
   std::string_view piece_;
   Problem refusal_;

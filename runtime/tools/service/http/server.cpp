@@ -50,15 +50,15 @@ namespace {
 namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
-/// Of clients beyond the limit, how many are told so at one time. The others are just closed.
+/// Maximum of clients beyond the limit that get an answer concurrently. Others are just closed.
 constexpr size_t kMostTurnedAway = 64;
-/// But no more than an eighth of the limit, so that they do not take the descriptors that it spares; and some.
+/// But at most an eighth of the limit, to keep descriptors free, and at least this many.
 constexpr size_t kLeastTurnedAway = 8;
 
 size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMostTurnedAway); }
 
-/// Kept for the client that comes when the process may open no more: with it that one can be closed rather than wait
-/// for others to go.
+/// Reserve for the moment when the process cannot open more files: releasing it allows the server to accept and close
+/// the next client, which would otherwise wait.
 class SpareDescriptor {
  public:
   SpareDescriptor() { reopen(); }
@@ -66,12 +66,12 @@ class SpareDescriptor {
   SpareDescriptor(const SpareDescriptor&) = delete;
   SpareDescriptor& operator=(const SpareDescriptor&) = delete;
 
-  /// Where it was lost to another thread. False: there is still none.
+  /// Opens it again after another thread took the descriptor. False if that fails.
   bool reopen() {
     if (descriptor_ < 0) descriptor_ = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     return descriptor_ >= 0;
   }
-  /// False: there was none.
+  /// False if there was none.
   bool giveUp() {
     const bool had = descriptor_ >= 0;
     if (had) ::close(descriptor_);
@@ -83,10 +83,10 @@ class SpareDescriptor {
   int descriptor_ = -1;
 };
 
-/// Before it is another's turn.
+/// Clients accepted before other work gets a turn.
 constexpr int kClientsAtOnce = 16;
 
-/// Before the next try where there is no memory, or no file descriptor, for another client.
+/// Pause before the next try when memory or file descriptors for another client are missing.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
 class LoopServer final : public Server {
@@ -117,7 +117,7 @@ class LoopServer final : public Server {
   net::steady_timer pause_{loop_.context}, grace_{loop_.context};
   net::executor_work_guard<net::io_context::executor_type> work_{loop_.context.get_executor()};
   uint16_t port_ = 0;
-  bool accepting_ = false;  ///< is the next client, or the end of a pause before it, waited for?
+  bool accepting_ = false;  ///< whether a wait for the next client, or for the end of a pause, is pending
   std::mutex stop_mutex_;
   std::thread thread_;
 };
@@ -126,7 +126,7 @@ Result<void> LoopServer::listen() {
   boost::system::error_code error;
   const net::ip::address address = net::ip::make_address(loop_.settings.address, error);
   if (error)
-    return Error{Code::invalid_argument, "'" + loop_.settings.address + "' is no IPv4 or IPv6 address in numbers"};
+    return Error{Code::invalid_argument, "'" + loop_.settings.address + "' is not a numeric IPv4 or IPv6 address"};
   const Tcp::endpoint endpoint(address, loop_.settings.port);
   acceptor_.open(endpoint.protocol(), error);
   if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
@@ -154,8 +154,8 @@ Result<void> LoopServer::run() {
   return {};
 }
 
-/// Until the server stops, or memory runs out outside of a connection's own calls: the connections go on then, and
-/// where it was the next client that there was no memory to wait for, it is tried again.
+/// Runs until the server stops, or memory runs out outside of a connection's own calls. Then the connections continue;
+/// if there was no memory to wait for the next client, that is tried again.
 void LoopServer::turn() try {
   if (accepting_) {
     loop_.context.run();
@@ -166,7 +166,7 @@ void LoopServer::turn() try {
 } catch (...) {
 }
 
-/// Waits, and accepts in a call of ours: where memory ran out inside of async_accept() its handler would never be
+/// Waits first, and accepts in a separate call: if memory ran out inside async_accept(), its handler would never be
 /// called.
 void LoopServer::accept() {
   acceptor_.async_wait(net::socket_base::wait_read, [this](const boost::system::error_code&) {
@@ -183,7 +183,7 @@ void LoopServer::accept() {
   accepting_ = true;
 }
 
-/// False: the system has no room for another client now.
+/// False if the system has no resources for another client now.
 bool LoopServer::welcomeAll() {
   for (int i = 0; i < kClientsAtOnce; ++i) {
     Tcp::socket socket(loop_.context);
@@ -201,7 +201,7 @@ bool LoopServer::welcomeAll() {
   return true;
 }
 
-/// False: it still waits.
+/// False if the client still waits.
 bool LoopServer::closeNext() {
   if (!spare_.giveUp()) {
     spare_.reopen();
@@ -235,7 +235,7 @@ void LoopServer::welcome(Tcp::socket socket) try {
     connection->close();
   }
 } catch (...) {
-  // No memory for this client; its socket has closed.
+  // Out of memory for this client; its socket is closed.
 }
 
 ServerCounts LoopServer::counts() const {
@@ -254,7 +254,7 @@ void LoopServer::stop(std::chrono::milliseconds grace) {
     try {
       net::post(loop_.context, [this, grace] { beginStop(grace); });
     } catch (...) {
-      loop_.context.stop();  // no memory to ask it nicely
+      loop_.context.stop();  // no memory for an orderly stop
     }
     thread_.join();
   }
@@ -262,7 +262,7 @@ void LoopServer::stop(std::chrono::milliseconds grace) {
   loop_.connections.clear();
 }
 
-/// call may close the connection that it is given.
+/// call may close the connection that it gets.
 void LoopServer::forEach(auto call) {
   for (auto at = loop_.connections.begin(); at != loop_.connections.end();) {
     const std::shared_ptr<Connection> connection = *at++;

@@ -1,5 +1,5 @@
 #pragma once
-// HTTP/1.1 on one port, with one thread for all its clients: a slow one holds a few kilobytes and nothing else.
+// An HTTP/1.1 server on one port, with one thread for all clients: a slow one costs only a few kilobytes.
 
 #include <array>
 #include <chrono>
@@ -13,53 +13,53 @@
 namespace sgm::service::http {
 
 struct ServerSettings {
-  std::string address = "127.0.0.1";  ///< an IPv4 or IPv6 address in numbers
-  uint16_t port = 0;                  ///< 0: any that is free
-  std::string thread_name = "http";   ///< as debuggers show it, 15 bytes at most
-  /// At one time; those beyond have a 503 and are closed. Where the process may not open so many files, further clients
-  /// are closed at once.
+  std::string address = "127.0.0.1";  ///< a numeric IPv4 or IPv6 address
+  uint16_t port = 0;                  ///< 0: any free port
+  std::string thread_name = "http";   ///< as in debuggers, at most 15 bytes
+  /// Maximum of concurrent connections; others get a 503 and are closed. If the process cannot open more files, further
+  /// clients are closed immediately.
   uint32_t connections = 2048;
   size_t line_bytes = 8192;   ///< of the request line, and of each field
   size_t head_bytes = 32768;  ///< of the whole head
   size_t fields = 64;
   std::chrono::milliseconds head_time{10000};   ///< from the first byte to the end of the head
-  std::chrono::milliseconds body_time{30000};   ///< from the end of the head to that of the body
+  std::chrono::milliseconds body_time{30000};   ///< from the end of the head to the end of the body
   std::chrono::milliseconds idle_time{15000};   ///< between requests of a connection, and before its first byte
-  std::chrono::milliseconds work_time{600000};  ///< for the handler to reply; then the client has a 503
-  std::chrono::milliseconds write_time{30000};  ///< for a client to take its answer
-  /// Of answers that clients have not taken yet, all together; a body that several share counts once, and bodies below
-  /// 4 KiB do not. An answer beyond it is replaced by a 503; one alone may be larger.
+  std::chrono::milliseconds work_time{600000};  ///< for the handler to reply; then the client gets a 503
+  std::chrono::milliseconds write_time{30000};  ///< for a client to receive its answer
+  /// Limit of all answers that clients have not received yet; a shared body counts once, bodies below 4 KiB do not
+  /// count. An answer beyond it is replaced by a 503; a single one may be larger.
   uint64_t unsent_bytes = uint64_t{64} << 20;
-  /// Behind the last answer of a connection, for the client to close it: until then what it still sends is read and
-  /// thrown away, up to so many bytes. Closed at once, it would see a reset rather than why it was refused.
+  /// After the last answer of a connection, time for the client to close it: until then the server reads and discards
+  /// up to drain_bytes. If the server closed immediately, the client would see a reset instead of the answer.
   std::chrono::milliseconds drain_time{5000};
   uint64_t drain_bytes = uint64_t{16} << 20;
 };
 
-/// For ServerSettings::connections: `most`, or what the process may open of files (RLIMIT_NOFILE, as it is now) divided
-/// by `share`, whichever is less; at least 8.
+/// For ServerSettings::connections: the smaller of `most`, and the process's current limit of open files
+/// (RLIMIT_NOFILE) divided by `share`; at least 8.
 uint32_t connectionsWithin(uint32_t most, uint32_t share);
 
 struct ServerCounts {
-  uint64_t connections = 0;             ///< now
+  uint64_t connections = 0;             ///< currently
   uint64_t accepted = 0;                ///< since the start, without those turned away
-  uint64_t turned_away = 0;             ///< beyond ServerSettings::connections, or for want of a file descriptor
+  uint64_t turned_away = 0;             ///< beyond ServerSettings::connections, or for lack of a file descriptor
   std::array<uint64_t, 600> answers{};  ///< by status
 };
 
 class Server {
  public:
-  /// Listens, and answers from then on. handler must outlive the server. Errors: invalid_argument for an address that
-  /// is none; io where it cannot be listened on (the message says why: in use, not this machine's, no permission).
+  /// Listens and answers from now on. handler must outlive the server. Errors: invalid_argument for an invalid address;
+  /// io, with the reason, if it cannot listen there (address in use, not of this machine, no permission).
   static Result<std::unique_ptr<Server>> start(const ServerSettings& settings, Handler& handler);
-  /// As stop() without any time.
+  /// As stop(0).
   virtual ~Server() = default;
 
   virtual uint16_t port() const = 0;
-  /// From any thread; the server never waits for it.
+  /// Thread-safe; never blocks the server.
   virtual ServerCounts counts() const = 0;
-  /// Listens no more, lets requests whose head was read be answered within that time, then closes what is left. Blocks.
-  /// Replies that come later do nothing. Not from the server's own thread.
+  /// Stops listening, lets requests whose head was read be answered within `grace`, then closes all connections.
+  /// Blocks. Later replies do nothing. Must not be called in the server's own thread.
   virtual void stop(std::chrono::milliseconds grace) = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 Problem badTarget(const char* detail) { return {400, "bad_request", detail, {}}; }
 
-/// Nothing where an escape is none, or the result is no text: UTF-8 without control characters.
+/// nullopt for an invalid escape, or if the result is not UTF-8 without control characters.
 std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -45,9 +45,9 @@ std::optional<Problem> readPath(std::string_view text, std::string& path) {
     const std::optional<std::string> segment = decoded(text.substr(begin, end - begin), false);
     if (!segment) return badTarget("The path must be percent-encoded UTF-8 without control characters.");
     if (segment->find_first_of("/\\") != std::string::npos)
-      return badTarget("A segment of the path must not hold a slash or a backslash.");
-    if (*segment == "." || *segment == "..") return badTarget("The path must not hold the segments . and ..");
-    if (segment->empty() && end < text.size()) return badTarget("The path must not hold empty segments.");
+      return badTarget("A segment of the path must not have a slash or a backslash.");
+    if (*segment == "." || *segment == "..") return badTarget("The path must not have the segments . and ..");
+    if (segment->empty() && end < text.size()) return badTarget("The path must not have empty segments.");
     (path += '/') += *segment;
     begin = end + 1;
   }

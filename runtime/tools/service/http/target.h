@@ -1,5 +1,5 @@
 #pragma once
-// A request line's target, taken apart and decoded.
+// Parses and decodes the target of a request line.
 
 #include <optional>
 #include <string_view>
@@ -8,16 +8,15 @@
 
 namespace sgm::service::http {
 
-/// How many parameters a query may have.
+/// The maximal number of query parameters.
 constexpr size_t kMostParameters = 64;
 
-/// Writes request.path and request.query. Refused, with 400, so that what was checked is what is meant:
-/// - a path with empty segments ("//"), "." or "..", an encoded '/' or '\', however they were encoded;
-/// - escapes that are none, control characters, and what is not UTF-8 once decoded;
-/// - the forms `*` and `host:port`, a fragment, and a whole URL of another scheme than http, with a user's name, or
-/// with
-///   another host than the field Host.
-/// In the query '+' is a space, as forms write it; parameters without '=' have an empty value.
+/// Sets request.path and request.query. To exclude ambiguous targets, a 400 rejects:
+/// - a path with empty segments ("//"), "." or "..", an encoded '/' or '\', in any encoding;
+/// - invalid escapes, control characters, and invalid UTF-8 after decoding;
+/// - the forms `*` and `host:port`, a fragment, and a URL with a scheme other than http, a user's name, or another host
+/// than the field Host.
+/// In the query '+' is a space, as in forms; parameters without '=' have an empty value.
 std::optional<Problem> readTarget(std::string_view target, std::optional<std::string_view> host, Request& request);
 
 }  // namespace sgm::service::http

@@ -4,7 +4,7 @@ namespace sgm::service::http {
 
 namespace {
 
-/// Answers that say what is wrong always go, and are all but free.
+/// Error answers are always sent, and need little memory.
 constexpr size_t kSmallBody = 4096;
 
 bool isCounted(const std::shared_ptr<const std::string>& body) { return body && body->size() >= kSmallBody; }

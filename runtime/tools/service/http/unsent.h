@@ -1,5 +1,5 @@
 #pragma once
-// What answers hold of memory until their clients have taken them.
+// Counts the memory of answers that clients have not received yet.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace sgm::service::http {
 
-/// Of one server, on its thread.
+/// For one server, in its thread.
 class Unsent {
  public:
   explicit Unsent(uint64_t most_bytes) : most_(most_bytes) {}
 
-  /// Counts a body until it is released as often as it was held; one that is held already takes no more. False: there
-  /// is no room for it beside others, and it is not held. Null and bodies below 4 KiB always have room. Throws
-  /// std::bad_alloc, and holds nothing then.
+  /// Counts a body until it is released as often as it was held; a body that is already held costs nothing. False if
+  /// there is no room besides others; then it is not held. Null and bodies below 4 KiB always have room. Throws
+  /// std::bad_alloc, without holding the body.
   bool hold(const std::shared_ptr<const std::string>& body);
   void release(const std::shared_ptr<const std::string>& body) noexcept;
 

@@ -22,14 +22,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostComplaint = 4096;
-constexpr int kFirstFree = 3;  // behind the standard streams
-/// A process whose streams are open can have ended: one that it started holds them.
+constexpr int kFirstFree = 3;  // after the standard streams
+/// A process may have ended although its streams are open, held by one of its own children.
 constexpr std::chrono::milliseconds kBetweenLooks{50}, kBetweenLooksAtItsEnd{1};
 
 Error failed(const char* what, int why = errno) { return {Code::io, std::string(what) + ": " + systemMessage(why)}; }
 
-/// A host may have closed its standard streams: what is then opened under their numbers moves out of the way of those
-/// that the process is to have.
+/// If the host has closed its standard streams, new descriptors get their numbers: move them away from the numbers that
+/// the child's streams will have.
 Result<Descriptor> clearOfStreams(Descriptor descriptor) {
   if (descriptor.number() >= kFirstFree) return descriptor;
   const int moved = fcntl(descriptor.number(), F_DUPFD_CLOEXEC, kFirstFree);
@@ -45,7 +45,7 @@ Result<Pipe> clearOfStreams(std::array<int, 2> ends) {
   return Pipe{std::move(*from), std::move(*to)};
 }
 
-/// A socket, since what nobody reads any more is then an error and not a signal to the host.
+/// A socket, so that writing to a closed one is an error instead of a signal to the host.
 Result<Pipe> makeInput() {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return failed("cannot open a socket");
@@ -60,7 +60,7 @@ class SpawnActions {
   ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
 
   void place(int descriptor, int stream) { note(posix_spawn_file_actions_adddup2(&actions_, descriptor, stream)); }
-  /// A host's own descriptors, which it may have opened without O_CLOEXEC, are none of the process's business.
+  /// Closes the host's own descriptors, which it may have opened without O_CLOEXEC.
   void closeOthers() {
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
     note(posix_spawn_file_actions_addclosefrom_np(&actions_, kFirstFree));
@@ -116,20 +116,20 @@ class Child {
 
   /// Error: io.
   Result<void> start(const ChildSettings& settings);
-  /// Memory that runs out is thrown, once the process has ended.
+  /// Throws std::bad_alloc only after the process has ended.
   ChildOutcome waitFor(const ChildSettings& settings) &&;
 
  private:
   enum class State { runs, ended, gone };
   State look() const;
   void write();
-  /// Whether it kept within that many bytes.
+  /// Whether the output is within the limit.
   bool read(Descriptor& stream, std::string& into, size_t most, bool keeps_within);
   std::optional<ChildEnd> serve(const ChildSettings& settings, std::chrono::milliseconds most);
   void readWhatIsLeft(const ChildSettings& settings);
   void end();
 
-  pid_t id_ = -1;  ///< none where it does not run, or was waited for
+  pid_t id_ = -1;  ///< -1 if it is not running, or has been waited for
   Descriptor input_, output_, error_;
   std::string_view unsent_;
   ChildOutcome outcome_;
@@ -171,7 +171,7 @@ Result<void> Child::start(const ChildSettings& settings) {
   return {};
 }
 
-/// Its id stays its own until reap(), unless the host has children reaped for it.
+/// The id stays valid until end(), unless the host discards its children's status.
 Child::State Child::look() const {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0)
@@ -199,16 +199,16 @@ bool Child::read(Descriptor& stream, std::string& into, size_t most, bool keeps_
   return !keeps_within || into.size() < most;
 }
 
-/// Waits until something comes, or so long. Why the process has to end, where it has.
+/// Waits for an event, or for the time `most`. Returns the reason to end the process, if any.
 std::optional<ChildEnd> Child::serve(const ChildSettings& settings, std::chrono::milliseconds most) {
-  // poll() leaves negative numbers out.
+  // poll() ignores negative descriptors.
   std::array<pollfd, 4> waited{{{settings.cancel, POLLIN, 0},
                                 {output_.number(), POLLIN, 0},
                                 {error_.number(), POLLIN, 0},
                                 {input_.number(), POLLOUT, 0}}};
   if (poll(waited.data(), waited.size(), static_cast<int>(most.count())) <= 0) return std::nullopt;
   if (waited[0].revents != 0) return ChildEnd::cancelled;
-  // One byte more than it may say shows that it did.
+  // One byte more than allowed shows that the limit is exceeded.
   if (waited[1].revents != 0 && !read(output_, outcome_.output, settings.most_output + 1, true))
     return ChildEnd::talkative;
   if (waited[2].revents != 0) read(error_, outcome_.complaint, kMostComplaint, false);
@@ -216,7 +216,7 @@ std::optional<ChildEnd> Child::serve(const ChildSettings& settings, std::chrono:
   return std::nullopt;
 }
 
-/// What it had said before its end is in the pipes; who else holds these may say more, which nobody waits for.
+/// Reads the output left in the pipes, without waiting for other processes that hold them.
 void Child::readWhatIsLeft(const ChildSettings& settings) {
   constexpr int kMostPieces = 64;
   bool more = true;
@@ -228,10 +228,10 @@ void Child::readWhatIsLeft(const ChildSettings& settings) {
   }
 }
 
-/// Ends it, where it has not, with all of its group, and blocks until that is so.
+/// Kills it with its whole group, unless it has ended, and blocks until then.
 void Child::end() {
   if (id_ < 0) return;
-  // Where it is gone and nobody holds its streams, its number may be another's by now.
+  // If it is gone and its streams are closed, its id may belong to another process.
   if (look() != State::gone || output_.number() >= 0 || error_.number() >= 0) kill(-id_, SIGKILL);
   int status = 0;
   pid_t ended = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A process that works for this one and may come to any end: what it says is read, and it is waited for, by its own id
-// alone. The host's signal handlers, its other children and its open files are left alone.
+// A child process that may end in any way: reads its output, and waits for exactly its id. Leaves the host's signal
+// handlers, other children and open files alone.
 
 #include <chrono>
 #include <cstddef>
@@ -15,37 +15,37 @@ namespace sgm::service {
 
 struct ChildSettings {
   std::string program;                   ///< path
-  std::vector<std::string> arguments;    ///< behind the program's name
-  std::vector<std::string> environment;  ///< "NAME=value": nothing else of the host's is handed on
-  int input = -1;                        ///< an open file that becomes its standard input; -1: a stream of `text`
+  std::vector<std::string> arguments;    ///< after the program's name
+  std::vector<std::string> environment;  ///< "NAME=value": the whole environment, nothing is inherited
+  int input = -1;                        ///< an open file for its standard input; -1: a stream of `text`
   std::string_view text;
-  std::chrono::milliseconds time{60000};  ///< of the clock
+  std::chrono::milliseconds time{60000};  ///< wall time
   size_t most_output = size_t{1} << 20;   ///< bytes on its standard output
-  int cancel = -1;                        ///< a descriptor: the process is ended once it can be read; -1: none
+  int cancel = -1;                        ///< a descriptor: if it becomes readable, the process is ended; -1: none
 };
 
 enum class ChildEnd {
-  exited,     ///< by itself; ChildOutcome::status says how, where that is known
-  signalled,  ///< by ChildOutcome::signal, which was not ours
-  late,       ///< ended by us: its time was over
-  talkative,  ///< ended by us: it said more than it may
-  cancelled,  ///< ended by us, as asked
+  exited,     ///< by itself; ChildOutcome::status is its status, if known
+  signalled,  ///< by ChildOutcome::signal, from elsewhere
+  late,       ///< ended by us after a timeout
+  talkative,  ///< ended by us because of too much output
+  cancelled,  ///< ended by us on request
 };
 
 struct ChildOutcome {
   ChildEnd end = ChildEnd::exited;
-  std::optional<int> status;  ///< unknown where the host has children reaped for it (SIGCHLD ignored)
+  std::optional<int> status;  ///< nullopt if the host discards its children's status (SIGCHLD ignored)
   int signal = 0;
   std::string output;     ///< its standard output
-  std::string complaint;  ///< how its standard error began, 4 KiB at most
+  std::string complaint;  ///< the beginning of its standard error, at most 4 KiB
 };
 
-/// Starts it, in a process group of its own with no signal blocked or ignored, waits for its end, and ends what it has
-/// started and left. Any thread; which must live as long as the process, since that may ask to be ended with it.
-/// Errors: io where it cannot be started.
+/// Starts it in its own process group, with no signal blocked or ignored, waits for its end, and kills the processes
+/// that it has left. May be called in any thread that lives as long as the process, which may ask to be ended with that
+/// thread. Error: io if it cannot be started.
 Result<ChildOutcome> runChild(const ChildSettings& settings);
 
-/// An open descriptor. Moves only.
+/// An open descriptor. Move-only.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -61,10 +61,10 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// The same file opened anew: to be read alone, from its start. Error: io, also where there is no /proc.
+/// Opens the same file again, read-only, at its start. Error: io, also if there is no /proc.
 Result<Descriptor> reopenedForReading(int file);
 
-/// A pipe that is closed on exec, both ends numbered above the standard streams. Error: io.
+/// A pipe that is closed on exec, with both ends numbered above the standard streams. Error: io.
 struct Pipe {
   Descriptor from, to;
   static Result<Pipe> create();

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostMastersJobs = 64;
 
-/// What the process needs to find its libraries, and nothing that a host keeps there for itself.
+/// Only the variables that the process needs to find its libraries.
 std::vector<std::string> environmentOfChildren() {
   std::vector<std::string> kept{"LC_ALL=C"};
   for (const char* name : {"PATH", "LD_LIBRARY_PATH"})
@@ -34,17 +34,17 @@ std::vector<std::string> environmentOfChildren() {
   return kept;
 }
 
-/// Nothing that a callback throws ends the host.
+/// Calls a callback; its exceptions must not end the host.
 template <class... Arguments>
 void call(const std::function<void(Arguments...)>& function, std::type_identity_t<Arguments>... arguments) {
   try {
     if (function) function(std::move(arguments)...);
   } catch (...) {
-    // Who asked has no memory left to be told.
+    // There is no memory to inform the caller.
   }
 }
 
-/// What is said, or where that throws, `otherwise`.
+/// The result of `say`, or `otherwise` if it throws.
 template <class Say>
 Inspection saidOr(Inspection& otherwise, const Say& say) noexcept {
   try {
@@ -79,8 +79,8 @@ class ProcessInspector final : public Inspector {
     Upload upload;
     std::function<void()> began;
     std::function<void(Inspection)> done;
-    Inspection out_of_memory;  ///< made while there is some
-    bool stopped = false;      ///< not to be judged: the inspector ends
+    Inspection out_of_memory;  ///< made in advance
+    bool stopped = false;      ///< the inspector is ending: do not inspect
   };
   struct MastersJob {
     std::string json;
@@ -104,7 +104,7 @@ class ProcessInspector final : public Inspector {
 
   const InspectorSettings settings_;
   const std::vector<std::string> environment_;
-  /// What can be read once the inspector ends: whoever waits for a process waits for this too.
+  /// Becomes readable when the inspector ends, which wakes threads that wait for a process.
   Pipe stop_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -121,7 +121,7 @@ ProcessInspector::~ProcessInspector() {
     stopping_ = true;
   }
   changed_.notify_all();
-  // Written, not closed: a process that the host forked meanwhile may hold the other end's copy.
+  // Write instead of closing: a process that the host forked meanwhile may hold a copy of the other end.
   while (write(stop_.to.number(), "", 1) < 0 && errno == EINTR) {
   }
   for (std::thread& thread : threads_) thread.join();
@@ -144,16 +144,17 @@ Result<void> ProcessInspector::start() {
 
 Result<void> ProcessInspector::wouldTakeLocked(bool program_runs) const {
   if (settings_.program.empty())
-    return Error{Code::unsupported, "nothing can be judged here: no program that inspects is configured"};
+    return Error{Code::unsupported, "this service cannot validate: it is configured without an inspector program"};
   if (!program_runs)
-    return Error{Code::unsupported, "nothing can be judged here: " + settings_.program + " is no program that runs"};
+    return Error{Code::unsupported,
+                 "this service cannot validate: " + settings_.program + " is not an executable program"};
   if (counts_.running + waiting_.size() >= settings_.jobs + settings_.waiting)
-    return Error{Code::limit, std::to_string(waiting_.size()) + " uploads wait already: come again later"};
+    return Error{Code::limit, std::to_string(waiting_.size()) + " uploads are already waiting: try again later"};
   return {};
 }
 
 Result<void> ProcessInspector::wouldTake() const {
-  // Asked of a file system, which may keep one waiting.
+  // Outside the lock, since a file system may block.
   const bool program_runs = runs(settings_.program);
   const std::lock_guard lock(mutex_);
   return wouldTakeLocked(program_runs);
@@ -168,7 +169,7 @@ Result<void> ProcessInspector::inspect(Upload upload, std::function<void()> bega
     if (const Result<void> takes = wouldTakeLocked(program_runs); !takes) return takes;
     waiting_.push_back(std::move(job));
   } catch (const std::bad_alloc&) {
-    return Error{Code::limit, "no memory left"};  // short enough to need none
+    return Error{Code::limit, "out of memory"};  // short enough for the string's own buffer
   }
   changed_.notify_all();
   return {};
@@ -187,8 +188,10 @@ void ProcessInspector::queueMasters(MastersJob job) {
     return call(job.done, std::move(job.out_of_memory));
   }
   call(job.done, saidOr(job.out_of_memory, [program] {
-         return program ? problemOf(503, "queue_full", "too many wait for the masters: come again later")
-                        : problemOf(503, "no_validator", "no program that reads masters is configured here");
+         return program ? problemOf(503, "queue_full",
+                                    "too many requests are waiting for the reference histograms: try again later")
+                        : problemOf(503, "no_validator",
+                                    "this service is configured without a program that reads reference histograms");
        }));
 }
 
@@ -199,8 +202,8 @@ InspectorCounts ProcessInspector::counts() const {
   return counts;
 }
 
-/// Waits for the next one. Nothing once the inspector ends and all were taken. What is returned ends with its caller,
-/// outside of the lock: it may hold the last descriptor of a large file.
+/// Waits for the next job. nullopt once the inspector is ending and the queue is empty. The caller destroys the job
+/// outside the lock: it may hold the last descriptor of a large file.
 template <class AnyJob>
 std::optional<AnyJob> ProcessInspector::take(std::deque<AnyJob>& waiting) {
   std::unique_lock lock(mutex_);
@@ -236,7 +239,7 @@ void ProcessInspector::workOnMasters() {
     call(job->done, saidOr(job->out_of_memory, [&] { return job->stopped ? stoppedProblem() : judgeMasters(*job); }));
 }
 
-/// Before anybody is told: who has an answer finds it counted.
+/// Called before `done`, so that a client with an answer finds it counted.
 void ProcessInspector::count(const Inspection& said, double seconds) {
   const std::lock_guard lock(mutex_);
   --counts_.running;
@@ -253,7 +256,7 @@ void ProcessInspector::count(const Inspection& said, double seconds) {
 Inspection ProcessInspector::judge(const Upload& upload) const {
   ChildSettings child;
   child.arguments = {"inspect", "--kind=" + std::string(nameOf(upload.kind))};
-  // The command line takes an empty value for none, and what follows for the value.
+  // Joined with '=', because the command line would treat an empty value as missing, and use the next argument instead.
   if (!upload.name.empty()) child.arguments.push_back("--name=" + upload.name);
   for (const auto& [name, value] : upload.options)
     if (!value.empty()) child.arguments.push_back("--" + name + "=" + value);
@@ -266,7 +269,7 @@ Inspection ProcessInspector::judge(const Upload& upload) const {
 Inspection ProcessInspector::judgeMasters(const MastersJob& job) const {
   if (job.writes && settings_.masters.empty())
     return problemOf(409, "read_only",
-                     "these masters are built in: name a base to keep others in, with --masters FILE");
+                     "the built-in reference histograms cannot be replaced: name a database with --masters FILE");
   ChildSettings child;
   child.arguments = {"inspect", job.writes ? "--store-masters" : "--list-masters"};
   child.text = job.json;
@@ -295,8 +298,8 @@ Result<std::unique_ptr<Inspector>> Inspector::create(const InspectorSettings& se
                     settings.time.count() <= 86400;
   if (!fits)
     return Error{Code::invalid_argument,
-                 "an inspector has 1 to 64 jobs, at most 4096 uploads wait, and a process has 64 MB of memory or more "
-                 "and 1 to 86400 s"};
+                 "an inspector must have 1 to 64 jobs and at most 4096 waiting uploads, and its processes at least 64 "
+                 "MB of memory and 1 to 86400 s"};
   Result<Pipe> stop = Pipe::create();
   if (!stop) return stop.error();
   auto made = std::make_unique<ProcessInspector>(settings, std::move(*stop));

@@ -25,7 +25,7 @@ T numberAt(std::string_view bytes, size_t at) {
   return value;
 }
 
-/// The next of the answer's two parts. Nothing where it is not whole.
+/// The next of the answer's two parts. nullopt if it is incomplete.
 std::optional<std::string_view> takePart(std::string_view& left) {
   if (left.size() < sizeof(uint64_t)) return std::nullopt;
   const uint64_t size = numberAt<uint64_t>(left, 0);
@@ -45,13 +45,13 @@ bool isPreview(std::string_view bytes) {
   return true;
 }
 
-/// The text of a member's value; empty where there is none.
+/// The text of a member's value; empty if there is none.
 std::string_view valueOf(const std::vector<JsonMember>& members, std::string_view name) {
   const auto found = std::ranges::find(members, name, &JsonMember::name);
   return found == members.end() ? std::string_view() : found->value;
 }
 
-/// The status of a problem that the process may answer with; nothing for anything else.
+/// The status of a problem that the process may return; nullopt for anything else.
 std::optional<int> problemStatus(const std::vector<JsonMember>& members, Answer wanted) {
   for (const char* member : {"type", "title", "code", "detail"})
     if (!valueOf(members, member).starts_with('"')) return std::nullopt;
@@ -74,11 +74,10 @@ bool isWanted(const std::vector<JsonMember>& members, Answer wanted) {
 Inspection limitReached(const std::string& what) { return problemOf(500, "validator_limit", what); }
 
 Inspection tooMuchSaid(size_t most) {
-  return limitReached("what is to be said of this is more than " + std::to_string(most >> 20) +
-                      " MB, the service's limit of an answer");
+  return limitReached("the answer is larger than " + std::to_string(most >> 20) + " MB, the limit of the service");
 }
 
-/// Nothing where it is not what was wanted.
+/// nullopt if it is not a valid answer of the wanted kind.
 std::optional<Inspection> soundAnswer(std::string_view output, Answer wanted) {
   const std::optional<std::string_view> text = takePart(output), preview = takePart(output);
   if (!text || !preview || !output.empty()) return std::nullopt;
@@ -126,16 +125,18 @@ Inspection problemOf(int status, std::string_view code, std::string_view detail)
   return {status, std::move(json), {}};
 }
 
-Inspection stoppedProblem() { return problemOf(503, "stopping", "the service ends: send it again when it is back"); }
+Inspection stoppedProblem() {
+  return problemOf(503, "stopping", "the service is stopping: send the request again when it is back");
+}
 
 Inspection outOfMemoryProblem() noexcept {
   Inspection said;
   said.status = 500;
   try {
     said.json = R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"validator_limit",)"
-                R"("detail":"the service has no memory left for this: send it again later"})";
+                R"("detail":"the service is out of memory: send the request again later"})";
   } catch (const std::bad_alloc&) {
-    // Not even for this: the status alone says it.
+    // No memory even for this: return the status alone.
   }
   return said;
 }
@@ -146,24 +147,24 @@ Inspection inspectionOf(ChildOutcome outcome, std::chrono::seconds time, Answer 
     case ChildEnd::cancelled:
       return stoppedProblem();
     case ChildEnd::late:
-      return limitReached("judging this takes more than " + seconds +
-                          " s, the service's limit of time: send something smaller");
+      return limitReached("the validation takes more than " + seconds +
+                          " s, the time limit of the service: send a smaller file");
     case ChildEnd::talkative:
       return tooMuchSaid(kMostAnswer);
     case ChildEnd::signalled:
       if (outcome.signal == SIGXCPU)
-        return limitReached("judging this takes more than " + seconds +
-                            " s of processor time, the service's limit: send something smaller");
+        return limitReached("the validation takes more than " + seconds +
+                            " s of processor time, the limit of the service: send a smaller file");
       return crashed("was ended by signal " + std::to_string(outcome.signal) +
-                     (outcome.signal == SIGKILL ? ": perhaps the machine has no memory left"
-                                                : ": this is a bug of sgm's, please send us the file"));
+                     (outcome.signal == SIGKILL ? ": the machine may be out of memory"
+                                                : ": this is a bug in sgm, please send us the file"));
     case ChildEnd::exited:
       break;
   }
   if (outcome.status.value_or(0) != 0)
     return crashed("ended with status " + std::to_string(*outcome.status) + firstLine(outcome.complaint));
   if (std::optional<Inspection> said = soundAnswer(outcome.output, wanted)) return std::move(*said);
-  return crashed((outcome.output.empty() ? "ended without a word" : "has said something else than a report") +
+  return crashed((outcome.output.empty() ? "ended without an answer" : "returned something other than a report") +
                  firstLine(outcome.complaint));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a process that inspects has said, taken apart: it has read what came from outside, and is believed as little.
+// Parses the output of an inspecting process, which has read untrusted input and is not trusted either.
 
 #include <chrono>
 #include <cstddef>
@@ -11,21 +11,22 @@
 
 namespace sgm::service {
 
-/// On its standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview; little-endian.
+/// Limit of its standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview;
+/// little-endian.
 inline constexpr size_t kMostAnswer = size_t{32} << 20;
-/// Of the JSON of a report, which is kept.
+/// Limit of a report's JSON, which is kept.
 inline constexpr size_t kMostReportText = size_t{2} << 20;
 
 enum class Answer { report, masters };
 
-/// With how the process ended, which a problem of status 500 tells of where it has not said anything sound.
+/// If the output is not valid, returns a problem of status 500 that tells how the process ended.
 Inspection inspectionOf(ChildOutcome outcome, std::chrono::seconds time, Answer wanted);
 
-/// RFC 9457. code: for programs. detail: for people, what to do; what is no UTF-8 in it is replaced.
+/// RFC 9457. code: for programs. detail: for users, with the remedy; invalid UTF-8 in it is replaced.
 Inspection problemOf(int status, std::string_view code, std::string_view detail);
-/// 503: the service ends.
+/// 503: the service is stopping.
 Inspection stoppedProblem();
-/// 500: this process has no memory left. Its JSON is empty where there is none for that either: make it beforehand.
+/// 500: this process is out of memory. Its JSON is empty if there is no memory for it: call it in advance.
 Inspection outOfMemoryProblem() noexcept;
 
 }  // namespace sgm::service

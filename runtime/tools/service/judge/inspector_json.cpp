@@ -8,11 +8,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of our own objects; text that nests deeper would take the stack of whoever reads it.
+/// Enough for our own objects; deeper nesting would exhaust the stack of a recursive parser.
 constexpr size_t kDeepest = 16;
 constexpr size_t kMostMembers = 64;
 
-/// Follows a text that is read and keeps none of it.
+/// Validates a text without storing values.
 class Structure final : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return depth_ > 0; }
@@ -35,14 +35,14 @@ class Structure final : public nlohmann::json_sax<Json> {
 
 constexpr std::string_view kSpace = " \t\r\n";
 
-/// Behind the quotation mark that ends the string which begins at `at`, or behind the text.
+/// The place after the closing quotation mark of the string that begins at `at`, or the end of the text.
 size_t behindString(std::string_view text, size_t at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     if (text[at] == '\\') ++at;
   return std::min(at + 1, text.size());
 }
 
-/// Behind the value that begins at `at`: before the comma or the bracket that ends it.
+/// The place after the value that begins at `at`: of the comma or bracket that ends it.
 size_t behindValue(std::string_view text, size_t at) {
   for (size_t depth = 0; at < text.size();) {
     const char c = text[at];

@@ -1,6 +1,5 @@
 #pragma once
-// JSON that a process has said, looked at where it stands: what is read into memory as values takes many times its
-// size.
+// Examines JSON from a process in place, since parsed values would need many times its memory.
 
 #include <string>
 #include <string_view>
@@ -8,21 +7,21 @@
 
 namespace sgm::service {
 
-/// Of an object: its name without quotation marks, and the text of its value as it came.
+/// A member of an object: its name without quotation marks, and its value as raw text.
 struct JsonMember {
   std::string_view name, value;
 };
 
-/// Whether this is a JSON object that nests at most 16 deep and has at most 64 members, each name written without
-/// escapes and once; deeper in the text names are free.
+/// Whether this is a JSON object that nests at most 16 deep and has at most 64 members, whose names are unique and have
+/// no escapes; names in nested objects are free.
 bool isSoundObject(std::string_view text);
 
-/// The members of an object, in their order, as parts of the text. Empty for what is no object; of text that is not
-/// sound otherwise, anything within it.
+/// The members of an object, in order, as parts of the text. Empty for other text; for invalid JSON, the result is
+/// arbitrary but within the text.
 std::vector<JsonMember> membersOf(std::string_view object);
 
-/// A string of JSON, in quotation marks; what is no UTF-8 is replaced. Objects are put together as text around it:
-/// values of the parser's library end the program where their destructor finds no memory.
+/// A JSON string in quotation marks; invalid UTF-8 is replaced. Objects are assembled as text around it: destructors of
+/// the parser's values terminate the program if they run out of memory.
 std::string jsonString(std::string_view text);
 
 }  // namespace sgm::service

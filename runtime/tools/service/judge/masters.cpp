@@ -14,7 +14,7 @@ MastersAnswer answerOf(Inspection said) {
     answer.json = std::make_shared<const std::string>(std::move(said.json));
     answer.status = said.status;
   } catch (const std::bad_alloc&) {
-    // As it is without: 503.
+    // Keep the default status, 503.
   }
   return answer;
 }

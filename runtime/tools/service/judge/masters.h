@@ -1,5 +1,5 @@
 #pragma once
-// The masters that histograms are compared with, as the inspector reads and writes them.
+// The reference histograms of the service, read and written by the inspector.
 
 #include <chrono>
 #include <functional>
@@ -12,29 +12,29 @@
 
 namespace sgm::service {
 
-/// What was said of them: Inspection's status and JSON, shared by all who are told.
+/// The result: Inspection's status and JSON, shared by all receivers.
 struct MastersAnswer {
   int status = 503;
-  std::shared_ptr<const std::string> json;  ///< null: there was no memory for it
+  std::shared_ptr<const std::string> json;  ///< null: out of memory
 };
 
-/// Any thread. A process reads them for all who ask within a few seconds.
+/// Thread-safe. One process reads them for all requests within a few seconds.
 class Masters {
  public:
   using Told = std::function<void(const MastersAnswer&)>;
 
-  /// inspector must outlive it, and end before it: told functions are called from its threads.
+  /// inspector must outlive it, but be stopped first: `told` functions are called from its threads.
   explicit Masters(Inspector& inspector) : inspector_(inspector) {}
 
   void read(Told told);
-  /// Replaces them by this JSON, whole or not at all.
+  /// Replaces them by this JSON, completely or not at all.
   void write(std::string json, Told told);
 
-  /// What was said when they were read last; a status of 0 where that has not been yet.
+  /// The last result of reading; a status of 0 before the first one.
   MastersAnswer last() const;
 
  private:
-  /// Tells all who wait, whatever becomes of the memory.
+  /// Informs all waiting callers, also when out of memory.
   void tell(MastersAnswer said);
   void keep(const MastersAnswer& said);
 
@@ -42,7 +42,7 @@ class Masters {
   mutable std::mutex mutex_;
   MastersAnswer last_{0, nullptr};
   std::chrono::steady_clock::time_point when_;
-  std::vector<Told> waiting_;  ///< for a process that reads
+  std::vector<Told> waiting_;  ///< for the reading process
 };
 
 }  // namespace sgm::service

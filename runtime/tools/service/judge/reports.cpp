@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kNoMemory =
     R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"out_of_memory",)"
-    R"("detail":"the service has no memory left to keep this report: send it again later"})";
+    R"("detail":"the service is out of memory and cannot keep this report: send the request again later"})";
 constexpr size_t kMostReports = 64, kMostBytes = size_t{128} << 20;
 
 std::string_view nameOf(ReportState state) {
@@ -64,7 +64,7 @@ std::string nowText() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &at)};
 }
 
-/// What a report says of itself.
+/// Members that a report sets itself.
 constexpr std::array<std::string_view, 8> kHeadNames{"id",       "name",  "kind",  "bytes",
                                                      "received", "state", "valid", "seconds"};
 
@@ -81,16 +81,16 @@ struct KeptReport {
   uint64_t bytes = 0;
   ReportState state = ReportState::waiting;
   Clock::time_point began{};
-  std::optional<double> seconds;  ///< that judging it took
+  std::optional<double> seconds;  ///< duration of the inspection
   std::optional<bool> valid;
-  std::string text;           ///< all of it, once it is finished
-  std::string out_of_memory;  ///< the text where there is no memory for another one, made while there is some
+  std::string text;           ///< complete, once it is finished
+  std::string out_of_memory;  ///< the text for lack of memory, made in advance
   std::shared_ptr<const std::string> preview;
 
   bool finished() const { return state != ReportState::waiting && state != ReportState::running; }
   size_t size() const { return text.size() + (preview ? preview->size() : 0); }
 
-  /// As lists have it: an object.
+  /// The object in lists.
   std::string head() const {
     const std::string_view judged = valid.value_or(false) ? "true" : "false";
     const std::array<std::string, kHeadNames.size()> values{jsonString(id),
@@ -109,7 +109,7 @@ struct KeptReport {
 
 namespace {
 
-/// Where the page finds the mesh, under what was said of it.
+/// The page's reference to the preview, with the mesh's data in `said`.
 std::string previewText(const KeptReport& report, std::string_view said) {
   if (!report.preview || !said.starts_with('{')) return "null";
   std::string text = "{";
@@ -119,8 +119,7 @@ std::string previewText(const KeptReport& report, std::string_view said) {
   return text + "}";
 }
 
-/// What was found out, under what the report says of itself. Joined as text: as values it would take many times its
-/// size.
+/// The inspection's members after the report's own. Joined as text, since values would need many times its memory.
 std::string finishedText(const KeptReport& report, std::string_view said) {
   std::string text = report.head();
   text.pop_back();
@@ -155,7 +154,7 @@ void fill(KeptReport& report, Inspection inspection) {
   report.text = finishedText(report, inspection.json);
 }
 
-/// Needs no memory.
+/// Allocates nothing.
 void failForMemory(KeptReport& report) noexcept {
   report.state = ReportState::failed;
   report.text = std::move(report.out_of_memory);
@@ -177,8 +176,7 @@ struct Reports::Kept {
     return std::find_if(reports.begin(), reports.end(), [&](const KeptReport& report) { return report.id == id; });
   }
 
-  /// Takes out the oldest of those that are finished, but for the one that is `wanted`, until the rest are no more than
-  /// may be kept.
+  /// Removes the oldest finished reports, except `wanted`, until the rest is within the limits.
   std::list<KeptReport> takeSurplus(const KeptReport* wanted) {
     size_t bytes = 0;
     for (const KeptReport& report : reports) bytes += report.size();
@@ -232,7 +230,7 @@ std::string Reports::finish(const std::string& id, Inspection inspection) {
       if (found == kept_->reports.end()) return {};
       report = *found;
     }
-    // Outside of the lock: it takes some milliseconds.
+    // Outside the lock: it takes some milliseconds.
     fill(report, std::move(inspection));
     report.out_of_memory = {};
     std::string text = report.text;

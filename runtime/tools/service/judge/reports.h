@@ -1,5 +1,5 @@
 #pragma once
-// What became of the uploads: the last ones, found again by their ids.
+// The results of the last uploads, by their ids.
 
 #include <cstdint>
 #include <memory>
@@ -12,23 +12,22 @@ namespace sgm::service {
 
 enum class ReportState { waiting, running, done, failed, cancelled };
 
-/// Any thread. Keeps the last 64 reports, of 128 MiB together; those that wait or run are kept in any case.
+/// Thread-safe. Keeps the last 64 reports, up to 128 MiB; waiting and running ones are always kept.
 class Reports {
  public:
   Reports();
   ~Reports();
 
-  /// A new report, waiting; its id, 16 hexadecimal digits that nobody can guess.
+  /// Adds a waiting report; returns its id, 16 unguessable hexadecimal digits.
   std::string begin(const std::string& name, UploadKind kind, uint64_t bytes);
   void run(const std::string& id);
-  /// Done (a status of 200), cancelled (503) or failed, which it also is where no memory is left for it. The report as
-  /// JSON, as json() has it as long as it is kept; empty for an id that is not known, or without memory for the copy.
-  /// Throws nothing.
+  /// Finishes a report: done (a status of 200), cancelled (503) or failed, also if there is no memory for it. Returns
+  /// the report as json() would; empty for an unknown id, or without memory for the copy. Throws nothing.
   std::string finish(const std::string& id, Inspection inspection);
 
-  /// One report as JSON (an object); nothing for an id that is not (or no longer) known.
+  /// A report as a JSON object; nullopt for an id that is unknown or no longer kept.
   std::optional<std::string> json(const std::string& id) const;
-  /// Nothing for an id that is not known, or has none.
+  /// Null for an unknown id, or a report without a preview.
   std::shared_ptr<const std::string> preview(const std::string& id) const;
   /// {"reports": [...]}, newest first, without their measures.
   std::string list() const;

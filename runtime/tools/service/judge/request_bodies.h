@@ -1,5 +1,5 @@
 #pragma once
-// Bodies of requests, as they come in: of uploads to a file, of short texts to memory.
+// Receives bodies of requests: uploads into a file, short texts into memory.
 
 #include <atomic>
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace sgm::service {
 
-/// Bytes of all bodies of a kind that come in at this moment. By bytes and not by heads, so that who sends little, or
-/// nothing, for as long as he may, is in nobody's way.
+/// Total of bytes of the bodies of a kind that are being received. It counts bytes, not requests, so that a slow client
+/// cannot block others.
 struct IncomingRoom {
   std::atomic<uint64_t> taken{0};
   uint64_t most = 0;
 };
 
-/// What one body has of it, until it ends. Moves only.
+/// The part of one body, until its end. Move-only.
 class IncomingShare {
  public:
   explicit IncomingShare(std::shared_ptr<IncomingRoom> room) : room_(std::move(room)) {}
@@ -32,7 +32,7 @@ class IncomingShare {
     if (room_ != nullptr) room_->taken -= taken_;
   }
 
-  /// The answer where there is no room for so many bytes more.
+  /// Adds bytes; returns the answer if there is no room for them.
   std::optional<http::Response> grow(size_t bytes);
 
  private:
@@ -52,14 +52,14 @@ class UploadBody final : public http::Body {
   IncomingShare share_;
 };
 
-/// A text that is kept in memory.
+/// A text in memory.
 class TextBody final : public http::Body {
  public:
   explicit TextBody(std::shared_ptr<IncomingRoom> room) : share_(std::move(room)) {}
 
   std::optional<http::Response> take(std::string_view piece) override;
   std::string release() && { return std::move(text_); }
-  /// To be kept for as long as the text is.
+  /// Keep it as long as the text.
   IncomingShare releaseShare() && { return std::move(share_); }
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 struct KindName {
   UploadKind kind;
-  std::string_view name;  ///< what a file's name ends in, behind a point
+  std::string_view name;  ///< ending of a file's name, after a dot
 };
 constexpr KindName kNames[] = {
     {UploadKind::glb, "glb"}, {UploadKind::obj, "obj"},     {UploadKind::ply, "ply"},
@@ -43,11 +43,11 @@ std::string lowered(std::string_view text) {
 
 Error failed(const std::string& what) { return {Code::io, what + ": " + systemMessage(errno)}; }
 
-/// A file that has no name any more, and that who opens it again may only read. -1, and errno, where there is none.
+/// An unlinked file, which can only be opened again for reading. -1, with errno, on failure.
 int openNameless(const std::string& folder) {
 #if defined(O_TMPFILE)
   const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
-  // What else can be wrong with the folder is wrong for a file with a name too.
+  // Any other problem of the folder also affects named files.
   if (file >= 0) return file;
 #endif
   std::string path = folder + "/sgm_upload_XXXXXX";

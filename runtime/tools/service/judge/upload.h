@@ -1,6 +1,6 @@
 #pragma once
-// A file that a client sends, written to disk as it comes: nothing of it is held in memory, and nothing of it is left
-// behind, whatever ends the process.
+// A file that a client sends, written to disk as it arrives: it needs no memory, and disappears when the process ends
+// in any way.
 
 #include <cstdint>
 #include <optional>
@@ -16,13 +16,13 @@ namespace sgm::service {
 enum class UploadKind { glb, obj, ply, stl, grammar };
 /// "glb", "obj", "ply", "stl", "sgm".
 std::string_view nameOf(UploadKind kind);
-/// By a content type, or where that is application/octet-stream or empty, by what the name ends in. Nothing: neither.
+/// From the content type, or if that is application/octet-stream or empty, from the name's ending. nullopt if unknown.
 std::optional<UploadKind> uploadKind(std::string_view content_type, std::string_view name);
 
-/// A file without a name in a folder: it is gone when the last who has it open closes it. Moves only.
+/// An unnamed file in a folder, which the system deletes when its last descriptor is closed. Move-only.
 class Upload {
  public:
-  /// folder: empty for the machine's own one for temporary files. Error: io.
+  /// folder: empty: the system's folder for temporary files. Error: io.
   static Result<Upload> create(const std::string& folder);
   Upload(Upload&& other) noexcept;
   Upload& operator=(Upload&& other) noexcept;
@@ -33,9 +33,9 @@ class Upload {
   int file() const { return file_; }  ///< open for reading and writing
   uint64_t bytes() const { return bytes_; }
 
-  std::string name;  ///< the client's; for people
+  std::string name;  ///< the client's; for display
   UploadKind kind = UploadKind::glb;
-  /// Of a grammar: "region", "cell", "seed", "set" with their values, as they came.
+  /// For a grammar: "region", "cell", "seed", "set" with their values, as received.
   std::vector<std::pair<std::string, std::string>> options;
 
  private:

@@ -20,7 +20,7 @@ bool isLetterOrDigit(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <
 
 enum class Numbers { none, four, six };
 
-/// Whether a text is an address in numbers, and its bytes.
+/// Whether a text is a numeric address, and its bytes.
 Numbers numbersOf(std::string_view text, std::array<unsigned char, 16>& bytes) {
   const std::string ended(text);
   if (inet_pton(AF_INET, ended.c_str(), bytes.data()) == 1) return Numbers::four;
@@ -38,7 +38,7 @@ bool isHostName(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return isLetterOrDigit(c) || c == '-' || c == '.'; });
 }
 
-/// The name in a Host field, without its port and brackets; empty where behind it stands anything but a port.
+/// The name in a Host field, without port and brackets; empty if anything but a port follows it.
 std::string_view nameOf(std::string_view host) {
   std::string_view name, rest;
   if (host.starts_with('[')) {
@@ -55,7 +55,7 @@ std::string_view nameOf(std::string_view host) {
   return rest.empty() || port ? name : std::string_view{};
 }
 
-/// Takes as long whatever the first difference is.
+/// Compares in constant time.
 bool equalInSecret(std::string_view a, std::string_view b) {
   unsigned difference = a.size() == b.size() ? 0 : 1;
   for (size_t i = 0; i < a.size(); ++i)
@@ -86,21 +86,22 @@ Result<Access> Access::create(const AccessSettings& settings) {
   const auto wrong = [](std::string message) { return Error{Code::invalid_argument, std::move(message)}; };
   std::array<unsigned char, 16> bytes{};
   if (numbersOf(settings.address, bytes) == Numbers::none)
-    return wrong("'" + settings.address + "' is no address to listen on: take one in numbers, like 127.0.0.1 or ::1");
+    return wrong("'" + settings.address +
+                 "' is not an address to listen on: use a numeric one such as 127.0.0.1 or ::1");
   if (settings.token.empty() && !isLoopback(settings.address))
-    return wrong("to listen on " + settings.address + " a token is needed, for others can reach it");
+    return wrong("to listen on " + settings.address + " a token is required, since other machines can reach it");
   const auto fits = [](char c) {
     return isLetterOrDigit(c) || std::string_view("-._~+/=").find(c) != std::string::npos;
   };
   if (!settings.token.empty() &&
       (settings.token.size() < kShortestToken || !std::all_of(settings.token.begin(), settings.token.end(), fits)))
-    return wrong("the token is to have 16 characters or more, of letters, digits and -._~+/=");
+    return wrong("the token must have at least 16 characters, which are letters, digits and -._~+/=");
   Access access;
   access.token_ = settings.token;
   access.any_address_ = isAnyAddress(settings.address);
   access.names_ = {"localhost", "127.0.0.1", "::1", inSmallLetters(settings.address)};
   for (const std::string& name : settings.host_names) {
-    if (!isHostName(name)) return wrong("'" + name + "' is no host's name");
+    if (!isHostName(name)) return wrong("'" + name + "' is not a host name");
     access.names_.push_back(inSmallLetters(name));
   }
   return access;
@@ -109,7 +110,7 @@ Result<Access> Access::create(const AccessSettings& settings) {
 bool Access::isOurs(std::string_view host) const {
   const std::string_view name = nameOf(host);
   std::array<unsigned char, 16> bytes{};
-  // A site can give our address a name of its own, but no page can be loaded from an address that it does not have.
+  // A foreign site can let its own name resolve to our address, but cannot use a numeric address that it does not have.
   if (any_address_ && numbersOf(name, bytes) != Numbers::none) return true;
   return std::find(names_.begin(), names_.end(), inSmallLetters(name)) != names_.end();
 }
@@ -117,15 +118,15 @@ bool Access::isOurs(std::string_view host) const {
 std::optional<Response> Access::refuse(const Request& request) const {
   const std::string_view host = request.field("Host").value_or("");
   if (!isOurs(host)) {
-    return makeResponse(Problem{421, "misdirected",
-                                "this server is not known by the name in Host; name it with --host where it should be",
-                                ""});
+    return makeResponse(
+        Problem{421, "misdirected",
+                "this server does not answer to the name in Host; add the name with --host if it should", ""});
   }
   const std::optional<std::string_view> origin = request.field("Origin");
   if (!origin) return std::nullopt;
   const std::string ours = inSmallLetters(host), theirs = inSmallLetters(*origin);
   if (theirs == "http://" + ours || theirs == "https://" + ours) return std::nullopt;
-  return makeResponse(Problem{403, "foreign_origin", "pages of other sites may not ask this server", ""});
+  return makeResponse(Problem{403, "foreign_origin", "pages of other sites may not use this server", ""});
 }
 
 std::optional<Response> Access::refuseStranger(const Request& request) const {
@@ -135,8 +136,8 @@ std::optional<Response> Access::refuseStranger(const Request& request) const {
   if (given.size() > kScheme.size() && inSmallLetters(given.substr(0, kScheme.size())) == kScheme &&
       equalInSecret(given.substr(kScheme.size()), token_))
     return std::nullopt;
-  Response response =
-      makeResponse(Problem{401, "no_token", "this needs the server's token, as Authorization: Bearer TOKEN", ""});
+  Response response = makeResponse(
+      Problem{401, "no_token", "this request needs the token of the server, as Authorization: Bearer TOKEN", ""});
   response.fields.push_back({"WWW-Authenticate", "Bearer"});
   return response;
 }

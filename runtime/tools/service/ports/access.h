@@ -1,5 +1,5 @@
 #pragma once
-// Who may ask: pages of other sites may not, whatever name they give this machine, and strangers not without the token.
+// Access control: rejects pages of other sites, under any name of this machine, and clients without the token.
 
 #include <optional>
 #include <string>
@@ -12,32 +12,33 @@
 namespace sgm::service {
 
 struct AccessSettings {
-  std::string address = "127.0.0.1";    ///< that is listened on
-  std::string token;                    ///< empty: none is asked for
-  std::vector<std::string> host_names;  ///< under which clients may know this server, beside its address
+  std::string address = "127.0.0.1";    ///< the listening address
+  std::string token;                    ///< empty: no token is required
+  std::vector<std::string> host_names;  ///< further names of this server, besides its address
 };
 
-/// Whether an address in numbers is this machine's own loopback; false for a text that is no address.
+/// Whether a numeric address is this machine's loopback; false for any other text.
 bool isLoopback(std::string_view address);
 
 class Access {
  public:
-  /// Errors: invalid_argument for an address that is not in numbers, one beside loopback without a token, a token
-  /// of fewer than 16 characters or with others than letters, digits and -._~+/=, and a name that is no host's.
+  /// Error: invalid_argument for an address that is not numeric, an address other than loopback without a token, a
+  /// token of fewer than 16 characters or with characters other than letters, digits and -._~+/=, or an invalid host
+  /// name.
   static Result<Access> create(const AccessSettings& settings);
 
-  /// The answer to a request that may not be made: 421 for a Host that is no name of ours (a site that gives its own
-  /// name our address is told nothing), 403 for an Origin beside ours. Nothing: it may.
+  /// The answer to a forbidden request: 421 for an unknown Host (a site that resolves its own name to our address gets
+  /// no data), 403 for an Origin other than ours. nullopt if it is allowed.
   std::optional<http::Response> refuse(const http::Request& request) const;
-  /// 401 where there is a token and the request does not have it.
+  /// 401 if there is a token and the request does not have it.
   std::optional<http::Response> refuseStranger(const http::Request& request) const;
 
  private:
   bool isOurs(std::string_view host) const;
 
   std::string token_;
-  std::vector<std::string> names_;  ///< in small letters, without ports
-  bool any_address_ = false;        ///< all of the machine's addresses are listened on
+  std::vector<std::string> names_;  ///< in lower case, without ports
+  bool any_address_ = false;        ///< the server listens on all addresses of the machine
 };
 
 }  // namespace sgm::service

@@ -1,5 +1,5 @@
 #pragma once
-// The page's files and the description of the interface, which are a part of the library: it reads none at run time.
+// The page's files and the description of the interface, embedded in the library: no files are read at run time.
 
 #include <span>
 #include <string_view>
@@ -9,7 +9,7 @@ namespace sgm::service {
 struct EmbeddedFile {
   std::string_view name;  ///< without a folder
   std::string_view bytes;
-  std::string_view tag;  ///< of these bytes, as an ETag has it
+  std::string_view tag;  ///< the ETag of these bytes
 };
 
 std::span<const EmbeddedFile> embeddedFiles();

@@ -1,5 +1,5 @@
 #pragma once
-// What stands in fields of requests.
+// Parses values of request fields.
 
 #include <string>
 #include <string_view>
@@ -7,13 +7,13 @@
 
 namespace sgm::service {
 
-/// ASCII letters alone: names in HTTP have no others.
+/// Only ASCII letters, as in names of HTTP.
 std::string inSmallLetters(std::string_view text);
-/// The type of a Content-Type in small letters, without its parameters: "model/stl".
+/// The media type of a Content-Type in lower case, without parameters: "model/stl".
 std::string mediaType(std::string_view content_type);
-/// The members of a list, trimmed; what stands in quotes is not cut.
+/// The members of a list, trimmed; quoted strings are not split.
 std::vector<std::string_view> listed(std::string_view value);
-/// Whether an If-None-Match names this entity tag, by weak comparison (RFC 9110, 8.8.3.2 and 13.1.2).
+/// Whether an If-None-Match matches this entity tag, by weak comparison (RFC 9110, 8.8.3.2 and 13.1.2).
 bool namesTag(std::string_view if_none_match, std::string_view tag);
 
 }  // namespace sgm::service

@@ -1,6 +1,6 @@
 #pragma once
-// The port for who operates the service: whether it lives, whether it is of use, and its metrics. On a thread of its
-// own, so that no upload and no slow client is in the way.
+// The port for operators: liveness, readiness and metrics. It has its own thread, so that uploads and slow clients do
+// not delay it.
 
 #include <functional>
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace sgm::service {
 
-/// One thing that the service needs.
+/// A dependency of the service.
 struct Check {
   std::string name;
   bool ok = true;
-  bool needed = false;  ///< the service is of no use without it; else it does less
+  bool needed = false;  ///< the service is not ready without it; otherwise it is degraded
   std::string detail;
 };
 
 struct OperationsParts {
   const Access& access;
-  std::function<std::string()> metrics;  ///< the text that Prometheus reads
+  std::function<std::string()> metrics;  ///< the text for Prometheus
   std::function<std::vector<Check>()> checks;
 };
 

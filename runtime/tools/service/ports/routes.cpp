@@ -3,7 +3,7 @@
 namespace sgm::service {
 namespace {
 
-/// The text up to the next '/', which is taken off with it.
+/// Removes and returns the text up to the next '/'.
 std::string_view takeSegment(std::string_view& path) {
   const size_t end = path.find('/');
   const std::string_view segment = path.substr(0, end);
@@ -42,12 +42,12 @@ std::variant<Routed, http::Response> routed(std::span<const Route> routes, const
     if (!values) continue;
     if (allows(route.methods, request.method)) return Routed{&route, std::move(*values)};
     http::Response response = makeResponse(
-        http::Problem{405, "method_not_allowed", "this path takes " + std::string(route.methods) + " only", ""});
+        http::Problem{405, "method_not_allowed", "this path supports " + std::string(route.methods) + " only", ""});
     response.fields.push_back({"Allow", std::string(route.methods)});
     return response;
   }
   return makeResponse(
-      http::Problem{404, "not_found", "there is nothing here; /api/v1/openapi.json lists what there is", ""});
+      http::Problem{404, "not_found", "this path does not exist; /api/v1/openapi.json lists all paths", ""});
 }
 
 }  // namespace sgm::service

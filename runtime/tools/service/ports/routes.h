@@ -1,5 +1,5 @@
 #pragma once
-// Which endpoint a request is for.
+// Finds the endpoint of a request.
 
 #include <optional>
 #include <span>
@@ -12,10 +12,10 @@
 
 namespace sgm::service {
 
-/// One path of a server, and what may be done with it.
+/// A path of a server, with its allowed methods.
 struct Route {
-  std::string_view path;     ///< segments in braces stand for any one: "/api/v1/reports/{id}"
-  std::string_view methods;  ///< as Allow has them: "GET, HEAD"
+  std::string_view path;     ///< segments in braces match any segment: "/api/v1/reports/{id}"
+  std::string_view methods;  ///< in the form of Allow: "GET, HEAD"
   int endpoint = 0;          ///< its owner's number for it
 };
 
@@ -24,7 +24,7 @@ struct Routed {
   std::vector<std::string> values;  ///< of the segments in braces, in order
 };
 
-/// The route that a request is for; or the answer where there is none: 404, or 405 with Allow. The first that fits.
+/// The first route that matches a request; or the answer if there is none: 404, or 405 with Allow.
 std::variant<Routed, http::Response> routed(std::span<const Route> routes, const http::Request& request);
 
 }  // namespace sgm::service

@@ -21,7 +21,7 @@ using http::Request;
 using http::Response;
 
 constexpr uint64_t kMostMastersBytes = uint64_t{4} << 20;
-/// Sets of masters that may be sent, or wait to be written, at one time: they are in memory.
+/// Maximum of sets of reference histograms that are being received or wait to be written, since they are in memory.
 constexpr uint64_t kMastersAtOnce = 4;
 constexpr size_t kLongestName = 255;
 
@@ -51,7 +51,7 @@ const EmbeddedFile* fileNamed(std::string_view name) {
   return nullptr;
 }
 
-/// The page's file that a path names; null: none. The description is not one of the page's.
+/// The page's file for a path; null if there is none. The interface description does not belong to the page.
 const EmbeddedFile* pageFile(std::string_view path) {
   const std::string_view name = path == "/" ? "index.html" : path.substr(1);
   return name.ends_with(".json") ? nullptr : fileNamed(name);
@@ -76,7 +76,7 @@ Response jsonResponse(std::string json) { return http::makeResponse(200, "applic
 Response notFound(std::string detail) { return makeResponse(Problem{404, "not_found", std::move(detail), ""}); }
 
 Response responseOf(const MastersAnswer& said) {
-  if (said.json == nullptr) return makeResponse(Problem{503, "no_memory", "there is no memory left: try again", ""});
+  if (said.json == nullptr) return makeResponse(Problem{503, "no_memory", "out of memory: try again", ""});
   Response response;
   response.status = said.status;
   response.type = said.status == 200 ? "application/json" : "application/problem+json";
@@ -85,7 +85,7 @@ Response responseOf(const MastersAnswer& said) {
   return response;
 }
 
-/// What cannot be read, or judged. Never throws: where there is no memory for its text it is without.
+/// The answer for a failed inspection. Never throws: without memory, the text is omitted.
 Response problemOf(const Inspection& said) noexcept {
   Response response;
   response.status = said.status;
@@ -99,7 +99,7 @@ Response problemOf(const Inspection& said) noexcept {
   return response;
 }
 
-/// Why an upload is not taken now.
+/// Why an upload is not accepted now.
 Response refusalOf(const Error& error) {
   const bool full = error.code == Code::limit;
   Response response = makeResponse(Problem{503, full ? "queue_full" : "no_validator", error.message, ""});
@@ -113,7 +113,7 @@ Admission refused(Response response) {
   return admission;
 }
 
-/// Whether an answer is wanted before the verdict is there (RFC 7240).
+/// Whether the client wants an answer before the result (RFC 7240).
 bool wantsNoWait(const Request& request) {
   for (const http::Field& field : request.fields) {
     if (inSmallLetters(field.name) != "prefer") continue;
@@ -144,7 +144,7 @@ Admission Work::admit(const Request& request) {
     return refused(std::get<Response>(routed(kFile, request)));
   }
   std::variant<Routed, Response> found = routed(kRoutes, request);
-  // Whoever lacks the token is not told what there is.
+  // A client without the token must not learn which paths exist.
   if (std::optional<Response> refusal = parts_.access.refuseStranger(request)) return refused(std::move(*refusal));
   if (std::holds_alternative<Response>(found)) return refused(std::get<Response>(std::move(found)));
   switch (std::get<Routed>(found).route->endpoint) {
@@ -162,7 +162,7 @@ Admission Work::admitUpload(const Request& request) {
     return refused(makeResponse(Problem{400, "bad_parameter", std::move(detail), ""}));
   };
   const std::string_view name = request.parameter("name").value_or("");
-  if (name.size() > kLongestName) return wrong("the name is to have 255 bytes at most");
+  if (name.size() > kLongestName) return wrong("the name must have at most 255 bytes");
   const std::string type = mediaType(request.field("Content-Type").value_or(""));
   const std::optional<UploadKind> kind = uploadKind(type, name);
   if (!kind) {
@@ -176,14 +176,13 @@ Admission Work::admitUpload(const Request& request) {
   for (const auto& [key, value] : request.query) {
     if (key == "name") continue;
     const bool known = key == "region" || key == "cell" || key == "seed" || key == "set";
-    if (!known) return wrong("there is no parameter '" + key + "': name, region, cell, seed and set are taken");
-    if (*kind != UploadKind::grammar) return wrong("'" + key + "' is for grammars: a mesh is measured as it is");
+    if (!known) return wrong("there is no parameter '" + key + "': use name, region, cell, seed and set");
+    if (*kind != UploadKind::grammar) return wrong("'" + key + "' is for grammars: leave it out for a mesh");
   }
   if (const Result<void> taken = parts_.inspector.wouldTake(); !taken) return refused(refusalOf(taken.error()));
   Result<Upload> upload = Upload::create(settings_.upload_folder);
   if (!upload) {
-    return refused(
-        makeResponse(Problem{507, "no_room", "the upload cannot be kept here: " + upload.error().message, ""}));
+    return refused(makeResponse(Problem{507, "no_room", "the upload cannot be stored: " + upload.error().message, ""}));
   }
   upload->kind = *kind;
   upload->name = name.empty() ? "upload." + std::string(nameOf(*kind)) : std::string(name);
@@ -197,11 +196,13 @@ Admission Work::admitUpload(const Request& request) {
 
 Admission Work::admitMasters(const Request& request) {
   if (!settings_.masters_writable) {
-    return refused(makeResponse(
-        Problem{409, "read_only", "the masters here are those that are built in: start the service with a base", ""}));
+    return refused(makeResponse(Problem{
+        409, "read_only",
+        "the built-in reference histograms cannot be replaced: start the service with a database of them", ""}));
   }
   if (mediaType(request.field("Content-Type").value_or("")) != "application/json") {
-    return refused(makeResponse(Problem{415, "unsupported_type", "masters are sent as application/json", ""}));
+    return refused(
+        makeResponse(Problem{415, "unsupported_type", "reference histograms must be sent as application/json", ""}));
   }
   Admission admission;
   admission.body = std::make_unique<TextBody>(text_room_);
@@ -219,7 +220,7 @@ void Work::answer(const Request& request, std::unique_ptr<http::Body> body, Repl
       return reply(jsonResponse(summaryText(parts_.state(), parts_.worlds.samples())));
     case chunks: {
       const std::optional<WorldMap> map = parts_.worlds.map(to.values[0]);
-      return reply(map ? jsonResponse(chunksText(*map)) : notFound("no world of this name is watched"));
+      return reply(map ? jsonResponse(chunksText(*map)) : notFound("no world with this name is watched"));
     }
     case validate:
       return judge(request, std::move(body), std::move(reply));
@@ -227,13 +228,15 @@ void Work::answer(const Request& request, std::unique_ptr<http::Body> body, Repl
       return reply(jsonResponse(parts_.reports.list()));
     case report: {
       std::optional<std::string> json = parts_.reports.json(to.values[0]);
-      return reply(json ? jsonResponse(std::move(*json)) : notFound("no report has this id, or it is too old"));
+      return reply(json ? jsonResponse(std::move(*json))
+                        : notFound("there is no report with this id; old reports are removed"));
     }
     case preview: {
       Response response;
       response.type = "application/octet-stream";
       response.body = parts_.reports.preview(to.values[0]);
-      return reply(response.body ? response : notFound("no report of this id has a preview, or it is too old"));
+      return reply(response.body ? response
+                                 : notFound("there is no report with this id and a preview; old reports are removed"));
     }
     case masters: {
       if (request.method != "PUT")
@@ -260,7 +263,7 @@ void Work::judge(const Request& request, std::unique_ptr<http::Body> body, Reply
       [&kept, id, location, waits, reply](Inspection said) {
         std::optional<Response> problem;
         if (waits && said.status != 200) problem = problemOf(said);
-        // Before anything that can fail: a report that is never finished is kept for ever.
+        // Before anything that can fail: an unfinished report is kept forever.
         std::string report = kept.finish(id, std::move(said));
         if (!waits) return;
         Response response = problem ? std::move(*problem) : jsonResponse(std::move(report));

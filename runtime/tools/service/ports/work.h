@@ -1,5 +1,5 @@
 #pragma once
-// The port for people and programs that work with the service: the page, uploads, reports, masters.
+// The port for users and programs: the page, uploads, reports, reference histograms.
 
 #include <functional>
 #include <map>
@@ -19,13 +19,13 @@
 namespace sgm::service {
 
 struct WorkSettings {
-  std::string upload_folder;  ///< empty: the machine's own one for temporary files
+  std::string upload_folder;  ///< empty: the system's folder for temporary files
   uint64_t most_upload_bytes = uint64_t{64} << 20;
   bool masters_writable = false;
-  uint64_t most_incoming_bytes = uint64_t{1} << 30;  ///< of all uploads that come in at one time; at least one fits
+  uint64_t most_incoming_bytes = uint64_t{1} << 30;  ///< of all uploads being received; at least one fits
 };
 
-/// What it answers with; all of it outlives the server.
+/// The parts that it uses, which outlive the server.
 struct WorkParts {
   const Access& access;
   Inspector& inspector;

@@ -1,5 +1,5 @@
 #pragma once
-// Names of what can be wrong with a chunk, as the service tells them.
+// Names of chunk defects in the service's output.
 
 #include <sgm/sgm.h>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::service {
 
-/// By sgm_defect.
+/// Indexed by sgm_defect.
 inline constexpr std::array<const char*, SGM_DEFECT_SELF_INTERSECTION + 1> kDefectNames{
     "index",          "outside",   "misplaced",        "samples",     "degenerate",
     "flat",           "duplicate", "open_edge",        "turned_edge", "nonmanifold_edge",

@@ -22,7 +22,7 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// Families in the order in which they are first named; a name comes with its help each time.
+/// Families in the order of their first use; each use repeats name and help.
 class Families {
  public:
   void gauge(const char* name, const char* help, Labels labels, double value) {
@@ -82,8 +82,7 @@ void addChunks(Families& all, const WorldSample& world, const Labels& backend) {
   };
   const sgm_world_stats& stats = world.stats;
   constexpr const char* kBuilt = "sgm_chunks_built_total";
-  constexpr const char* kBuiltHelp =
-      "Bodies of chunks by what became of them; what was in vain was meshed or cached too.";
+  constexpr const char* kBuiltHelp = "Bodies of chunks by result; those in_vain also count as meshed or cached.";
   const uint64_t cached = countOf(world.times.read);
   uint64_t meshed = 0;
   for (const sgm_time_histogram& level : world.times.mesh) meshed += countOf(level);
@@ -91,7 +90,7 @@ void addChunks(Families& all, const WorldSample& world, const Labels& backend) {
   all.counter(kBuilt, kBuiltHelp, with("result", "cached"), cached);
   all.counter(kBuilt, kBuiltHelp, with("result", "failed"), stats.chunks_failed);
   all.counter(kBuilt, kBuiltHelp, with("result", "in_vain"), stats.chunks_in_vain);
-  // Of all that the world has, so that a level's first chunks are seen as a rise.
+  // For all levels, so that a level's first chunks show as an increase.
   const int top = std::clamp(world.info.top_level, 0, SGM_MAX_LEVEL);
   for (int level = 0; level <= top; ++level) {
     all.histogram("sgm_chunk_build_seconds", "Time to make a chunk's body, from the grammar to its packed mesh.",
@@ -104,23 +103,22 @@ void addMeasures(Families& all, const WorldSample& world, const Labels& labels) 
   for (size_t kind = 0; kind < kDefectNames.size(); ++kind) {
     Labels with = labels;
     with.push_back({"kind", kDefectNames[kind]});
-    all.counter("sgm_mesh_defects_total", "What was wrong with chunks that were made; always 0 but for faults.",
+    all.counter("sgm_mesh_defects_total", "Defects of the chunks that were made; a count other than 0 means a bug.",
                 std::move(with), world.measures->made.defects[kind]);
   }
-  all.gauge("sgm_surface_area_square_meters", "Area of what is drawn.", labels, world.measures->drawn.area);
+  all.gauge("sgm_surface_area_square_meters", "Area of the drawn surface.", labels, world.measures->drawn.area);
   all.gauge("sgm_volume_cubic_meters",
-            "Volume of the solid inside of what is drawn; below 0 where that is void, as in a cave.", labels,
+            "Volume of the solid inside the drawn surface; below 0 if the inside is void, as in a cave.", labels,
             world.measures->drawn.flux);
-  all.gauge("sgm_triangles", "Triangles that are drawn.", labels, world.measures->drawn.triangles);
+  all.gauge("sgm_triangles", "Triangles of the drawn surface.", labels, world.measures->drawn.triangles);
 }
 
 void addDevice(Families& all, const WorldSample& world, const Labels& labels) {
   if (world.info.backend.backend == SGM_BACKEND_CPU) return;
   Labels heap = labels;
   heap.push_back({"heap", "meshes"});
-  all.gauge("sgm_gpu_memory_bytes", "Bytes of meshes that lie on the device.", std::move(heap),
-            world.info.backend.resident);
-  all.counter("sgm_device_lost_total", "Times that the device was lost.", labels, world.info.backend.losses);
+  all.gauge("sgm_gpu_memory_bytes", "Bytes of meshes on the device.", std::move(heap), world.info.backend.resident);
+  all.counter("sgm_device_lost_total", "Losses of the device.", labels, world.info.backend.losses);
 }
 
 void addWorld(Families& all, const WorldSample& world) {
@@ -132,42 +130,43 @@ void addWorld(Families& all, const WorldSample& world) {
     return more;
   };
   const sgm_world_stats& stats = world.stats;
-  all.gauge("sgm_world_info", "A world that is watched, and what computes it.", backend, 1.0);
+  all.gauge("sgm_world_info", "Watched worlds and the backends that compute them.", backend, 1.0);
   addChunks(all, world, backend);
-  all.histogram("sgm_world_update_seconds", "Time of sgm_world_update, on the engine's thread.", labels,
+  all.histogram("sgm_world_update_seconds", "Duration of sgm_world_update, on the engine's thread.", labels,
                 histogramOf(world.times.update));
-  constexpr const char* kQueueHelp = "Chunks that are to be made now.";
+  constexpr const char* kQueueHelp = "Chunks that wait or are being made.";
   all.gauge("sgm_queue_depth", kQueueHelp, with("stage", "waiting"), stats.queued);
   all.gauge("sgm_queue_depth", kQueueHelp, with("stage", "in_work"), stats.in_work);
-  all.gauge("sgm_chunks_drawn", "Chunks that are drawn and have triangles or anchors.", labels, stats.drawn);
-  all.gauge("sgm_chunks_kept", "Chunks that are known, drawn or not, empty or not.", labels, stats.kept);
-  all.counter("sgm_frames_total", "Changes of what is drawn, each a whole frame of chunks; not the engine's frames.",
-              labels, stats.frame);
+  all.gauge("sgm_chunks_drawn", "Drawn chunks that have triangles or anchors.", labels, stats.drawn);
+  all.gauge("sgm_chunks_kept", "Known chunks, including chunks that are empty or not drawn.", labels, stats.kept);
+  all.counter("sgm_frames_total", "Frames of changes of the drawn chunks; not frames of the engine.", labels,
+              stats.frame);
   all.gauge("sgm_mesh_bytes", "Bytes of meshes, the engine's included.", labels, stats.mesh_bytes);
-  all.gauge("sgm_mesh_peak_bytes", "The most bytes of meshes so far.", labels, stats.peak_mesh_bytes);
-  all.gauge("sgm_mesh_limit_bytes", "The most bytes of meshes that there may be.", labels, world.info.mesh_bytes);
+  all.gauge("sgm_mesh_peak_bytes", "Highest number of bytes of meshes so far.", labels, stats.peak_mesh_bytes);
+  all.gauge("sgm_mesh_limit_bytes", "Limit of the bytes of meshes.", labels, world.info.mesh_bytes);
   all.gauge("sgm_collider_bytes", "Bytes of colliders.", labels, stats.collider_bytes);
   all.gauge("sgm_detail_ratio", "Factor on the distances of detail; below 1 where memory is scarce.", labels,
             stats.detail);
-  all.gauge("sgm_world_idle", "1 where all that the viewers want is drawn.", labels, stats.idle != 0 ? 1.0 : 0.0);
+  all.gauge("sgm_world_idle", "1 if everything that the viewers need is drawn, else 0.", labels,
+            stats.idle != 0 ? 1.0 : 0.0);
   const std::chrono::duration<double> age = std::chrono::steady_clock::now() - world.taken;
-  all.gauge("sgm_world_sample_age_seconds", "Time since the world was looked at; all of its other figures are as old.",
-            labels, age.count());
-  all.gauge("sgm_edits", "Edits that are known, undos included.", labels, stats.edits);
+  all.gauge("sgm_world_sample_age_seconds",
+            "Age of the last sample of the world, from which all its other metrics come.", labels, age.count());
+  all.gauge("sgm_edits", "Known edits, including undos.", labels, stats.edits);
   constexpr const char* kRequests = "sgm_chunk_cache_requests_total";
-  constexpr const char* kRequestsHelp = "Parts of chunks that were looked for in the disk cache.";
+  constexpr const char* kRequestsHelp = "Lookups of parts of chunks in the disk cache.";
   all.counter(kRequests, kRequestsHelp, with("result", "hit"), stats.cache_hits);
   all.counter(kRequests, kRequestsHelp, with("result", "miss"),
               stats.cache_misses - std::min(stats.cache_misses, stats.cache_damaged));
   all.counter(kRequests, kRequestsHelp, with("result", "damaged"), stats.cache_damaged);
-  all.gauge("sgm_chunk_cache_bytes", "Bytes of the disk cache's files, as far as they were looked at.", labels,
+  all.gauge("sgm_chunk_cache_bytes", "Bytes of the files of the disk cache that were scanned so far.", labels,
             stats.cache_bytes);
   addMeasures(all, world, labels);
   if (world.parallel_speedup) {
     const double threads = std::max(1.0, static_cast<double>(world.info.threads));
-    all.gauge("sgm_parallel_speedup_ratio", "Jobs that made chunks at one time on average, while there were any.",
+    all.gauge("sgm_parallel_speedup_ratio", "Mean number of jobs that made chunks concurrently, while there were any.",
               labels, *world.parallel_speedup);
-    all.gauge("sgm_parallel_efficiency_ratio", "The same over the threads that may work.", labels,
+    all.gauge("sgm_parallel_efficiency_ratio", "sgm_parallel_speedup_ratio over the number of worker threads.", labels,
               *world.parallel_speedup / threads);
   }
   addDevice(all, world, labels);
@@ -175,18 +174,18 @@ void addWorld(Families& all, const WorldSample& world) {
 
 void addServer(Families& all, const char* port, const http::ServerCounts& counts) {
   for (size_t status = 0; status < counts.answers.size(); ++status) {
-    // A series that begins with its first error shows no rate for it.
+    // A series that starts with its first error would show no rate for it.
     const bool always = status == 200 || status == 500 || status == 503;
     if (counts.answers[status] == 0 && !always) continue;
-    all.counter("sgm_http_requests_total", "Requests that were answered.",
-                {{"port", port}, {"code", std::to_string(status)}}, counts.answers[status]);
+    all.counter("sgm_http_requests_total", "Answered requests.", {{"port", port}, {"code", std::to_string(status)}},
+                counts.answers[status]);
   }
-  all.gauge("sgm_http_connections", "Connections that are open.", {{"port", port}}, counts.connections);
+  all.gauge("sgm_http_connections", "Open connections.", {{"port", port}}, counts.connections);
 }
 
 void addInspector(Families& all, const InspectorCounts& counts) {
   constexpr const char* kJudged = "sgm_validations_total";
-  constexpr const char* kHelp = "Uploads that were judged; refused: could not be read.";
+  constexpr const char* kHelp = "Validated uploads; those with result refused could not be read.";
   all.counter(kJudged, kHelp, {{"result", "valid"}}, counts.valid);
   all.counter(kJudged, kHelp, {{"result", "invalid"}}, counts.invalid);
   all.counter(kJudged, kHelp, {{"result", "refused"}}, counts.refused);
@@ -198,9 +197,10 @@ void addInspector(Families& all, const InspectorCounts& counts) {
       std::max(counts.valid + counts.invalid + counts.refused + counts.failed, counts.seconds.back());
   seconds.bucket.push_back({seconds.sample_count, std::numeric_limits<double>::infinity()});
   seconds.sample_sum = counts.seconds_sum;
-  all.histogram("sgm_validation_seconds", "Time to judge an upload, without its wait.", {}, std::move(seconds));
+  all.histogram("sgm_validation_seconds", "Time to validate an upload, without its time in the queue.", {},
+                std::move(seconds));
   constexpr const char* kQueue = "sgm_validation_queue_depth";
-  constexpr const char* kQueueHelp = "Uploads that are judged now, and that wait.";
+  constexpr const char* kQueueHelp = "Uploads that are being validated or wait.";
   all.gauge(kQueue, kQueueHelp, {{"state", "waiting"}}, uint64_t{counts.waiting});
   all.gauge(kQueue, kQueueHelp, {{"state", "running"}}, uint64_t{counts.running});
 }
@@ -222,13 +222,14 @@ void addProcess(Families& all) {
 
 std::string metricsText(const ServiceState& state, const std::vector<WorldSample>& worlds) {
   Families all;
-  all.gauge("sgm_build_info", "1, with the library's version.", {{"version", sgm_version_string()}}, 1.0);
-  all.gauge("sgm_worlds", "Worlds that are watched.", {}, uint64_t{worlds.size()});
+  all.gauge("sgm_build_info", "Always 1; the label has the version of the library.",
+            {{"version", sgm_version_string()}}, 1.0);
+  all.gauge("sgm_worlds", "Watched worlds.", {}, uint64_t{worlds.size()});
   for (const WorldSample& world : worlds) addWorld(all, world);
   addServer(all, "work", state.work);
   addServer(all, "operations", state.operations);
   addInspector(all, state.inspector);
-  all.gauge("sgm_reports_kept", "Reports that can be asked for.", {}, uint64_t{state.reports});
+  all.gauge("sgm_reports_kept", "Reports that are kept.", {}, uint64_t{state.reports});
   addProcess(all);
   return all.text();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What Prometheus reads: text of its format 0.0.4. Base units, labels of closed sets, at most some 500 series a world.
+// The text for Prometheus, format 0.0.4: base units, labels of closed sets, at most about 500 series a world.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace sgm::service {
 
-/// Each family has HELP and TYPE. Names of worlds are to differ. Numbers that are not finite are written as the format
-/// has them. Any thread. Throws std::bad_alloc.
+/// Each family has HELP and TYPE. Names of worlds must be unique. Non-finite numbers are written as the format
+/// requires. Thread-safe. Throws std::bad_alloc.
 std::string metricsText(const ServiceState& state, const std::vector<WorldSample>& worlds);
 
 }  // namespace sgm::service

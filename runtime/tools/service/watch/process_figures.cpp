@@ -16,7 +16,7 @@ std::string contentOf(const char* file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// When the machine was started, seconds since 1970.
+/// Boot time of the machine, seconds since 1970.
 std::optional<double> bootTime() {
   std::ifstream in("/proc/stat");
   for (std::string word; in >> word;) {
@@ -26,7 +26,7 @@ std::optional<double> bootTime() {
   return std::nullopt;
 }
 
-/// The fields of /proc/self/stat behind the program's name, which may hold anything.
+/// The fields of /proc/self/stat after the program's name, which may contain any characters.
 void readTimes(ProcessFigures& figures) {
   const std::string stat = contentOf("/proc/self/stat");
   const size_t name_end = stat.rfind(')');
@@ -53,7 +53,7 @@ std::optional<uint64_t> openFiles() {
   uint64_t count = 0;
   std::filesystem::directory_iterator at("/proc/self/fd", error);
   for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) ++count;
-  // One of them is the folder's own.
+  // One of them is the folder's own descriptor.
   return error || count == 0 ? std::nullopt : std::optional(count - 1);
 }
 

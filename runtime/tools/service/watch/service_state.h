@@ -1,5 +1,5 @@
 #pragma once
-// What the service knows of itself, for its metrics and its summary.
+// State of the service, for its metrics and its summary.
 
 #include <chrono>
 
@@ -13,7 +13,7 @@ struct ServiceState {
   uint16_t operations_port = 0;
   http::ServerCounts work, operations;
   InspectorCounts inspector;
-  bool inspects = false;      ///< whether uploads can be judged
+  bool inspects = false;      ///< whether uploads can be inspected
   unsigned most_waiting = 0;  ///< uploads
   uint64_t most_upload_bytes = 0;
   size_t reports = 0;

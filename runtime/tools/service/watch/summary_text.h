@@ -1,5 +1,5 @@
 #pragma once
-// What the page shows, as JSON. Numbers that are not finite are null. Any thread. Throw std::bad_alloc.
+// The page's data as JSON. Non-finite numbers are null. Thread-safe. The functions throw std::bad_alloc.
 
 #include <string>
 #include <vector>

@@ -7,12 +7,12 @@
 
 namespace sgm::service {
 
-/// The longest time that bucket i counts, in seconds; of the last one an infinity.
+/// The longest time in bucket i, in seconds; infinity for the last one.
 double upperBound(int bucket);
-/// How many it has counted.
+/// The number of times.
 uint64_t countOf(const sgm_time_histogram& times);
-/// The time that a share of them (0 to 1) kept within, in seconds: interpolated within its bucket, and never more than
-/// the longest. 0 where nothing was counted.
+/// The time within which a share of them (0 to 1) stayed, in seconds: interpolated in its bucket, and at most the
+/// longest time. 0 without times.
 double quantile(const sgm_time_histogram& times, double share);
 
 }  // namespace sgm::service

@@ -21,12 +21,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rates are of so long.
+/// Time over which rates are computed.
 constexpr std::chrono::seconds kWindow{5};
-/// A map is good for so long.
+/// Maximal age of a map.
 constexpr std::chrono::seconds kMapAge{1};
 constexpr size_t kLongestWorldName = 64;
-/// Between the question how many there are and the one for them the engine may draw more.
+/// The engine may draw more chunks between the query of their number and that of the chunks.
 constexpr int kTries = 8;
 
 bool isName(const std::string& name) {
@@ -39,10 +39,10 @@ bool isName(const std::string& name) {
 
 Error errorOf(sgm_result result, const sgm_error& error) {
   return {result == SGM_ERR_OUT_OF_MEMORY ? Code::out_of_memory : Code::invalid_argument,
-          std::string("the world cannot be looked at: ") + error.message};
+          std::string("the world cannot be sampled: ") + error.message};
 }
 
-/// Meshes that sgm_world_get_drawn has handed out, whose owner this is.
+/// Owns the meshes from sgm_world_get_drawn.
 class DrawnMeshes {
  public:
   DrawnMeshes() = default;
@@ -64,7 +64,7 @@ class DrawnMeshes {
       held_ = count;
       return {};
     }
-    return Error{Code::busy, "what the world draws changes faster than it can be listed"};
+    return Error{Code::busy, "the drawn chunks of the world change faster than they can be listed"};
   }
   size_t size() const { return held_; }
   const sgm_drawn_chunk& operator[](size_t i) const { return chunks_[i]; }
@@ -78,7 +78,7 @@ class DrawnMeshes {
   size_t held_ = 0;
 };
 
-/// Of the body and of the seams that are drawn.
+/// Triangles of the body and of the drawn seams.
 uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   if (sgm_mesh_get_view(chunk.mesh, &view, nullptr) != SGM_OK) return 0;
@@ -88,7 +88,7 @@ uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   return indices / 3;
 }
 
-/// Squared, in metres, from a chunk's middle to the nearest viewer.
+/// Squared distance in metres from a chunk's centre to the nearest viewer.
 double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   const double metre = 1.0 / SGM_UNITS_PER_METRE;
   const double edge = world.info.cell_units * metre * SGM_CHUNK_CELLS * static_cast<double>(1 << key.level);
@@ -105,7 +105,7 @@ double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   return nearest;
 }
 
-/// The numbers of at most kMostMapped chunks: the finest, then the nearest.
+/// Indices of at most kMostMapped chunks: the finest first, then the nearest.
 std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& world) {
   struct Place {
     int32_t level;
@@ -126,7 +126,7 @@ std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& worl
   return numbers;
 }
 
-/// One world. All functions under `looking`, which is what forget() waits for.
+/// A watched world. All functions need the lock `looking`, which forget() waits for.
 class WatchedWorld {
  public:
   WatchedWorld(std::string name, sgm_world* world) : name_(std::move(name)), world_(world) {}
@@ -142,20 +142,20 @@ class WatchedWorld {
     if (const Result<void> asked = ask(now); !asked) return asked.error();
     now.taken = Clock::now();
     most_in_vain_ = now.stats.chunks_in_vain = std::max(most_in_vain_, now.stats.chunks_in_vain);
-    // One that is older than the window stays, so that there is always a whole one.
+    // Keep one sample older than the window, so that the window is always covered.
     while (past_.size() > 1 && now.taken - past_[1].taken >= kWindow) past_.pop_front();
     past_.push_back({now.taken, now.stats.chunks_meshed, now.times.clock_seconds, now.times.job_seconds});
     const Past &first = past_.front(), &last = past_.back();
     const double seconds = std::chrono::duration<double>(last.taken - first.taken).count();
     if (seconds > 0) now.chunks_per_second = static_cast<double>(last.meshed - first.meshed) / seconds;
     const double worked = last.clock_seconds - first.clock_seconds;
-    // What was done before the first look counts until there is a later one.
+    // Until there is a later sample, use the work before the first one.
     if (worked > 0) {
       speedup_ = (last.job_seconds - first.job_seconds) / worked;
     } else if (!speedup_ && last.clock_seconds > 0) {
       speedup_ = last.job_seconds / last.clock_seconds;
     }
-    // A job that waits, and does another one's work meanwhile, counts for both.
+    // A job that waits, and does another job's work meanwhile, counts for both.
     if (speedup_) now.parallel_speedup = std::min(*speedup_, static_cast<double>(now.info.threads));
     return now;
   }
@@ -232,18 +232,18 @@ class Watcher final : public WatchedWorlds {
     if (world == nullptr) return Error{Code::invalid_argument, "world is NULL"};
     if (!isName(name)) {
       return Error{Code::invalid_argument,
-                   "a watched world's name is to have 1 to 64 letters, digits, '_', '-' and '.'"};
+                   "the name of a watched world must have 1 to 64 letters, digits, '_', '-' and '.'"};
     }
     auto watched = std::make_shared<WatchedWorld>(name, world);
     Result<WorldSample> first = watched->sample();
     if (!first) return first.error();
     const std::lock_guard lock(mutex_);
     for (const auto& [other, entry] : worlds_) {
-      if (other == name) return Error{Code::busy, "another world is watched as '" + name + "'"};
-      if (entry.world == world) return Error{Code::busy, "the world is watched already, as '" + other + "'"};
+      if (other == name) return Error{Code::busy, "another world is already watched as '" + name + "'"};
+      if (entry.world == world) return Error{Code::busy, "the world is already watched, as '" + other + "'"};
     }
     if (worlds_.size() >= kMostWorlds)
-      return Error{Code::limit, "at most " + std::to_string(kMostWorlds) + " worlds are watched at one time"};
+      return Error{Code::limit, "at most " + std::to_string(kMostWorlds) + " worlds can be watched concurrently"};
     worlds_.emplace(name, Entry{world, std::move(watched), std::move(*first)});
     return {};
   }
@@ -258,7 +258,7 @@ class Watcher final : public WatchedWorlds {
       watched = std::move(found->second.watched);
       worlds_.erase(found);
     }
-    // Whoever has found it before waits for this, or is waited for.
+    // A thread that has found the world earlier is waited for, or waits for this one.
     const std::lock_guard looking(watched->looking);
     watched->forget();
   }
@@ -306,10 +306,10 @@ class Watcher final : public WatchedWorlds {
       try {
         sampleAll();
       } catch (const std::bad_alloc&) {
-        // The samples of before grow old, which readiness tells.
+        // The previous samples age, which readiness reports.
       }
       lock.lock();
-      next = std::max(next, Clock::now() - period_);  // what was missed is not made up for
+      next = std::max(next, Clock::now() - period_);  // do not make up for missed samples
     }
   }
 
@@ -331,7 +331,7 @@ class Watcher final : public WatchedWorlds {
   }
 
   const std::chrono::milliseconds period_;
-  mutable std::mutex mutex_;  ///< guards what follows; never held while a world is looked at
+  mutable std::mutex mutex_;  ///< guards the following members; never held while a world is sampled
   std::condition_variable changed_;
   std::map<std::string, Entry> worlds_;
   bool ends_ = false;
@@ -343,7 +343,7 @@ class Watcher final : public WatchedWorlds {
 Result<std::unique_ptr<WatchedWorlds>> WatchedWorlds::create(std::chrono::milliseconds period) try {
   return std::unique_ptr<WatchedWorlds>(std::make_unique<Watcher>(period));
 } catch (const std::system_error& e) {
-  return Error{Code::io, std::string("cannot start the thread that looks at worlds: ") + e.what()};
+  return Error{Code::io, std::string("cannot start the thread that samples worlds: ") + e.what()};
 }
 
 }  // namespace sgm::service

@@ -1,5 +1,5 @@
 #pragma once
-// Looks at streamed worlds from a thread of its own, through the C interface: nothing of it runs on the engine's.
+// Samples streamed worlds in its own thread, through the C interface: never runs in the engine's threads.
 
 #include <sgm/sgm.h>
 
@@ -14,17 +14,17 @@
 
 namespace sgm::service {
 
-/// A world as it was when it was last looked at.
+/// The state of a world at its last sampling.
 struct WorldSample {
   std::string name;
-  sgm_world_info info = SGM_WORLD_INFO_INIT;     ///< what does not change: backend, cell, limits
-  sgm_world_stats stats = SGM_WORLD_STATS_INIT;  ///< chunks_in_vain as the most that it was: what rises, never falls
+  sgm_world_info info = SGM_WORLD_INFO_INIT;     ///< constant data: backend, cell, limits
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;  ///< chunks_in_vain as its maximum so far, so that it never falls
   sgm_world_times times = SGM_WORLD_TIMES_INIT;  ///< histograms
   std::optional<sgm_world_measures> measures;    ///< of worlds with SGM_WORLD_MEASURE
   std::vector<sgm_viewer> viewers;
-  double chunks_per_second = 0;  ///< meshed or read, over the last few seconds
-  /// Jobs that meshed at one time on average, over the last seconds in which any did; at most the world's threads.
-  /// Nothing before the first.
+  double chunks_per_second = 0;  ///< meshed or read, over the last seconds
+  /// Mean number of concurrent meshing jobs over the last seconds with any, at most the world's threads. nullopt before
+  /// the first.
   std::optional<double> parallel_speedup;
   std::chrono::steady_clock::time_point taken;
 };
@@ -41,24 +41,24 @@ struct WorldMap {
 inline constexpr size_t kMostMapped = 20000;
 inline constexpr size_t kMostWorlds = 16;
 
-/// Any thread.
+/// Thread-safe.
 class WatchedWorlds {
  public:
-  /// Looks at every world once in `period`. Error: io where no thread can be started.
+  /// Samples every world once in `period`. Error: io if no thread can be started.
   static Result<std::unique_ptr<WatchedWorlds>> create(std::chrono::milliseconds period = std::chrono::seconds(1));
   virtual ~WatchedWorlds() = default;
 
-  /// From now on; the world must live until forget() has returned. name: of letters, digits, '_', '-' and '.', at most
-  /// 64, one that no other watched world has. Errors: invalid_argument; limit past kMostWorlds; busy for a world or a
-  /// name that is watched; what asking the world fails with. It is looked at once before this returns.
+  /// Watches a world, which must live until forget() has returned, and samples it once before returning. name: letters,
+  /// digits, '_', '-' and '.', at most 64, unique among watched worlds. Errors: invalid_argument; limit for more than
+  /// kMostWorlds; busy for a world or name that is already watched; those of querying the world.
   virtual Result<void> watch(const std::string& name, sgm_world* world) = 0;
-  /// Waits until nothing looks at it. Does nothing for a world that is not watched.
+  /// Blocks until the world is no longer in use. Does nothing for a world that is not watched.
   virtual void forget(sgm_world* world) = 0;
 
-  /// The last samples, by name. Never waits for a world.
+  /// The last samples, by name. Never blocks on a world.
   virtual std::vector<WorldSample> samples() const = 0;
-  /// What is drawn, as of the last second: gathered only while somebody asks. The first to ask waits for it, a
-  /// fraction of a millisecond a thousand chunks. Nothing: no such world, or it cannot be asked now.
+  /// The drawn chunks, at most a second old: gathered only on request. The first caller waits for it, a fraction of a
+  /// millisecond for a thousand chunks. nullopt if there is no such world, or it cannot be queried now.
   virtual std::optional<WorldMap> map(const std::string& name) = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Each declares a command, and returns what to run where it is the one given.
+// Functions that declare a command, and return the function to run if it is given.
 
 #include <functional>
 #include <span>
@@ -18,7 +18,7 @@ using AddCommand = Command (*)(CLI::App& root);
 
 /// The commands of this build, in the order of help: those of all_commands.cpp or of core_commands.cpp.
 std::span<const AddCommand> commandsToAdd();
-/// Names of commands that this build leaves out.
+/// Names of commands that are not in this build.
 std::span<const std::string_view> commandsLeftOut();
 
 Command addCheck(CLI::App& root);
@@ -38,7 +38,7 @@ Command addServe(CLI::App& root);
 Command addBench(CLI::App& root);
 Command addPaper(CLI::App& root);
 Command addBackends(CLI::App& root);
-/// Which help does not list: the metrics service calls it.
+/// Not listed in help: the metrics service calls it.
 Command addInspect(CLI::App& root);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-// The commands of a whole build (SGM_TOOLS=all).
+// The commands of a full build (SGM_TOOLS=all).
 
 #include "tools/sgm/arguments/add_commands.h"
 

@@ -1,4 +1,4 @@
-// The command that lists what this machine has.
+// The command that lists the devices of this machine.
 
 #include <memory>
 
@@ -8,7 +8,8 @@
 namespace sgm::cli {
 
 Command addBackends(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
+  CLI::App* app =
+      root.add_subcommand("backends", "List the backends and devices of this machine, and why others are not usable");
   const auto json = std::make_shared<bool>(false);
   app->add_flag("--json", *json, "Print the list as one JSON object on standard output");
   app->footer("Example:\n  sgm backends --json");

@@ -1,4 +1,4 @@
-// The command line, declared, and nothing else: whatever includes CLI11 takes its time to compile.
+// Only the declaration of the command line, since sources that include CLI11 take long to compile.
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Of a word that stands where a command should: what is wrong with it; else the parser's own message.
+/// The problem with a word in the place of a command; otherwise the parser's own message.
 std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
   for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
@@ -30,7 +30,7 @@ std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int 
     Suggestion suggestion(word);
     std::string all;
     for (const CLI::App* command : commands) {
-      if (command->get_group().empty()) continue;  // not for people
+      if (command->get_group().empty()) continue;  // internal
       suggestion.offer(command->get_name());
       all += (all.empty() ? "" : ", ") + command->get_name();
     }
@@ -49,12 +49,12 @@ Exit runCommandLine(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Run sgm COMMAND --help for its options and an example.\n"
-      "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
-      "be read or written; the highest of several.");
+      "Exit status: 0 success; 1 wrong input; 2 wrong usage; 3 backend or device not available; 4 a file could not\n"
+      "be read or written; the highest if there are several.");
   std::vector<Command> commands;
   for (const AddCommand add : commandsToAdd()) commands.push_back(add(app));
 
-  // Before CLI11 looks: it would answer `sgm bake --help` with the help of sgm.
+  // Before CLI11, which would answer `sgm bake --help` with the help of sgm.
   if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
     return complain(Exit::usage,
                     fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "

@@ -9,45 +9,46 @@ namespace sgm::cli {
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs) {
   const std::vector<CLI::Option*> all{
       app.add_option("--listen", options.listen,
-                     "Address to listen on, in numbers. One that others can reach needs --token-file")
+                     "Numeric address to listen on. One that other machines can reach needs --token-file")
           ->type_name("ADDRESS")
           ->capture_default_str(),
-      app.add_option("--port", options.port, "Of the page and /api/v1; 0: any that is free")
+      app.add_option("--port", options.port, "Port of the page and /api/v1; 0: any free port")
           ->check(CLI::Range(0, 65535))
           ->capture_default_str(),
       app.add_option("--operations-port", options.operations_port,
-                     "Of /metrics, /healthz and /readyz; 0: any that is free")
+                     "Port of /metrics, /healthz and /readyz; 0: any free port")
           ->check(CLI::Range(0, 65535))
           ->capture_default_str(),
-      app.add_option("--token-file", options.token_file,
-                     "Ask for the token in this file's first line, 16 characters or more, as Authorization: Bearer")
+      app.add_option(
+             "--token-file", options.token_file,
+             "Require the token in the first line of this file (at least 16 characters) as Authorization: Bearer")
           ->type_name("FILE"),
       app.add_option("--host", options.hosts,
-                     "A name of this machine that clients may use, beside localhost and the address (repeatable)")
+                     "Name of this machine that clients may use, beside localhost and the address (repeatable)")
           ->type_name("NAME")
           ->allow_extra_args(false),
       app.add_option("--masters", options.masters,
-                     "A base of masters, from `sgm masters build`, which PUT /api/v1/masters replaces; without it the "
-                     "masters that are built in")
+                     "Database of reference histograms, from `sgm masters build`, which PUT /api/v1/masters replaces; "
+                     "default: the built-in ones")
           ->type_name("FILE"),
-      app.add_option("--upload-folder", options.upload_folder,
-                     "Where uploads lie while they are judged, without a name; without it in the machine's own folder "
-                     "for temporary files")
+      app.add_option(
+             "--upload-folder", options.upload_folder,
+             "Folder for the unnamed files of uploads during validation; default: the folder for temporary files")
           ->type_name("FOLDER"),
-      app.add_option("--upload-mb", options.upload_mb, "Megabytes of one upload, at most")
+      app.add_option("--upload-mb", options.upload_mb, "Limit of the size of an upload in megabytes")
           ->check(CLI::Range(uint64_t{1}, uint64_t{4096}))
           ->capture_default_str(),
-      app.add_option("--inspect-mb", options.memory_mb, "Megabytes of memory to judge one upload, at most")
+      app.add_option("--inspect-mb", options.memory_mb, "Limit of the memory to validate an upload in megabytes")
           ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 20))
           ->capture_default_str(),
-      app.add_option("--inspect-seconds", options.seconds, "Seconds to judge one upload, at most")
+      app.add_option("--inspect-seconds", options.seconds, "Limit of the time to validate an upload in seconds")
           ->check(CLI::Range(1, 86400))
           ->capture_default_str(),
-      app.add_option("--inspect-jobs", options.jobs, "Uploads that are judged at one time")
+      app.add_option("--inspect-jobs", options.jobs, "Number of uploads that are validated concurrently")
           ->check(CLI::Range(1, 64))
           ->capture_default_str(),
       app.add_option("--inspect-waiting", options.waiting,
-                     "Uploads that may wait beside those; more are told to come again")
+                     "Number of uploads that may wait; further ones are rejected with status 503")
           ->check(CLI::Range(1, 4096))
           ->capture_default_str(),
   };
@@ -56,11 +57,10 @@ void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* need
 }
 
 void addFlightServing(CLI::App& app, FlyOptions& options) {
-  CLI::Option* serve =
-      app.add_flag("--serve", options.serve,
-                   "Show the flight on a page and in metrics over HTTP, as sgm serve does, while it goes on");
+  CLI::Option* serve = app.add_flag(
+      "--serve", options.serve, "Show the flight on a page and in metrics over HTTP while it runs, as sgm serve does");
   app.add_flag("--keep-serving", options.keep_serving,
-               "Serve on when the flight has ended, until SIGINT, SIGTERM or SIGHUP; the report comes then")
+               "Keep serving after the end of the flight, until SIGINT, SIGTERM or SIGHUP; then print the report")
       ->needs(serve);
   addServingOptions(app, options.serving, serve);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The options of commands that start the metrics service.
+// Options of commands that start the metrics service.
 
 #include "tools/cli/fly/commands.h"
 #include "tools/support/serving.h"
@@ -11,10 +11,10 @@ class Option;
 
 namespace sgm::cli {
 
-/// --serve, --keep-serving, and those below. In a small build --serve is a usage error that says so.
+/// --serve, --keep-serving, and those below. In a small build, --serve is a usage error.
 void addFlightServing(CLI::App& app, FlyOptions& options);
 
-/// --listen to --waiting. needs: an option without which they say nothing; null: none.
+/// --listen to --waiting. needs: an option that they require; null: none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
 
 }  // namespace sgm::cli

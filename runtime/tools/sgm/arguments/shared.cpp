@@ -57,33 +57,34 @@ std::string checkPoint(const std::string& text) {
 
 std::string checkCamera(const std::string& text) {
   if (readCamera(text)) return {};
-  return fmt::format("'{}' is not x,y,z:x,y,z in metres (from where, and to where)", text);
+  return fmt::format("'{}' is not x,y,z:x,y,z, the position and the target in metres", text);
 }
 
 std::string checkLevels(const std::string& text) {
   return readLevels(text) ? std::string()
-                          : fmt::format("'{}' is not levels such as 0..4, the finest first, or one alone, from 0 to {}",
+                          : fmt::format("'{}' is not a range of levels such as 0..4, or a single level, from 0 to {}",
                                         text, kMaxLevel);
 }
 
 std::string checkShard(const std::string& text) {
   return readShard(text) ? std::string()
-                         : fmt::format("'{}' is not a shard such as 0/16, the last of which is 15/16", text);
+                         : fmt::format("'{}' is not a shard such as 0/16 (the last one is 15/16)", text);
 }
 
 std::string checkPng(const std::string& out) {
-  return hasExtension(out, ".png") ? std::string() : "pictures are .png files";
+  return hasExtension(out, ".png") ? std::string() : "pictures must be .png files";
 }
 
 std::string checkPicture(const std::string& out) {
-  return hasExtension(out, ".svg") || hasExtension(out, ".png") ? std::string()
-                                                                : "pictures are .png files, surveys .png or .svg files";
+  return hasExtension(out, ".svg") || hasExtension(out, ".png")
+             ? std::string()
+             : "pictures must be .png files, surveys .png or .svg files";
 }
 
 std::string checkCutLine(const std::string& text) {
   return text.empty() || survey::readCutLine(text)
              ? std::string()
-             : fmt::format("'{}' is not a line X,Z:X,Z in metres between two places", text);
+             : fmt::format("'{}' is not a line X,Z:X,Z in metres between two points", text);
 }
 
 std::string checkSeeds(const std::string& text) {
@@ -93,30 +94,29 @@ std::string checkSeeds(const std::string& text) {
 
 std::string checkVideo(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
-  return CLI::detail::to_lower(extension) == ".mp4" ? std::string() : "videos are .mp4 files";
+  return CLI::detail::to_lower(extension) == ".mp4" ? std::string() : "videos must be .mp4 files";
 }
 
 void addLevelOption(CLI::App& app, WorldOptions& options) {
-  app.add_option("--level", options.level, "Level of detail: each has cells of twice the edge; 0 is the finest")
+  app.add_option("--level", options.level,
+                 "Level of detail: 0 is the finest, and each further level doubles the edge of the cells")
       ->check(CLI::Range(0, kMaxLevel))
       ->capture_default_str();
 }
 
 void addDerivationOptions(CLI::App& app, WorldOptions& options) {
-  app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")
+  app.add_option("--seed", options.seed, "Seed of the world, a whole number of at least 0")
       ->check(checkWhole)
       ->capture_default_str();
-  app.add_option(
-         "--set", options.sets,
-         "Give a parameter of the grammar a value (repeatable); they are its `param` lines, and sgm check --json "
-         "lists them")
+  app.add_option("--set", options.sets,
+                 "Set a parameter of the grammar (repeatable): a `param` line of it; sgm check --json lists them")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->check(checkSet);
-  app.add_option("--backend", options.backend, "What computes")
+  app.add_option("--backend", options.backend, "Backend that computes")
       ->check(CLI::IsMember({"auto", "cpu", "vulkan", "cuda"}))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "Threads to use; 0: one for each processor")
+  app.add_option("--threads", options.threads, "Number of threads; 0: one for each processor")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
 }
@@ -128,17 +128,18 @@ void addWorldOptions(CLI::App& app, WorldOptions& options) {
 }
 
 void addRegionOptions(CLI::App& app, WorldOptions& options) {
-  app.add_option("--region", options.region, "Region in metres, x0,y0,z0:x1,y1,z1, grown to whole chunks")
+  app.add_option("--region", options.region, "Region in metres, x0,y0,z0:x1,y1,z1; it grows to whole chunks")
       ->type_name("BOX")
       ->check(checkRegion);
   CLI::Option* cell =
       app.add_option("--cell", options.cell,
-                     "Edge of a sampling cell in metres (0.5; larger where a large part of an endless world is chosen)")
+                     "Edge of a sampling cell in metres (0.5; larger if a large part of an endless world is chosen)")
           ->type_name("METRES");
-  app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
+  app.add_option("--ld", options.density,
+                 "Sampling density as in the paper, in cells per metre: the edge of a cell is 1/N m")
       ->type_name("N")
       ->excludes(cell);
-  app.add_option("--max-chunks", options.max_chunks, "Refuse regions of more chunks than this")
+  app.add_option("--max-chunks", options.max_chunks, "Refuse regions with more chunks than this")
       ->check(checkWhole)
       ->capture_default_str();
 }
@@ -146,8 +147,8 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
 CLI::Option* addLightOption(CLI::App& app, std::string& light) {
   return app
       .add_option("--light", light,
-                  "Light of pictures: sun, lamp (on the camera), none (even, without shadows), or auto: by how much of "
-                  "the sky is open to what the camera sees")
+                  "Light of pictures: sun, lamp (on the camera), none (uniform, without shadows), or auto, by the "
+                  "share of the sky that is open to the visible surfaces")
       ->check(CLI::IsMember({"auto", "sun", "lamp", "none"}))
       ->capture_default_str();
 }
@@ -159,8 +160,9 @@ std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Op
 }
 
 void addSharpOption(CLI::App& app, WorldOptions& options) {
-  app.add_flag("--sharp", options.sharp,
-               "Crisp edges and corners, which cells of a plain mesh cut off; smooth surfaces stay as they are");
+  app.add_flag(
+      "--sharp", options.sharp,
+      "Keep edges and corners crisp, which the cells would otherwise cut off; smooth surfaces stay as they are");
 }
 
 }  // namespace sgm::cli

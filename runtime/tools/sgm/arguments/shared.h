@@ -1,5 +1,5 @@
 #pragma once
-// What several commands are asked for on the command line, and checks of what is given: "" or what is wrong.
+// Options that several commands share, and checks of values, which return "" or the problem.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace sgm::cli {
 
-/// As CLI::Range, which lets what is not a number pass, and says that 0 is not within 0.000000 and more.
+/// As CLI::Range, which accepts text that is not a number, and prints 0.000000 as a limit.
 CLI::Validator numberIn(double low, double high);
 
 std::string checkRegion(const std::string& text);
-/// Signed text would wrap round into an unsigned number.
+/// Rejects signed text, which would wrap into an unsigned number.
 std::string checkWhole(const std::string& text);
 std::string checkSet(const std::string& text);
 std::string checkMeshFile(const std::string& out);
@@ -38,24 +38,25 @@ void addWorldOptions(CLI::App& app, WorldOptions& options);
 /// --region, --cell, --ld, --max-chunks.
 void addRegionOptions(CLI::App& app, WorldOptions& options);
 void addSharpOption(CLI::App& app, WorldOptions& options);
-/// --light, of pictures, and what --help says of it.
+/// --light for pictures, and its footer of --help.
 CLI::Option* addLightOption(CLI::App& app, std::string& light);
 inline constexpr const char* kLightFooter =
-    "Light: from where the picture's rays end (at most 256 m away) five more go up, into the world itself, whatever "
-    "of\n"
-    "it is meshed. Where 3 % of them or more come to the sky, or to glass, cloud or snow, the sun shines; else the\n"
-    "camera has a head lamp. A camera in the rock itself looks by the sun at what is cut open.\n";
+    "Light: from the points where the rays of the picture end (at most 256 m away), five more rays each go up\n"
+    "through the world, meshed or not. If at least 3 % of them reach the sky, or glass, cloud or snow, the sun\n"
+    "shines; otherwise the camera has a head lamp. The sun also shines if the camera itself is inside rock.\n";
 
-/// All options but these.
+/// All options except `others`.
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others);
 
-/// Of a process that reads a mesh file.
+/// Limits of a process that reads a mesh file.
 template <class Options>
 void addProcessLimits(CLI::App& app, Options& options) {
-  app.add_option("--memory", options.memory, "Megabytes (2^20 bytes) that a mesh file's reading and measuring may take")
+  app.add_option("--memory", options.memory,
+                 "Limit of the memory to read and measure a mesh file, in megabytes (2^20 bytes)")
       ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "Seconds that it may take, of the clock and of all threads together")
+  app.add_option("--seconds", options.seconds,
+                 "Limit of the time for that in seconds, both elapsed and summed over all threads")
       ->check(numberIn(0.1, 1e6))
       ->capture_default_str();
 }

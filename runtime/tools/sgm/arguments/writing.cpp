@@ -1,4 +1,4 @@
-// The commands that stand beside an author: an editor's language server, and a window.
+// The commands for authors: the language server, and the preview window.
 
 #include <memory>
 
@@ -12,13 +12,15 @@ namespace sgm::cli {
 Command addLsp(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "lsp", "Serve editors by the Language Server Protocol: diagnostics, completion, hover, definitions, formatting");
-  app->add_flag("--stdio")->description("Standard input and output, which is what it serves anyway");
-  app->footer("Editors start it; editor_plugin/vscode is one's extension.\nExample:\n  sgm lsp");
+  app->add_flag("--stdio")->description("Use standard input and output, which is the default");
+  app->footer(
+      "Editors start this command; editor_plugin/vscode is an extension for VS Code.\n"
+      "Example:\n  sgm lsp");
   return [] { return serveLanguage(); };
 }
 
 Command addPreview(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("preview", "Open a window that draws a grammar again whenever it is saved");
+  CLI::App* app = root.add_subcommand("preview", "Open a window that redraws a grammar whenever it is saved");
   const auto options = std::make_shared<RenderOptions>();
   options->size = "1280x800";
   addWorldOptions(*app, *options);
@@ -26,26 +28,27 @@ Command addPreview(CLI::App& root) {
   addSharpOption(*app, *options);
   CLI::Option* camera =
       app->add_option("--camera", options->camera,
-                      "From where to where to look in metres, x,y,z:x,y,z; without it, a view is chosen")
+                      "Position and target of the camera in metres, x,y,z:x,y,z; default: an automatic view")
           ->type_name("VIEW")
           ->check(checkCamera);
   app->add_option("--at", options->at, "Look from an anchor of this name, kind or tag")
       ->type_name("ANCHOR")
       ->excludes(camera);
-  app->add_option("--size", options->size, "Pixels of the window, WIDTHxHEIGHT")
+  app->add_option("--size", options->size, "Size of the window in pixels, WIDTHxHEIGHT")
       ->check(checkSize)
       ->capture_default_str();
-  app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
+  app->add_option("--fov", options->fov, "Vertical field of view in degrees")
       ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
   addLightOption(*app, options->light);
   app->footer(
-      "A draft with coarse cells and plain colours comes first, then the picture as `sgm render` draws it. The panel\n"
-      "has the seed, the light and a slider for each parameter; messages about the text stand at the foot, and the\n"
-      "last picture stays until the text is right again. The imported files of the grammar's folder count as it does.\n"
-      "Mouse: a drag turns, a right drag shifts, the wheel comes nearer; where the pointer rests, the rule that made\n"
-      "the place is shown, and a click prints it with its line. Keys: W, A, S, D, Q, E walk; H goes back to the first\n"
-      "view; P prints the command that draws the picture; Escape closes the window.\n"
+      "The window shows a draft with coarse cells and plain colours first, then the picture of `sgm render`. The\n"
+      "panel has the seed, the light and a slider for each parameter. Messages about the text are at the bottom,\n"
+      "and the last picture stays until the text is correct again. A change of an imported file in the grammar's\n"
+      "folder redraws, too.\n"
+      "Mouse: a drag turns, a right drag shifts, the wheel moves nearer; if the pointer rests, the window names the\n"
+      "rule that made the place, and a click prints the rule with its line. Keys: W, A, S, D, Q, E walk; H returns\n"
+      "to the first view; P prints the command that draws the picture; Escape closes the window.\n"
       "--json prints a line for each picture and message, for tools.\n" +
       std::string(kLightFooter) +
       "Example:\n  sgm preview samples/grammars/building.sgm\n"
