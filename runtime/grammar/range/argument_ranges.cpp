@@ -13,7 +13,7 @@ namespace sgm {
 
 namespace {
 
-constexpr double kSlack = 1e-9;  ///< relative: the widening of intervals during their computation
+constexpr double kWidening = 1e-9;  ///< relative: the widening of intervals during their computation
 
 /// A unit as written after a number.
 struct Unit {
@@ -119,8 +119,8 @@ void RangeEvaluator::judge(ExprId id, IdRange formals, std::span<const RangeValu
     const ExprId argument = program_.idAt(call.bound, i);
     if (!formal.ranged || argument == formal.fallback || given[i].kind != ValueKind::number) continue;
     const Interval value = given[i].v[0];
-    const double low = formal.low - kSlack * std::fabs(formal.low),
-                 high = formal.high + kSlack * std::fabs(formal.high);
+    const double low = formal.low - kWidening * std::fabs(formal.low),
+                 high = formal.high + kWidening * std::fabs(formal.high);
     const bool certain = value.hi < low || value.lo > high;
     const ExprId caller = callerOf(id);
     const std::pair key(argument, caller);
