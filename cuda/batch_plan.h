@@ -20,7 +20,7 @@ struct Room {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
   uint64_t scratch_bytes = uint64_t{512} << 20;
-  uint64_t pool_bytes = uint64_t{128} << 20;  ///< limit for the part of these that holds pruned programs
+  uint64_t pool_bytes = uint64_t{128} << 20;  ///< the part of scratch_bytes that pruned programs may take
 };
 
 /// Reused from batch to batch: grows, then allocates no more memory.

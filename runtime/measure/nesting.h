@@ -13,9 +13,9 @@ namespace sgm::measure {
 
 /// Of closed, manifold shells: the inside of other shells is undefined.
 struct Nesting {
-  uint64_t cavities = 0;                                 ///< that face inward, in a solid
-  uint64_t inside_out = 0;                               ///< that face inward, not in a solid
-  uint64_t nested = 0;                                   ///< that face outward, in a solid: their contents count twice
+  uint64_t cavities = 0;    ///< shells that face inward and lie in a solid
+  uint64_t inside_out = 0;  ///< shells that face inward and lie in no solid
+  uint64_t nested = 0;      ///< shells that face outward and lie in a solid: their contents count twice
   std::vector<uint32_t> first_inside_out, first_nested;  ///< shells: at most kMostExamples of each
   uint64_t not_judged = 0;                               ///< steps did not suffice: too much lies above them
 };

@@ -154,9 +154,9 @@ class Neighbours {
     box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
     return box;
   }
-  /// True if a plane between the cells separates the features of the two loops strictly, except face vertices inside
-  /// their squares. In that plane both have the edges of plain loops, which are disjoint as required, and those face
-  /// vertices: in different squares, or in a square where they share the side.
+  /// True if a grid plane between the two cells separates the loops. Only two things may lie in that plane: edges of
+  /// plain loops, which are always disjoint, and face vertices inside their squares. The latter cannot collide if the
+  /// two loops have different squares there, or share the side and thus its vertices.
   bool areApart(uint32_t a, uint32_t b) const {
     const Int3 &at = body_.all()[a].cell, &other = body_.all()[b].cell;
     for (int k = 0; k < 3; ++k) {

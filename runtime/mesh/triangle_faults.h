@@ -62,7 +62,7 @@ struct IntegerSigns {
   }
 };
 
-/// Tests on two triangles, by the signs of some arithmetic (as IntegerSigns).
+/// Intersection tests on two triangles. Signs: gives the orientation predicates, with the interface of IntegerSigns.
 template <class Signs>
 class TrianglePair {
  public:

@@ -1,6 +1,7 @@
 #pragma once
-// The voids of one chunk for agents of one size, with their samples in its faces. So the contacts of voids of adjacent
-// chunks are exact, unlike with the masks of mesh/void_components.h, which are coarse but good enough for streaming.
+// The voids of one chunk for agents of one size. For each face of the chunk they tell which sample belongs to which
+// void, so that contacts with the voids of the adjacent chunk are exact. The masks of mesh/void_components.h are
+// coarser, but good enough for streaming.
 
 #include <array>
 #include <cstdint>

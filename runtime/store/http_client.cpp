@@ -13,7 +13,8 @@
 namespace sgm::store {
 namespace {
 
-// Deriving a chunk takes some milliseconds: a server that takes seconds is useless for streaming.
+// A transfer ends if the server does not connect in 3 s, is slower than 1,000 bytes/s for 4 s, or takes 10 s in all:
+// deriving the chunk here takes milliseconds.
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The case tables of mesh/tables.h as the words of binding 5.
+// The case tables of mesh/tables.h, packed into 32-bit words for descriptor binding 5 of the mesher's shaders.
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-// Cellular automata to leaves of voxels, one for each cell of a layer.
+// Runs the cellular automaton of each cell of a layer, and turns its result into one leaf of voxels.
 
 #include <algorithm>
 #include <cmath>

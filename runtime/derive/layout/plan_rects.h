@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// How far holes extend into the adjacent spaces, units.
+/// How far the opening of a door extends into the spaces that it joins, in units.
 inline constexpr int32_t kDoorReachUnits = static_cast<int32_t>(kDoorReach * kUnitsPerMetre);
 /// The step of the layout in units, so that middles and halves are whole numbers.
 inline constexpr int32_t kPlanStep = 2;

@@ -44,7 +44,7 @@ struct Extent {
   double limit = kInfinity;
   std::array<double, 3> sure_lo{}, sure_hi{};  ///< whenever it is derived, some shape reaches at least this far
 
-  double inner = 0;      ///< the largest inner radius of its leaves, by which a sum grows
+  double inner = 0;      ///< the largest inner radius of its leaves; a sum reaches beyond them in proportion to it
   double inner_low = 0;  ///< lower bound of the largest inner radius, if there is any
   double count = 0;      ///< the most shapes
   bool certain = false;  ///< whether at least one shape is certain

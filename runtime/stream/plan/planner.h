@@ -71,7 +71,7 @@ struct PlanInput {
   uint64_t applied = 0;         ///< number of the frame that the engine draws
   /// Numbers of frames (0: none) that the engine may be about to draw, beside that of the last plan's step.
   std::array<uint64_t, 2> in_hand{};
-  WorldState edits;                 ///< the current state
+  WorldState edits;                 ///< the newest state of the world: its field and its brushes
   std::vector<WorldChange> edited;  ///< changes since Planner::edits()
   size_t live_bytes = 0;            ///< of all surfaces, including the engine's
   size_t collider_bytes = 0;        ///< in addition to live_bytes

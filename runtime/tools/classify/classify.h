@@ -34,7 +34,7 @@ std::string differenceOf(const MasterKey& a, const MasterKey& b);
 /// and a cluster of dripstones), and their overall mean would resemble none of them.
 struct Master {
   std::string class_name;
-  std::string name;  ///< kind of its models; unique for a key and class
+  std::string name;  ///< e.g. "walls": distinguishes the histograms of one key and class
   MasterKey key;
   uint32_t models = 0;         ///< number of models
   std::vector<double> shares;  ///< of the bins

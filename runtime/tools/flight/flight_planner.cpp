@@ -179,7 +179,7 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
       continue;
     }
     const int32_t room = attempt < kGoals * kWays / 2 ? grid_->step() / 2 : grid_->step() / 8;
-    // As smooth as the room allows: fewer controls, then the nodes themselves.
+    // First a smooth curve through every third node; if it comes too close to rock, a curve through every node.
     for (const size_t stride : {size_t{3}, size_t{1}}) {
       std::vector<Metres3> controls;
       for (size_t i = 0; i + 1 < way->size(); i += stride) controls.push_back(metresOf(grid_->placeOf((*way)[i])));

@@ -9,8 +9,8 @@
 
 namespace sgm::cli {
 
-/// The rules that a text names: "Drip", "cave.Dripstone", a path such as "Row/Post[2]", whose beginning may be missing,
-/// or "net(0, 0, 0)/Node/Chamber[0]" as in messages.
+/// What the text of --frame names: a rule ("Drip", "cave.Dripstone"), the end of a path of uses ("Row/Post[2]"), or a
+/// whole path from a cell, as messages print it ("net(0, 0, 0)/Node/Chamber[0]").
 struct FramedRule {
   std::string text;
   std::vector<uint32_t> rules;  ///< indices into Program::rules; for a path, those with the name of its last step

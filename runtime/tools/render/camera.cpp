@@ -55,8 +55,8 @@ struct Place {
   float score = 0;
 };
 
-// The place at eye height above the floor below p, or at a third of the height of a tall hall; p itself without a
-// floor.
+// p, moved vertically to eye height above the floor, to 30 % of the room's height if that is more, and at most to 60 %.
+// p itself if there is no floor or no roof.
 glm::vec3 standing(const RayCaster& mesh, glm::vec3 p, float far) {
   const auto floor = mesh.cast(p, {0, -1, 0}, far);
   const auto roof = mesh.cast(p, {0, 1, 0}, far);

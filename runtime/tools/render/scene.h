@@ -36,7 +36,7 @@ struct RenderMaterial {
 
 /// The look of a grammar's `mat NAME` (findLook). nullopt if the name is unknown.
 std::optional<RenderMaterial> findMaterial(std::string_view name);
-/// The same; unknown names get a look too (lookOf).
+/// As findMaterial, but an unknown name gets a look as well (lookOf).
 RenderMaterial materialByName(std::string_view name);
 
 /// A lamp that shines on all sides and falls off with the square of the distance.

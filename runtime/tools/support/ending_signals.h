@@ -30,7 +30,8 @@ class EndingSignals {
   std::atomic<int> state_{kOpen};
 };
 
-/// Defers signals during its lifetime. signals: null if no handler asks it; outlives this. One at a time.
+/// Defers ending signals during its lifetime. signals: must outlive this; null (nothing is deferred) if no signal
+/// handler calls signals->waits(). At most one Uninterrupted exists for an EndingSignals.
 class Uninterrupted {
  public:
   explicit Uninterrupted(EndingSignals* signals) : signals_(signals) {

@@ -38,9 +38,9 @@ struct RegionScene {
   RegionScene& operator=(RegionScene&&) = default;
 };
 
-/// Position and target of a camera in metres of the world, for any origin of its scene.
+/// The camera's position and target in metres of the world. origin: of the scene in which the camera is given.
 Gaze worldGaze(const RenderCamera& camera, Int3 origin);
-/// In the form of --camera, to a tenth of a millimetre.
+/// The gaze as an argument of --camera, rounded to a tenth of a millimetre.
 std::string gazeText(const Gaze& gaze);
 
 /// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; without those that its

@@ -18,7 +18,7 @@ struct RenderOptions : WorldOptions {
   std::string light = "auto";          ///< sun, lamp, none, or auto: chosen by what the camera sees
   bool volume = false;                 ///< draws the solid as fog instead of its surface
   bool wires = false;                  ///< the mesh's edges, without materials
-  std::string frame;                   ///< a rule, or a path of uses, one of which the camera shows; empty: none
+  std::string frame;                   ///< a rule or a path of uses, of which the camera shows one use; empty: none
   std::string seeds;                   ///< of a contact sheet, as for readSeeds; empty: one picture of `seed`
   bool plan = false;                   ///< a survey's plan instead of a picture
   std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it

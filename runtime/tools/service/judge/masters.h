@@ -18,7 +18,8 @@ struct MastersAnswer {
   std::shared_ptr<const std::string> json;  ///< null: out of memory
 };
 
-/// Thread-safe. One process reads them for all requests within a few seconds.
+/// Caches the reference histograms: concurrent requests share one process that reads them, and its result is used for
+/// some seconds. Thread-safe.
 class Masters {
  public:
   using Told = std::function<void(const MastersAnswer&)>;
