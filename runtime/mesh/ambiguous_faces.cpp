@@ -14,7 +14,7 @@
 namespace sgm {
 namespace {
 
-/// The number of sampled pieces of a diagonal.
+/// The diagonal of a face is divided into this number of equal pieces, at whose ends the field is sampled.
 constexpr int32_t kPieces = 16;
 
 class Joiner {
@@ -42,7 +42,7 @@ class Joiner {
   static bool isInBorder(const FaceName& face) {
     return face.cell[face.axis] == 0 || face.cell[face.axis] == kChunkCells;
   }
-  /// The corner of the grid at which the edges of two vertices meet, if they are not parallel.
+  /// Returns the corner of the grid at which the edges of vertices a and b meet. Precondition: they are not parallel.
   Int3 cornerBetween(uint32_t a, uint32_t b) const {
     const VertexKey &of_a = body_.keys[a], &of_b = body_.keys[b];
     Int3 corner = of_a.corner;
@@ -50,7 +50,7 @@ class Joiner {
     return corner;
   }
 
-  /// The ambiguous faces within the chunk that a crease passes through, by name.
+  /// The ambiguous faces within the chunk that a crease passes through, sorted by name.
   std::pmr::vector<AmbiguousFace> ambiguousFaces() const {
     std::pmr::vector<AmbiguousFace> faces(memory_);
     for (const SurfaceLoop& loop : loops_.body().all()) {
@@ -67,7 +67,8 @@ class Joiner {
     return faces;
   }
 
-  /// The face of a loop's side if another side of the cell lies in it.
+  /// Returns the face that contains the side from a to b of a loop, if another side of the same cell lies in it, too;
+  /// this makes the face ambiguous. Otherwise nullopt.
   std::optional<AmbiguousFace> ambiguousFace(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
     const FaceName name = loops_.faceOf(loop, a, b);
     if (isInBorder(name)) return std::nullopt;
@@ -76,13 +77,13 @@ class Joiner {
       if (c == a || sharedFace(body_.keys[c], body_.keys[d]) != name.axis || loops_.faceOf(beside, c, d) != name)
         return;
       face = AmbiguousFace{name, {cornerBetween(a, b), cornerBetween(c, d)}};
-      // A fixed order, independent of side and cell.
+      // The order of the two solid corners must not depend on the side or the cell from which the face was found.
       if (isBefore(face->solid[1], face->solid[0])) std::swap(face->solid[0], face->solid[1]);
     });
     return face;
   }
 
-  /// The faces whose solid corners are joined by a straight line in the solid.
+  /// Returns those of the faces whose two solid corners can be joined by a straight line within the solid.
   std::pmr::vector<AmbiguousFace> joinedByField(std::pmr::vector<AmbiguousFace>&& faces,
                                                 const FieldSampler& field) const {
     std::pmr::vector<Int3> points(memory_);
@@ -116,7 +117,8 @@ class Joiner {
     return at != border_.end() && !(side < *at) && !at->places.empty() ? &*at : nullptr;
   }
 
-  /// The triangles of a rounded loop (mesh/sharp_loops.h): its own, or a fan with its border's face vertices.
+  /// Returns the triangles of a rounded loop (mesh/sharp_loops.h): its own, or a fan with its face vertices in the
+  /// chunk's faces.
   LoopTriangles roundedTriangles(const Int3& cell, const CellLoop& loop) const {
     std::array<FanPoint, kLongestBodyLoop*(1 + FacePlaces::kMost)> ring;
     std::array<BorderVertex, kLongestBodyLoop * FacePlaces::kMost> at_border;
@@ -150,7 +152,7 @@ class Joiner {
     return made;
   }
 
-  /// The cells whose loops have face vertices in a face of the chunk.
+  /// Finds the cells whose loops have face vertices in a face of the chunk.
   void findBorderCells() {
     for (const SurfaceLoop& loop : loops_.body().all()) {
       if (!isAtBorder(loop.cell)) continue;
@@ -166,14 +168,14 @@ class Joiner {
   static bool isAtBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) == 0 || std::max({cell.x, cell.y, cell.z}) == kChunkCells - 1;
   }
-  /// True if an adjacent cell may be at the border.
+  /// True if a cell or one adjacent to it may touch a face of the chunk.
   static bool isNearBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) <= 1 || std::max({cell.x, cell.y, cell.z}) >= kChunkCells - 2;
   }
   bool hasBorderVertices(const Int3& cell) const {
     return isAtBorder(cell) && std::binary_search(border_cells_.begin(), border_cells_.end(), cell, isBefore);
   }
-  /// Calls visit for the cells at most two away.
+  /// Calls visit for all cells that are at most two cells away on each axis.
   template <class Visit>
   static void visitAround(const Int3& cell, const Visit& visit) {
     for (int32_t z = std::max(cell.z - 2, 0); z <= std::min(cell.z + 2, kChunkCells - 1); ++z)
@@ -182,7 +184,8 @@ class Joiner {
           if (const Int3 other{x, y, z}; !(other == cell)) visit(other);
   }
 
-  /// True if the loops of a cell have triangles that do not intersect. Loops as meshed satisfy this.
+  /// True if the loops of a cell can be triangulated without intersections. The loops that marching cubes made always
+  /// can.
   bool isSound(const Int3& cell) const {
     if (!loops_.isJoinedAt(cell)) return true;
     const CellLoops of_cell = loops_.loopsOf(cell);
@@ -197,8 +200,9 @@ class Joiner {
     return isClearOfOthers(cell, of_cell, made);
   }
 
-  /// True if loops keep clear of those in the cells around theirs. Face vertices at the chunk's border may lie in the
-  /// next cell: so a loop with such vertices may meet all adjacent loops, and similar loops that are two cells away.
+  /// True if the loops of a cell do not intersect those of the cells around it. Face vertices in the chunk's face may
+  /// lie in the next cell. So a loop that has them may meet the loops of all adjacent cells, and loops that also have
+  /// them two cells away.
   bool isClearOfOthers(const Int3& cell, const CellLoops& of_cell, std::span<const LoopTriangles> made) const {
     if (border_cells_.empty() || !isNearBorder(cell)) return true;
     const bool has_own = hasBorderVertices(cell);
@@ -210,7 +214,7 @@ class Joiner {
       if (!is_clear || !(is_beside ? has_own || has_others : has_own && has_others)) return;
       const CellLoops others = loops_.loopsOf(other);
       for (const CellLoop& loop : others.loops()) {
-        // Unsound loops are tested separately.
+        // A loop that cannot be triangulated is found when its own cell is tested.
         if (!loop.canTriangulate()) continue;
         const LoopTriangles theirs = roundedTriangles(other, loop);
         for (size_t i = 0; i < of_cell.count; ++i) is_clear = is_clear && !anyMeets(made[i], theirs);
@@ -219,9 +223,10 @@ class Joiner {
     return is_clear;
   }
 
-  /// Leaves faces as meshed, one by one, until the loops of all cells are sound.
+  /// Restores the marching-cubes loops at joined faces, one face after the other, until the loops of all cells are
+  /// sound.
   void giveUpFaulty() {
-    std::pmr::vector<Int3> left(memory_);  // to be tested, the next one last
+    std::pmr::vector<Int3> left(memory_);  // cells to be tested; the next one is at the end
     const std::span<const AmbiguousFace> faces = loops_.faces();
     for (auto face = faces.rbegin(); face != faces.rend(); ++face)
       for (const Int3& cell : face->name.cells()) left.push_back(cell);
@@ -235,7 +240,7 @@ class Joiner {
     }
   }
 
-  /// Calls visit for a cell and for those whose soundness depends on its loops.
+  /// Calls visit for a cell and for all cells whose soundness depends on its loops.
   template <class Visit>
   void visitDependent(const Int3& cell, const Visit& visit) const {
     visit(cell);
@@ -245,7 +250,8 @@ class Joiner {
     });
   }
 
-  /// Gives up one face of a cell, and returns it: the first face that makes the cell sound, or else the first face.
+  /// Restores one joined face of a cell, and returns its name: the first face whose restoration makes the cell sound,
+  /// or else the first face.
   FaceName giveUpOne(const Int3& cell) {
     std::optional<FaceName> first;
     for (const FaceName& name : FaceName::of(cell)) {

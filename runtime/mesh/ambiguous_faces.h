@@ -16,13 +16,13 @@
 
 namespace sgm {
 
-/// Returns the triangles of a body whose ambiguous faces follow the field; nullopt if they do not change. Both cells of
-/// a face agree. A face stays as meshed if it lies in a face of the chunk; or if the loops of a cell beside it would
-/// have no triangles, or triangles that intersect (mesh/triangle_faults.h), either as they are or with the face
-/// vertices at the chunk's border.
+/// Returns the body's triangles (three indices each) after the field has resolved its ambiguous faces; nullopt if no
+/// triangle changes. The two cells that share a face decide alike. A face keeps its marching-cubes triangles if it lies
+/// in a face of the chunk. It also keeps them if the new loops of a cell beside it could not be triangulated, or if
+/// their triangles would intersect (mesh/triangle_faults.h), with or without the face vertices at the chunk's border.
 ///
-/// Pure. creases: of all vertices of the body, settled. border: borderSides of the body. Samples the field only within
-/// the chunk. Throws std::bad_alloc.
+/// Pure. creases: holds the tangents of all vertices of the body; settle() has been called. border: the result of
+/// borderSides for the body. Samples the field only within the chunk. Throws std::bad_alloc.
 std::optional<RawVector<uint32_t>> resolveAmbiguousFaces(const BodyLoops& body, const Creases& creases,
                                                          std::span<const SharpSide> border, const FieldSampler& field,
                                                          std::pmr::memory_resource* memory);

@@ -13,7 +13,7 @@ constexpr size_t kSide = kChunkSamples;
 constexpr size_t kPlane = kSide * kSide;
 constexpr uint64_t kCellBits = (uint64_t{1} << kChunkCells) - 1;
 
-/// The crossed edges owned by the samples of one row, one word per axis.
+/// The crossed edges that start at the samples of one row: one word per axis of the edge, one bit per sample.
 struct RowEdges {
   uint64_t x, y, z;
 };
@@ -24,7 +24,7 @@ RowEdges crossedEdges(const uint64_t* signs, size_t y, size_t z) {
           z < kChunkCells ? row[0] ^ row[kSide] : 0};
 }
 
-/// The result of the first pass: the sizes of the output, and the cases of the active cells in order.
+/// The result of the first pass: the sizes of the output, and the cases of the cells with a surface, in order.
 struct Census {
   size_t vertices = 0;
   size_t triangles = 0;
@@ -37,7 +37,7 @@ void takeCensus(const uint64_t* signs, Census& census) {
     for (size_t y = 0; y < kSide; ++y) {
       const RowEdges e = crossedEdges(signs, y, z);
       if ((e.x | e.y | e.z) == 0) continue;
-      // 32 + 33 + 33 bits, in two words.
+      // Packs 32 + 33 + 33 bits into two words, so that two bit counts suffice.
       census.vertices += static_cast<size_t>(std::popcount(e.x | e.y << 32) + std::popcount(e.z | e.y >> 32 << 33));
     }
   }
@@ -60,13 +60,14 @@ void takeCensus(const uint64_t* signs, Census& census) {
   }
 }
 
-/// Vertex numbers by owning sample and axis, for the two sample planes around a layer of cells.
+/// Vertex numbers by the sample at which the edge starts and by axis, for the two planes of samples around a layer of
+/// cells.
 struct EdgeNumbers {
   uint32_t of[2][kPlane * 3];
 };
 
-/// The offset of the vertex number of each cube edge from the numbers of the cell's lowest sample, for even and odd
-/// layers.
+/// For each cube edge: the offset of its vertex number from the entry of the cell's lowest sample. The two planes swap
+/// roles from layer to layer, so even and odd layers have different offsets.
 struct EdgeOffsets {
   int32_t of[2][kCubeEdges];
 };
@@ -85,7 +86,7 @@ constexpr EdgeOffsets makeEdgeOffsets() {
 }
 constexpr EdgeOffsets kEdgeOffsets = makeEdgeOffsets();
 
-/// Writes the vertices owned by the samples of plane z, and their numbers.
+/// Writes the vertices on edges that start in plane z of samples, and stores their numbers.
 uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, uint32_t number, MeshPart& part,
                        uint32_t* numbers) {
   const int32_t corner_z = grid.origin.z + static_cast<int32_t>(z) * grid.cell;

@@ -5,12 +5,12 @@
 
 namespace sgm {
 
-/// Replaces part by the surface of the chunk. Canonical order: vertices by owning sample (z, then y, then x; the sample
-/// at the edge's lower end), then x-edge, y-edge, z-edge; triangles by cell (z, y, x), then loop (tables.h), then in
-/// the order of triangulate.h. Crossed edges in the chunk's border belong to it and to its neighbours alike, with
-/// bit-identical keys and positions. Fills x, y, z and the keys of the vertices; material, normal, tag and part.hash
-/// are 0 and are filled by the caller. Precondition: grid.origin + 32 * grid.cell lies in the world. Thread-safe for
-/// different parts.
+/// Replaces the contents of part by the surface of the chunk. Canonical order of vertices: by the sample at the lower
+/// end of the crossed edge (z, then y, then x), then x-edge, y-edge, z-edge. Canonical order of triangles: by cell (z,
+/// y, x), then by loop (tables.h), then as triangulate.h outputs them. Crossed edges in a face of the chunk have
+/// vertices in the chunk and in its neighbours, with bit-identical keys and positions. Fills x, y, z and the keys of
+/// the vertices; sets material, normal, tag and part.hash to 0, for the caller to fill. Precondition: the chunk's high
+/// corner, grid.origin + 32 * grid.cell, lies in the world. Thread-safe for different parts.
 void polygonizeBody(const ChunkSamples& samples, const ChunkGrid& grid, MeshPart& part);
 
 }  // namespace sgm

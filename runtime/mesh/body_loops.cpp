@@ -34,7 +34,7 @@ Int3 BodyLoops::cornerOf(const Int3& cell) const {
   return corner;
 }
 
-/// The cell of a triangle: the only one with the edges of all three corners.
+/// Returns the cell of a triangle: the only cell that has the edges of all three corners.
 Int3 BodyLoops::cellOf(size_t first_index) const {
   Int3 cell;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,6 @@
 #pragma once
-// The marching cubes loops of a chunk's body: as meshed, or with joined faces (mesh/ambiguous_faces.h).
+// The loops of cut edges in the cells of a chunk's body, before or after ambiguous faces are joined
+// (mesh/ambiguous_faces.h).
 
 #include <algorithm>
 #include <array>
@@ -12,20 +13,23 @@
 
 namespace sgm {
 
-/// The axis of the face that two edges of a cell share; -1 if they share none.
+/// Returns the normal axis of the cell's face that contains both edges; -1 if no face contains both. a, b: the keys of
+/// two edges of one cell.
 int sharedFace(const VertexKey& a, const VertexKey& b);
 
-/// The longest loop of a cell: at most kLongestCubeLoop as meshed, but joined loops are longer
-/// (mesh/ambiguous_faces.h).
+/// The longest loop of a cell. Marching cubes makes at most kLongestCubeLoop vertices, but the loops of a cell with
+/// joined faces (mesh/ambiguous_faces.h) can pass through all of its edges.
 inline constexpr int kLongestBodyLoop = kCubeEdges;
 
-/// The number of the cube edge that a vertex lies on (mesh/tables.h). corner: the lowest of the cube, in units.
+/// Returns the number (mesh/tables.h) of the cube edge that a vertex lies on. corner: the lowest corner of the cube, in
+/// units.
 uint8_t cubeEdge(const VertexKey& key, const Int3& corner);
 
-/// A loop of cut edges in one cell. Its vertices are counter-clockwise seen from the void, from the lowest edge on.
+/// A loop of cut edges in one cell. Its vertices are counter-clockwise seen from the void, and start at the loop's edge
+/// of lowest number.
 struct SurfaceLoop {
-  Int3 cell;                                          ///< from the chunk's origin, in cells
-  std::array<uint32_t, kLongestBodyLoop> vertices{};  ///< of the body
+  Int3 cell;                                          ///< position of the cell: 0..kChunkCells - 1 on each axis
+  std::array<uint32_t, kLongestBodyLoop> vertices{};  ///< indices of the body's vertices
   uint32_t count = 0;
   uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
 };

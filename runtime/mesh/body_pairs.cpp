@@ -7,11 +7,11 @@
 namespace sgm {
 namespace {
 
-// Cells are counted from two below the chunk.
+// Cell coordinates start two cells below the chunk, because feature vertices can lie outside it.
 constexpr int kBelow = 2, kCells = kChunkCells + 2 * kBelow + 1;
 constexpr int kLeast = -kBelow * kSubcell, kMost = (kChunkCells + kBelow) * kSubcell;
 constexpr int kMostSpan = 4 * kSubcell;
-/// Per cell: a sound body has at most a dozen.
+/// Maximum number of triangles in a cell that are compared cell by cell. A body without defects has at most a dozen.
 constexpr size_t kMostInCell = 64;
 
 using Cell = std::array<int, 3>;
@@ -65,12 +65,13 @@ class PairCounter {
       last = triangle.home;
     }
     if (sorted) return;
-    // The triangles of a cell are not consecutive, unlike those of our bodies: each is compared with all around it.
+    // In a foreign body, the triangles of a cell need not be consecutive. Each triangle is then compared with all
+    // around it.
     wide_ = count;
     for (PairTriangle& triangle : triangles_) triangle.wide = true;
   }
 
-  /// Compares pairs within one cell that are not wide.
+  /// Compares the pairs of triangles that lie within one cell and are not wide.
   void compareInCells() {
     const size_t count = triangles_.size();
     for (size_t t = 0; t + 1 < count; ++t) {
@@ -85,7 +86,7 @@ class PairCounter {
     }
   }
 
-  /// The cells that contain more of a triangle than their low faces do.
+  /// Returns the range of cells that contain more of a triangle than a part in their low faces.
   void cellsOf(const PairTriangle& triangle, Cell& low, Cell& high) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       low[axis] = cellAt(triangle.low[axis]);
@@ -116,13 +117,13 @@ class PairCounter {
     uint32_t sum = 0;
     for (uint32_t& at : first) at = sum += at;
     scratch_.listed.resize(sum);
-    // From the last to the first, so that first[cell] ends as the start of each cell.
+    // Fills each list from its end, so that first[cell] finally is the start of the cell's list.
     forAll([&](uint32_t cell, uint32_t t) { scratch_.listed[--first[cell]] = t; });
   }
 
   void compareWide(uint32_t t) {
     const PairTriangle& triangle = triangles_[t];
-    // A triangle that touches a low face may lie only below it.
+    // A triangle that touches only the low face of a cell may lie in the cell below.
     Cell from, to;
     for (size_t axis = 0; axis < 3; ++axis) {
       from[axis] = std::max(0, cellAt(triangle.low[axis] - 1));
@@ -137,7 +138,7 @@ class PairCounter {
         bool here = true;
         for (size_t axis = 0; axis < 3; ++axis) {
           here &= seen.low[axis] <= triangle.high[axis] && triangle.low[axis] <= seen.high[axis];
-          // Counted in the first common cell.
+          // Two triangles may meet in several cells; the pair is counted in the first cell that both have in common.
           here &= std::max(from[axis], cellAt(seen.low[axis])) == cell[axis];
         }
         if (here) compare(t, other);

@@ -27,26 +27,27 @@ struct PairCorner {
   }
 };
 
-/// A triangle for the counting.
+/// A triangle and its bounding box, as countPairs sorts them into cells.
 struct PairTriangle {
   std::array<int16_t, 3> low, high;  ///< its bounding box
-  uint32_t home = 0;                 ///< the cell of its lowest coordinates
-  bool wide = false;                 ///< reaches beyond that cell, or has a feature vertex
+  uint32_t home = 0;                 ///< index of the cell that contains the lowest corner of the bounding box
+  bool wide = false;                 ///< true if the triangle reaches beyond that cell, or has a feature vertex
 };
 
 /// Memory that is reused for several bodies. Not thread-safe.
 struct PairScratch {
   std::pmr::vector<PairTriangle> triangles;
-  std::pmr::vector<uint32_t> first, listed;  ///< triangles by cell
+  std::pmr::vector<uint32_t> first, listed;  ///< lists of triangles by cell: `first` is each list's start in `listed`
 
   explicit PairScratch(std::pmr::memory_resource* memory) : triangles(memory), first(memory), listed(memory) {}
 };
 
-/// corners: three per triangle. Corners at equal positions are common corners. Triangles within their cell meet those
-/// of other cells only in the cells' faces, along sides that they share or that are open; so such triangles are
-/// compared only within their cell, and wide ones with all. Triangles that leave the chunk by more than two cells, or
-/// span more than four along an axis, are left out: other measures report them. Takes about 15 ns per triangle, or 0.3
-/// us if it is wide. Throws std::bad_alloc.
+/// Counts the folded and the cut pairs among a body's triangles. corners: three per triangle; corners at equal
+/// positions count as one common corner. A triangle within one cell can meet a triangle within another cell only in the
+/// face between the cells, along a side that both share or that is open. Therefore such a triangle is compared only
+/// with those of its own cell, and a wide triangle (PairTriangle::wide) with all near it. Ignores triangles that leave
+/// the chunk by more than two cells or span more than four cells along an axis: other measures report them. Takes about
+/// 15 ns per triangle, or 0.3 us per wide one. Throws std::bad_alloc.
 PairCounts countPairs(std::span<const PairCorner> corners, PairScratch& scratch);
 
 }  // namespace sgm

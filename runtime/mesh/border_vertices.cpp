@@ -10,7 +10,8 @@
 namespace sgm {
 namespace {
 
-/// In 1/256 of a cell: how far a face vertex may be moved to simplify.
+/// A face vertex may be moved by up to this distance (1/256 of a cell) into its side's own square, where it is simpler
+/// to handle.
 constexpr int32_t kClose = 8;
 
 bool hasTwoLoops(const std::array<int32_t, 8>& q) {
@@ -19,7 +20,8 @@ bool hasTwoLoops(const std::array<int32_t, 8>& q) {
   return (kCubeFirstLoop[solid] >> 24 & 1) != 0;
 }
 
-/// From a point off the surface to the tangent of a third plane in front of the two: one Newton step.
+/// Makes one Newton step from a point off the surface to the tangent of a third plane, which lies in front of the two
+/// others.
 std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& from, const FieldSample& sample) {
   const double u = sample.gradient[static_cast<size_t>((side.axis + 1) % 3)];
   const double v = sample.gradient[static_cast<size_t>((side.axis + 2) % 3)];
@@ -29,8 +31,8 @@ std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& fro
   return FacePoint{from[0] - step * u, from[1] - step * v};
 }
 
-/// A point on the grid, in the side's square or the adjacent one, or the nearest point with places there; nullopt if it
-/// is more than a cell away.
+/// Rounds a point to the grid. The result lies in the side's square or the adjacent one: the point itself, or the
+/// nearest allowed one; nullopt if the point is more than a cell away.
 std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32_t cell) {
   const auto outside = [](int32_t at) { return std::max(-at, at - kSubcell); };
   const int u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;
@@ -40,7 +42,7 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
     if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
     place[k == 0 ? u : v] = static_cast<int32_t>(at);
   }
-  // A place close to the edge is moved into the side's own square, where nothing interferes.
+  // A position close to the edge of the side's own square is moved into it, where no other face vertex interferes.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
   const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMostOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
@@ -49,7 +51,7 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
   return place;
 }
 
-/// True if the path from one end of a side to the other by way of two places does not cross itself.
+/// True if the path from one end of a side over both positions to the other end does not cross itself.
 bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, const Int3& second, int32_t cell) {
   const auto u = static_cast<size_t>((side.axis + 1) % 3), v = static_cast<size_t>((side.axis + 2) % 3);
   const auto placeOfEnd = [&](uint32_t end) {
@@ -65,13 +67,14 @@ bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, 
     return area > 0 ? 1 : area < 0 ? -1 : 0;
   };
   const Int3 from = placeOfEnd(side.from), to = placeOfEnd(side.to);
-  // The first and last segments lie on the two sides of one of them.
+  // They cannot cross if the last segment lies on one side of the first one's line, or the first on one side of the
+  // last one's.
   const bool apart =
       turn(from, first, second) * turn(from, first, to) > 0 || turn(second, to, from) * turn(second, to, first) > 0;
   return apart && turn(from, first, second) != 0 && turn(first, second, to) != 0;
 }
 
-/// Places the vertices of sides at the border, and returns the sides that have places.
+/// Places the face vertices of sides in faces of the chunk, and returns the sides that got positions.
 class SurfacePlaces {
  public:
   SurfacePlaces(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
@@ -86,13 +89,13 @@ class SurfacePlaces {
   }
 
  private:
-  /// A side whose planes meet off the surface, with the places that its third plane may give it.
+  /// A side whose ends' planes meet off the surface, with the positions that its third plane may give it.
   struct CutOff {
     SharpSide* side;
     std::optional<Int3> single, first, second;
   };
 
-  /// Places vertices where the planes of a side's ends meet.
+  /// Places face vertices where the planes of a side's two ends meet.
   void placeMeetings(std::span<SharpSide> sides, std::pmr::vector<SharpSide*>& placed) {
     std::pmr::vector<SharpSide*> tried(points_.get_allocator());
     for (SharpSide& side : sides) {
@@ -134,7 +137,7 @@ class SurfacePlaces {
     cut_off_.push_back(cut);
   }
 
-  /// Places vertices where a third plane meets those of a side's ends, or on it.
+  /// Places face vertices where a third plane meets those of a side's ends; if that fails, on the third plane.
   void placeCutOff(std::pmr::vector<SharpSide*>& placed) {
     points_.clear();
     for (const CutOff& cut : cut_off_) {
@@ -172,8 +175,8 @@ class SurfacePlaces {
   std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Places the vertices of sides, as if no rounded loop interfered, and returns the sides that have places: in one
-/// square, if the surface passes once through the side's own.
+/// Places the face vertices of sides, as if no rounded loop interfered. Returns the sides whose positions lie in one
+/// square and whose own square the surface passes through once; the others lose their positions.
 std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                                         std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
   std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
@@ -214,7 +217,7 @@ class RoundedLoops {
     };
     RoundedCells rounded(grid_, field_, place_others, memory_);
     std::pmr::vector<Int3> points(memory_);
-    std::pmr::vector<size_t> ends(memory_);  // in points, by placed side
+    std::pmr::vector<size_t> ends(memory_);  // end of each placed side's points
     for (const SharpSide* side : placed) {
       const Surroundings around(*side, grid_.cell);
       for (size_t i = 0; i < Surroundings::kCorners; ++i)

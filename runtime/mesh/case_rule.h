@@ -30,8 +30,8 @@ struct Cell {
     return static_cast<int>(at - edges.begin());
   }
 
-  /// Bit f is set for each face f that contains edge e. A diagonal between two edges is allowed if their masks are
-  /// disjoint.
+  /// Returns a mask in which bit f is set for each face f that contains edge e. A triangulation may have a diagonal
+  /// between two edges only if their masks are disjoint.
   uint32_t facesOfEdge(int e) const {
     uint32_t mask = 0;
     for (size_t f = 0; f < faces.size(); ++f) {
@@ -88,7 +88,7 @@ inline Cell seamCell() {
   return cell;
 }
 
-/// The loops of edge numbers of one case; bit c of solid is corner c.
+/// Returns the loops of one case, each as a list of edge numbers. Bit c of solid: corner c is solid.
 inline std::vector<std::vector<int>> loopsOfCase(const Cell& cell, uint32_t solid) {
   std::vector<int> follow(cell.edges.size(), -1);
   for (const std::vector<int>& face : cell.faces) {

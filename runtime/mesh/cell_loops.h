@@ -1,5 +1,5 @@
 #pragma once
-// The loops of single cells, without a body.
+// Builds the loops of a single cell when no meshed body is available.
 
 #include <array>
 #include <memory_resource>
@@ -9,9 +9,9 @@
 
 namespace sgm {
 
-/// Appends the loops of a cell to `loops`, and their vertices and triangles to `part`, as meshing makes them. cell:
-/// from the grid's origin, from -1 to kChunkCells. q: the field at the cell's corners, quantised. Throws
-/// std::bad_alloc.
+/// Appends the loops of a cell to `loops`, and their vertices and triangles to `part`, the same as polygonizeBody
+/// makes. cell: position in the grid, -1..kChunkCells on each axis. q: the quantised field at the cell's corners,
+/// numbered as in tables.h. Throws std::bad_alloc.
 void addCellLoops(const ChunkGrid& grid, const Int3& cell, const std::array<int32_t, 8>& q, MeshPart& part,
                   std::pmr::vector<SurfaceLoop>& loops);
 

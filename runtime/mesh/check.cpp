@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A corner of a triangle at its vertex: the two other vertices, in order.
+/// A triangle at one of its vertices: the two other vertices, in the triangle's order.
 struct Corner {
   uint32_t next, previous;
 };
@@ -44,7 +44,7 @@ struct CornersByVertex {
   std::span<const Corner> around(size_t v) const { return {corners.data() + start[v], start[v + 1] - start[v]}; }
 };
 
-/// Counts the edges from v to vertices of higher number, so that each edge of the mesh is counted once.
+/// Counts the edges from v to vertices of higher number only, so that each edge of the mesh is counted once.
 void countEdges(size_t v, std::span<const Corner> around, std::vector<uint32_t>& out, std::vector<uint32_t>& in,
                 MeshReport& report) {
   out.clear();
@@ -68,7 +68,7 @@ void countEdges(size_t v, std::span<const Corner> around, std::vector<uint32_t>&
   }
 }
 
-/// Counts pairs of triangles with the same vertices, at their vertex of lowest number.
+/// Counts duplicate triangles, each at the one of its three vertices that has the lowest number.
 void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::pair<uint32_t, uint32_t>>& opposite,
                      MeshReport& report) {
   opposite.clear();
@@ -80,8 +80,8 @@ void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::
 
 enum class Link { cycle, path, broken };
 
-/// link: the corners around a vertex, sorted here by `next`. Each corner leads from its next vertex to its previous
-/// one.
+/// Classifies the link of a vertex. link: the triangles around the vertex, which are sorted by `next`. Each leads from
+/// its next vertex to its previous one.
 Link classifyLink(std::vector<Corner>& link) {
   std::sort(link.begin(), link.end(), [](const Corner& a, const Corner& b) { return a.next < b.next; });
   const auto find = [&](uint32_t from) {
@@ -91,7 +91,7 @@ Link classifyLink(std::vector<Corner>& link) {
   };
   for (size_t i = 1; i < link.size(); ++i)
     if (link[i].next == link[i - 1].next) return Link::broken;
-  // A path starts at the only corner without a predecessor; a cycle may start anywhere.
+  // A path starts at the only triangle to which no other leads; a cycle may start anywhere.
   std::vector<bool> led_to(link.size());
   for (const Corner& c : link) {
     const size_t to = find(c.previous);

@@ -12,31 +12,34 @@ namespace sgm {
 
 struct MeshReport {
   size_t triangles = 0;
-  size_t vertices = 0;              ///< used by a triangle
-  size_t edges = 0;                 ///< undirected
-  size_t open_edges = 0;            ///< used by one triangle: the border
-  size_t unmatched_edges = 0;       ///< used more often in one direction than in the other, including the open ones
-  size_t repeated_edges = 0;        ///< used twice or more in the same direction
-  size_t non_manifold_edges = 0;    ///< used by three triangles or more
-  size_t pinched_vertices = 0;      ///< non-manifold: the link is neither one cycle nor, at the border, one path
-  size_t border_vertices = 0;       ///< whose link is one path
-  size_t degenerate_triangles = 0;  ///< with a repeated vertex; not counted in edges and links
-  size_t duplicate_triangles = 0;   ///< with the same three vertices as an earlier one, in any order
+  size_t vertices = 0;            ///< vertices that a triangle uses
+  size_t edges = 0;               ///< undirected
+  size_t open_edges = 0;          ///< edges of exactly one triangle: the border
+  size_t unmatched_edges = 0;     ///< edges used more often in one direction than in the other; includes open_edges
+  size_t repeated_edges = 0;      ///< edges used twice or more in the same direction
+  size_t non_manifold_edges = 0;  ///< edges of three triangles or more
+  /// non-manifold vertices, whose link is neither one cycle nor, at the border, one path
+  size_t pinched_vertices = 0;
+  size_t border_vertices = 0;       ///< vertices whose link is one path
+  size_t degenerate_triangles = 0;  ///< triangles with a repeated vertex; ignored by the counts of edges and vertices
+  size_t duplicate_triangles = 0;   ///< triangles with the same three vertices as an earlier triangle, in any order
 
   /// True if the mesh is a consistently oriented 2-manifold, with or without a border.
   bool manifold() const {
     return unmatched_edges == open_edges && repeated_edges == 0 && non_manifold_edges == 0 && pinched_vertices == 0 &&
            degenerate_triangles == 0 && duplicate_triangles == 0;
   }
-  /// True if the mesh is also without border: every edge once in each direction, every vertex link one cycle.
+  /// True if the mesh is a manifold without border: each edge is used once in each direction, and each vertex link is
+  /// one cycle.
   bool closed() const { return manifold() && open_edges == 0; }
 };
 
 /// One line with the counts that are not 0.
 std::string describe(const MeshReport& report);
 
-/// indices: three per triangle, each below vertex_count (precondition). Takes about 0.2 us per triangle.
-/// memory: for 8 bytes per vertex and 24 per triangle while it runs; up to 16 more per vertex.
+/// Checks a triangle list. indices: three per triangle, each below vertex_count (precondition). Takes about 0.2 us per
+/// triangle. memory: the function allocates 8 bytes per vertex and 24 per triangle while it runs, and up to 16 more per
+/// vertex.
 MeshReport checkTriangles(std::span<const uint32_t> indices, size_t vertex_count,
                           std::pmr::memory_resource* memory = std::pmr::new_delete_resource());
 

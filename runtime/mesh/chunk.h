@@ -1,5 +1,6 @@
 #pragma once
-// The basic types of meshing: a chunk's samples, packed vertices, meshes with their six seams, vertex keys.
+// The basic types of meshing: a chunk's samples, packed vertices, vertex keys and mesh parts (a body or one of six
+// seams).
 
 #include <array>
 #include <cstdint>
@@ -11,12 +12,14 @@
 
 namespace sgm {
 
-inline constexpr int kChunkCells = 32;                 ///< cells on each axis
-inline constexpr int kChunkSamples = kChunkCells + 1;  ///< samples on each axis, both borders included
-inline constexpr int kSubcell = 256;                   ///< vertex positions are 1/256 of the chunk's cell edge
-inline constexpr int32_t kMaxQ = 1 << 22;              ///< quantised samples lie in -kMaxQ..kMaxQ; solid is Q < 0
+inline constexpr int kChunkCells = 32;                 ///< per axis
+inline constexpr int kChunkSamples = kChunkCells + 1;  ///< per axis, including the samples in both faces
+/// positions of vertices are integers in 1/256 of the chunk's cell edge
+inline constexpr int kSubcell = 256;
+/// quantised samples Q lie in -kMaxQ..kMaxQ; a sample is solid if Q < 0
+inline constexpr int32_t kMaxQ = 1 << 22;
 
-/// Faces: -x +x -y +y -z +z.
+/// The faces of a chunk, in the order -x +x -y +y -z +z.
 enum class Face : uint8_t { x_lo, x_hi, y_lo, y_hi, z_lo, z_hi };
 inline constexpr int faceAxis(Face f) { return static_cast<int>(f) >> 1; }
 inline constexpr bool faceIsHigh(Face f) { return static_cast<int>(f) & 1; }
@@ -30,7 +33,8 @@ struct ChunkGrid {
 
 /// Quantised samples of one chunk. q has kChunkSamples^3 entries, x fastest, then y, then z.
 /// signs has one word per row (y + z * kChunkSamples): bit x is set if sample x is solid (Q < 0).
-/// q is only defined at the ends of edges whose ends differ in sign; signs are always defined.
+/// q is only defined at the ends of edges whose ends differ in sign, the only values that vertices need; signs are
+/// always defined.
 struct ChunkSamples {
   std::pmr::vector<int32_t> q;
   std::pmr::vector<uint64_t> signs;
@@ -40,22 +44,24 @@ struct ChunkSamples {
         signs(size_t{kChunkSamples} * kChunkSamples, memory) {}
 };
 
-/// The crossed edge that a vertex stands for. The kind is part of the vertex, so that positions alone suffice to derive
-/// exact keys (VertexKey). Feature vertices have kinds of their own (mesh/feature_kind.h).
+/// The kind of crossed edge that a vertex lies on. A packed vertex stores it, so that its exact key (VertexKey) follows
+/// from the vertex and its chunk. Feature vertices have kinds of their own (mesh/feature_kind.h).
 enum VertexKind : uint16_t {
-  kOwnEdge = 0,      ///< of the chunk's own level: one coordinate, the edge's axis, is not a multiple of kSubcell
-  kCoarserEdge = 1,  ///< of the level above, only in seams: one coordinate is not a multiple of 2 * kSubcell
-  kLateralEdge = 2,  ///< only in seams: lies on a corner of the level above and joins the two levels
+  kOwnEdge = 0,      ///< an edge of the chunk's level: one coordinate, the edge's axis, is not a multiple of kSubcell
+  kCoarserEdge = 1,  ///< an edge of the level above, only in seams: one coordinate is not a multiple of 2 * kSubcell
+  kLateralEdge = 2,  ///< only in seams: joins the two levels, at a corner of the level above's grid
 };
 
 /// A packed vertex, 16 bytes, the same on every backend.
 struct Vertex {
-  int16_t x, y, z;             ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192; of a feature
-                               ///< vertex of the coarser level in a seam -400..8592
+  /// in 1/256 of the chunk's cell edge from the chunk's origin: 0..8192; -400..8592 for feature vertices of the coarser
+  /// level in a seam
+  int16_t x, y, z;
   uint16_t material;           ///< index into the grammar's materials
   int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags
-  uint16_t kind;               ///< a VertexKind, 0 throughout a body; or a kind of a feature vertex
+  /// a VertexKind (0 for all edge vertices of a body), or the encoding of a feature vertex (mesh/feature_kind.h)
+  uint16_t kind;
 };
 static_assert(sizeof(Vertex) == 16);
 
@@ -73,21 +79,22 @@ struct VertexKey {
   friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
 };
 inline constexpr uint8_t kLateral = 3;
-/// Axes of feature vertices (mesh/sharpen.h). kFaceVertex plus the normal axis of its face, with the face's lowest
-/// corner; kCellVertex with the cell's lowest corner. `fan` distinguishes the sides of a face, and the loops of a cell;
-/// kSecondOfSide is added to it for the second face vertex of a side.
+/// Axes in the keys of feature vertices (mesh/sharpen.h). A face vertex has kFaceVertex plus the normal axis of its
+/// face, and the face's lowest corner; a cell vertex has kCellVertex and the cell's lowest corner. `fan` numbers the
+/// sides of a face, or the loops of a cell; the second face vertex of a side has kSecondOfSide added to its fan.
 inline constexpr uint8_t kFaceVertex = 4;
 inline constexpr uint8_t kCellVertex = 7;
 inline constexpr uint8_t kSecondOfSide = 8;
 
-/// Two 32-bit sums of mixed words, keyed by their index: the same on any device and in any order of addition.
+/// Two 32-bit sums over a part's words, each mixed with its index (mesh/hash.h): the same on any device and in any
+/// order of addition.
 struct ContentHash {
   uint32_t a = 0, b = 0;
   friend auto operator<=>(const ContentHash&, const ContentHash&) = default;
   uint64_t value() const { return uint64_t{b} << 32 | a; }
 };
 
-/// A part of a chunk that is drawn as a whole: the body, or one seam. Triangles index the part's own vertices.
+/// A mesh that is drawn as a whole: the body of a chunk, or one seam. Triangles index the part's own vertices.
 struct MeshPart {
   RawVector<Vertex> vertices;
   RawVector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the void

@@ -10,12 +10,12 @@ namespace sgm {
 namespace {
 
 constexpr int kLast = kChunkSamples - 1;
-constexpr size_t kPitch = 40;  // of a row of values: whole vectors
+constexpr size_t kPitch = 40;  // values per row in memory: more than a row has, so that rows consist of whole vectors
 constexpr uint64_t kOwnSamples = (uint64_t{1} << kChunkCells) - 1;
 
-/// Squared distances to the nearest solid sample, one axis after the other: the nearest of a plane is among the nearest
-/// of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions). Within a chunk a window of 2
-/// reach + 1 is so short that searching it entirely is fastest.
+/// Computes squared distances to the nearest solid sample along one axis after the other: the nearest sample of a plane
+/// is among the nearest samples of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions).
+/// Their lower envelope is not needed: the window of 2 reach + 1 samples is so short that a full search is fastest.
 class SquaredDistances {
  public:
   SquaredDistances(const ChunkSignsAround& around, int most, std::pmr::memory_resource* memory)
@@ -50,14 +50,15 @@ class SquaredDistances {
  private:
   static int chunkOf(int sample) { return sample < 0 ? 0 : sample > kLast ? 2 : 1; }
 
-  /// y, z: samples of the middle chunk, or beyond it by up to the reach.
+  /// Fills the squared distances along the row (y, z). The row is one of the middle chunk, or up to reach_ beyond it.
   void alongRow(int y, int z, int16_t* values) const {
     const int j = chunkOf(y), k = chunkOf(z);
     const auto row = [&](int i) {
       return around_[static_cast<size_t>(i + 3 * j + 9 * k)]->row(y - (j - 1) * kChunkCells, z - (k - 1) * kChunkCells);
     };
     const uint64_t own = row(1);
-    // Samples of the lower chunk except the shared one, and of the upper one in the same way.
+    // The neighbour below contributes all samples except the one it shares with the middle chunk; the same for the
+    // neighbour above.
     const uint64_t low = reach_ > 0 ? row(0) & kOwnSamples : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
     if ((own | low | high) == 0) return;
     int away = low != 0 ? std::countl_zero(low) - (64 - kChunkCells) : 2 * kChunkCells;
@@ -74,7 +75,8 @@ class SquaredDistances {
     }
   }
 
-  /// to: the minimum over the 2 reach + 1 rows from `from` on, each plus its squared distance from the middle row.
+  /// Writes to `to` the minimum over 2 reach + 1 rows, starting at `from`, of the values plus the squared distance of
+  /// the row from the middle one.
   void nearest(const int16_t* from, size_t pitch, int16_t* to) const {
     for (int d = -reach_; d <= reach_; ++d, from += pitch) {
       const auto square = static_cast<int16_t>(d * d);
@@ -85,7 +87,7 @@ class SquaredDistances {
   const ChunkSignsAround& around_;
   const int16_t most_;
   std::pmr::memory_resource* memory_;
-  int reach_ = 0;  ///< a solid sample farther than this along an axis is at least `most` away
+  int reach_ = 0;  ///< samples; a solid sample farther away along an axis has a squared distance of at least `most`
 };
 
 }  // namespace

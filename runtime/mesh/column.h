@@ -7,10 +7,10 @@
 
 namespace sgm {
 
-/// Returns 1 if the triangle covers (x, y) of the point seen along z and faces up, -1 if it faces down, 0 if it does
-/// not cover it. A point on a common edge or corner of triangles with the same orientation is covered by exactly one of
-/// them, so that a closed surface has exactly as many upward as downward crossings. Signs: as IntegerSigns
-/// (mesh/triangle_faults.h), of which orientationAlong is used.
+/// Returns 1 if the triangle covers the (x, y) of the point seen along z and faces up, -1 if it faces down, 0 if it
+/// does not cover the point. If several triangles with the same orientation share the edge or corner below the point,
+/// exactly one of them covers it, so that a closed surface has exactly as many upward as downward crossings. Signs:
+/// provides orientationAlong, as IntegerSigns does (mesh/triangle_faults.h).
 template <class Signs>
 int turnOver(const std::array<typename Signs::Place, 3>& t, const typename Signs::Place& place) {
   const int round = Signs::orientationAlong(2, t[0], t[1], t[2]);

@@ -9,10 +9,12 @@ namespace sgm {
 namespace {
 
 constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
-constexpr double kOffSurface = 1.0 / 25;  // of a cell
-constexpr double kSlide = 1.0 / 128;      // of a cell
-constexpr double kLeastSine = 0.05;       // of the angle between two lines in a face, for a well-conditioned meeting
-constexpr double kOnCrease = 3.0 / 256;   // of a cell: if nearer, triangles are slivers as thin as their rounding
+constexpr double kOffSurface = 1.0 / 25;  // in cells: tolerance for points on the surface
+constexpr double kSlide = 1.0 / 128;      // in cells: vertices closer to the surface are not moved
+// sine of the angle between two lines in a face; below it, their intersection is ill-conditioned
+constexpr double kLeastSine = 0.05;
+// in cells: if a vertex is nearer to a crease, triangles would be slivers as thin as the rounding
+constexpr double kOnCrease = 3.0 / 256;
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
 
@@ -57,6 +59,7 @@ void Creases::touch() {
 }
 
 /// The point of a vertex's edge at `step` 256ths of the edge.
+/// Returns the point on a vertex's edge at `step` / 256 of the edge.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;
   point[part_.keys[vertex].axis] += localUnits(step, grid_.cell);
@@ -74,7 +77,7 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
   return samples;
 }
 
-/// Moves vertices that are off the surface, on grid edges that pass through a crease, by bisection.
+/// Moves vertices that are off the surface, because a crease passes through their grid edge, onto it, by bisection.
 void Creases::slide() {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
   for (uint32_t v = 0; v < tangents_.size(); ++v) {
@@ -180,7 +183,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
     const Range range = rangeOn(k, corner, across);
     const double lo = range.least * step - units[axis], hi = range.most * step - units[axis];
     if (std::fabs(along[axis]) < 1e-6) {
-      // A crease along the border of the chunk may be outside by 1/256, by which onGrid moves the place.
+      // A crease in a face of the chunk may be outside by rounding, up to 1/256; onGrid moves such a position inside.
       if (lo > step || hi < -step) return std::nullopt;
       continue;
     }
@@ -191,7 +194,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
   const double at = std::clamp(0.0, least, most);
   Vector3 place;
   for (size_t k = 0; k < 3; ++k) {
-    // Includes the rounding of the ends.
+    // The interval's ends are rounded, so the point is clamped again.
     const double lo = -kMostOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMostOutside) * step;
     place[k] = std::clamp(units[k] + at * along[k], lo, hi);
   }

@@ -2,8 +2,9 @@
 // The tangent planes of the surface of one level, and the creases in which two of them meet.
 //
 // If the normals of two vertices differ, their tangent planes meet in a CREASE. If a grid edge passes through a crease,
-// linear interpolation between the values at its ends misses the surface: the vertex slides along its edge to the place
-// where the field changes sign, which depends on that edge alone.
+// linear interpolation between the values at the edge's ends gives a point off the surface. Such a vertex slides along
+// its edge to the point where the field changes sign. That point depends on the edge alone, so that all cells and
+// chunks around the edge agree.
 
 #include <array>
 #include <cstdint>
@@ -22,24 +23,26 @@ namespace sgm {
 /// The field at a point.
 struct FieldSample {
   float value = 0;  ///< units
-  int32_t q = 0;    ///< the value as quantised by meshing
+  int32_t q = 0;    ///< value, quantised as for ChunkSamples::q
   std::array<float, 3> gradient{};
-  int16_t normal_x = 0, normal_y = 0;  ///< the gradient as a packed normal
+  int16_t normal_x = 0, normal_y = 0;  ///< the gradient, packed as a vertex normal
 };
 
+/// Selects what a FieldSampler computes: values alone, or gradients as well.
 enum class Sampled { value, all };
 
-/// Samples the field of one level at points in units, many points per call; `value` computes no gradients.
+/// Samples the field of one level at points in units; `samples` receives one entry per point. Callers pass many points
+/// per call.
 using FieldSampler = std::function<void(std::span<const Int3> points, std::span<FieldSample> samples, Sampled what)>;
 
 /// The plane tangent to the surface near a vertex: normal . (x - point) = distance.
 struct Tangent {
   Int3 point;
-  Vector3 normal{};  ///< of length one; 0 if the field has no gradient
+  Vector3 normal{};  ///< of length 1; 0 if the field has no gradient there
   double distance = 0;
 };
 
-/// The normal is 0 if the field has no gradient.
+/// Returns the tangent plane at a point, from the field's sample there. The normal is 0 if the field has no gradient.
 Tangent tangentAt(const Int3& point, const FieldSample& sample);
 
 /// The vector from one point to another, exact.
@@ -54,24 +57,25 @@ inline Vector3 unitsOf(const Int3& place, int32_t cell) {
   return {place.x * step, place.y * step, place.z * step};
 }
 
-/// A point in a face: along u = (axis + 1) % 3 and v = (axis + 2) % 3 from the face's corner, in units.
+/// A point in a face, relative to the face's lowest corner: its distances along u = (axis + 1) % 3 and v = (axis + 2) %
+/// 3, in units.
 using FacePoint = std::array<double, 2>;
 
-/// The tangents of a part's vertices, which all lie on edges of the grid. Throws std::bad_alloc.
+/// The tangent planes of a part's vertices, all of which must lie on edges of the grid. Throws std::bad_alloc.
 class Creases {
  public:
   /// Borrows all arguments.
   Creases(const ChunkGrid& grid, const FieldSampler& field, MeshPart& part, std::pmr::memory_resource* memory);
 
-  /// Finds the tangents of all vertices, and slides them. Call once.
+  /// Computes the tangents of all vertices, and slides vertices near a crease along their edges. Call once.
   void settle();
   const Tangent& tangent(uint32_t vertex) const { return tangents_[vertex]; }
 
-  /// True if the normals of two settled vertices differ enough for a feature between them, and neither vertex lies on
-  /// the crease itself.
+  /// True if the normals of two settled vertices differ enough for a feature vertex between them, and neither of the
+  /// two lies on the crease itself.
   bool isSharp(uint32_t a, uint32_t b) const;
 
-  /// True if the normals of two settled vertices differ that much, wherever the crease lies.
+  /// Same as isSharp, except that the vertices may lie on the crease.
   bool differ(uint32_t a, uint32_t b) const;
 
   /// The point on the crease of two planes that is nearest to `start`; both in units from `corner`.
@@ -84,23 +88,25 @@ class Creases {
   /// ill-conditioned.
   static std::optional<FacePoint> meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis);
 
-  /// Rounds a point in units from a corner of the grid to 1/256 of a cell; nullopt if it lies more than kMostOutside
-  /// beyond the corner's cell, or beyond its face across `across`. A point beyond the chunk is moved to 1/256 within
-  /// it.
+  /// Rounds a point, in units from a corner of the grid, to 1/256 of a cell. nullopt if the point lies more than
+  /// kMostOutside beyond the corner's cell or, along the axis `across` (-1: none), more than kMostOutside from the
+  /// cell's low face. A point beyond the chunk is moved to 1/256 of a cell inside it.
   std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
-  /// Same as onGrid, for the point on the two planes' crease that is nearest to `units` and not too far beyond.
+  /// Same as onGrid, for the point on the crease of the two planes that is nearest to `units` and within the allowed
+  /// range.
   std::optional<Int3> onGridAlong(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& units,
                                   int across) const;
-  /// The point at which the field is sampled for such a place.
+  /// The point, in whole units, at which the field is sampled for a position `place` that onGrid returned.
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
-  /// In units: the tolerance for a point on the surface, one unit of which allows for sampling at whole units.
+  /// The tolerance, in units, for points on the surface. It includes one unit because the field is sampled at whole
+  /// units.
   double mostOffSurface() const;
   bool isOnSurface(const FieldSample& sample) const;
   /// The vector from a corner to a vertex of the part, in units.
   Vector3 unitsFrom(const Int3& corner, uint32_t vertex) const;
 
  private:
-  /// The allowed coordinates along an axis.
+  /// The range of allowed coordinates along an axis, in 1/256 of a cell.
   struct Range {
     int32_t least, most;
   };
@@ -115,8 +121,8 @@ class Creases {
   const FieldSampler& field_;
   MeshPart& part_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<Tangent> tangents_;  ///< by vertex
-  std::pmr::vector<Vector3> normals_;   ///< of the samples, rounded as packed; by vertex
+  std::pmr::vector<Tangent> tangents_;  ///< one per vertex
+  std::pmr::vector<Vector3> normals_;   ///< one per vertex: the normals of the samples, as rounded by packing
 };
 
 }  // namespace sgm

@@ -3,8 +3,8 @@
 namespace sgm {
 namespace {
 
-/// For a cell's face: the part of twice its area, times the normals of its vertices, by which a sliver may face inward
-/// because its corners are rounded.
+/// A sliver may face inward because its corners are rounded: by at most this value, times the square of a cell's edge,
+/// in the dot product of twice its area vector with the sum of its vertices' normals.
 constexpr double kFold = 0.02;
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace sgm {
 
-/// True if all triangles except slivers, and their sum, face out of the solid, according to the tangents of their
-/// vertices: a triangle that joins only features may face any way. creases: settled, of the part that the triangles'
-/// names refer to.
+/// True if each triangle except slivers, and the sum of all, faces out of the solid according to the tangents at its
+/// vertices. Triangles whose corners are all feature vertices are exempt, because features have no tangent. creases:
+/// settled, of the part whose vertices the triangles name.
 bool facesOut(const LoopTriangles& triangles, const Creases& creases);
 
 }  // namespace sgm

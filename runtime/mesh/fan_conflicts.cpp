@@ -12,10 +12,10 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// True if a fan, seen along some direction, goes around its centre once, always in the same direction: then no two of
-/// its triangles overlap. Most fans around a cell vertex satisfy this.
+/// True if a direction exists along which the fan, in projection, goes around its centre once and never turns back:
+/// then no two of its triangles overlap. Most fans around a cell vertex satisfy this.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
-  // A fan around one of its own corners does not go around it.
+  // If the centre is one of the ring's own points, the fan does not go around it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
   for (size_t i = 1; i < fan.size(); ++i)
     if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;
@@ -30,7 +30,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
     areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
   }
   for (const Int3& d : kDirections) {
-    // Seen along d, a line through the centre: its points have across . (p - centre) = 0.
+    // The line through the centre to which points are compared, in the projection along d: across . (p - centre) = 0.
     const Int3 across = d.x != 0 && d.y != 0 ? Int3{d.y, -d.x, 0}
                         : d.x != 0           ? Int3{0, 1, 0}
                         : d.y != 0           ? Int3{0, 0, 1}
@@ -52,7 +52,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
   return false;
 }
 
-/// The boxes of the features of loops, and the pairs of loops that may intersect.
+/// The bounding boxes of the features of loops; finds pairs of loops that may intersect.
 class Neighbours {
  public:
   Neighbours(const SharpLoops& sharp, std::pmr::memory_resource* memory)
@@ -64,13 +64,13 @@ class Neighbours {
     }
   }
 
-  /// The index of a body's loop in the sharp ones; kNone if it is not sharp.
+  /// Returns the index in sharp_.loops of a loop of the body; kNone if the loop is not sharp.
   uint32_t placeOf(uint32_t loop) const { return place_[loop]; }
 
   /// Call after the centre of a sharp loop has changed.
   void update(uint32_t place) { features_[place] = featuresOf(sharp_.loops[place]); }
 
-  /// Calls visit(number) for all other loops that may intersect a loop.
+  /// Calls visit(number) for all other loops of the body that may intersect the given one.
   template <class Visit>
   void visit(uint32_t loop, const Visit& visit) const {
     const PlaceBox own = boxOf(loop);
@@ -82,8 +82,9 @@ class Neighbours {
     visitCells(loop, own, lo, hi, visit);
   }
 
-  /// Same as visit, but without fans that extend out of their cells, if the loop's own features do not. Such fans meet
-  /// only those of the same cell and of cells that share a face with it.
+  /// Same as visit. But if the features of the loop lie inside its cell, visits only loops of its own cell and of cells
+  /// that share a face with it. Other loops can meet it only if their fans extend out of their cells; those pairs are
+  /// found from the other loop.
   template <class Visit>
   void visitFromInside(uint32_t loop, const Visit& visit) const {
     if (!isInside(loop)) return this->visit(loop, visit);
@@ -98,7 +99,7 @@ class Neighbours {
       }
     }
   }
-  /// True if visitFromInside(loop) visits another loop that may intersect it.
+  /// True if visitFromInside(loop) visits `other`, which may intersect it.
   bool visitsFromInside(uint32_t loop, uint32_t other) const {
     const Int3 &at = body_.all()[loop].cell, &beside = body_.all()[other].cell;
     return std::abs(at.x - beside.x) + std::abs(at.y - beside.y) + std::abs(at.z - beside.z) <= 1 || !isInside(loop);
@@ -106,7 +107,8 @@ class Neighbours {
 
  private:
   struct Boxes {
-    PlaceBox all, off_squares;  ///< off_squares: without face vertices inside their side's square
+    /// `all`: of all features; `off_squares`: without the face vertices within their side's square
+    PlaceBox all, off_squares;
   };
 
   template <class Visit>
@@ -116,8 +118,8 @@ class Neighbours {
     });
   }
 
-  /// True if all features of a sharp loop lie in its cell, which is not at the chunk's border, and only face vertices
-  /// within squares lie on its faces.
+  /// True if the cell of a sharp loop is not at the chunk's border, all of the loop's features lie in the cell, and the
+  /// only features on the cell's faces are face vertices within their squares.
   bool isInside(uint32_t loop) const {
     const Int3& cell = body_.all()[loop].cell;
     const Boxes& boxes = features_[place_[loop]];
@@ -189,11 +191,11 @@ class Neighbours {
 
   const SharpLoops& sharp_;
   const BodyLoops& body_;
-  std::pmr::vector<uint32_t> place_;  ///< index in sharp_.loops, by loop of the body
-  std::pmr::vector<Boxes> features_;  ///< by sharp loop, in 1/256 of a cell from the chunk's origin
+  std::pmr::vector<uint32_t> place_;  ///< index in sharp_.loops by loop of the body
+  std::pmr::vector<Boxes> features_;  ///< one entry per sharp loop, in 1/256 of a cell from the chunk's origin
 };
 
-/// The current triangles of loops, computed on request.
+/// Caches the current triangles of loops; computes them when they are first requested.
 class PresentTriangles {
  public:
   PresentTriangles(const SharpLoops& sharp, const Neighbours& neighbours, std::pmr::memory_resource* memory)
@@ -211,7 +213,7 @@ class PresentTriangles {
     make(b);
     return sgm::anyMeets(of(a), of(b));
   }
-  /// Call after the loop has changed.
+  /// Drops the cached triangles of a loop. Call after the loop has changed.
   void forget(const SharpLoop& loop) {
     at_[loop.loop].count = 0;
     for (const uint32_t s : loop.sides) {
@@ -222,9 +224,9 @@ class PresentTriangles {
   }
 
  private:
-  static constexpr size_t kUsual = 8;  ///< triangles of a sharp loop, usually
+  static constexpr size_t kUsual = 8;  ///< usual number of triangles of a sharp loop, for the size of the cache
 
-  /// The triangles of one loop, in triangles_ and boxes_; 0 if not yet computed.
+  /// The range of one loop's triangles in triangles_ and boxes_; 0 if they are not computed yet.
   struct Range {
     uint32_t begin = 0, count = 0;
     PlaceBox box;
@@ -251,12 +253,12 @@ class PresentTriangles {
 
   const SharpLoops& sharp_;
   const Neighbours& neighbours_;
-  std::pmr::vector<Range> at_;  ///< by loop
+  std::pmr::vector<Range> at_;  ///< one range per loop
   std::pmr::vector<NamedTriangle> triangles_;
-  std::pmr::vector<PlaceBox> boxes_;  ///< of triangles_
+  std::pmr::vector<PlaceBox> boxes_;  ///< bounding boxes of triangles_, parallel to them
 };
 
-/// How far the centre of a fan lies outside its cell; negative inside.
+/// Returns how far the centre of a fan lies outside its cell, in 1/256 of a cell; negative if inside.
 int32_t outsideOf(const SharpLoops& sharp, const SharpLoop& loop) {
   if (!loop.isFan()) return 0;
   const Int3& cell = sharp.of(loop).cell;
@@ -291,10 +293,11 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       return s != kNone && !sharp.sides[s].places.empty() && !sharp.hasFaceVertices(sharp.sides[s]);
     });
   };
-  // Indices of sharp loops; and for each the times of its last test and change, counted in tests.
+  // dirty: indices of sharp loops to be tested. The times of each loop's last test and last change count tests.
   std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
   std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
-  std::pmr::vector<uint64_t> order(memory);  // of the dirty ones, in the bits below their rank
+  // order in which dirty loops are tested: the rank in the high bits, the index in the low bits
+  std::pmr::vector<uint64_t> order(memory);
   uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
   const auto visitSharing = [&](const SharpLoop& loop, const auto& visit) {
@@ -305,7 +308,8 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
     }
   };
   while (!dirty.empty()) {
-    // At a corner of the solid it is the centre of many loops: the loop whose cell contains it shall keep it.
+    // At a corner of the solid, one point is the centre of many loops' fans: the loop whose cell contains it shall keep
+    // it, so it is tested last.
     order.clear();
     for (const uint32_t number : dirty) {
       const auto rank = static_cast<uint32_t>(kMostOutside - outsideOf(sharp, sharp.loops[number]));
@@ -318,12 +322,12 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
-      // With all of its face vertices the fan is sound; some may be lost now.
+      // A fan was sound with all of its face vertices, but other loops may have removed some of them.
       bool faulty = lacksVertex(loop) && !isSound(sharp.trianglesOf(loop));
       neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
         const uint32_t place = neighbours.placeOf(other);
-        // The pair was tested, and neither has changed since.
+        // If the pair was tested and neither loop has changed since, the result is known.
         const bool is_known = place != kNone && sharp.loops[place].isFan() && tested_at[place] > changed_at[place] &&
                               tested_at[place] > changed_at[number] && neighbours.visitsFromInside(other, loop.loop);
         if (!is_known) faulty = present.anyMeets(loop.loop, other);
@@ -336,7 +340,8 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       visitSharing(loop, [&](uint32_t other) { changed_at[other] = now; });
       changed.push_back(number);
     }
-    // A changed loop, and the loops that lost a face vertex because of it, are adjacent to others.
+    // A changed loop, and loops that lost a face vertex because of it, may now intersect adjacent loops, which are
+    // tested again.
     dirty.clear();
     const auto spread = [&](uint32_t number) {
       dirty.push_back(number);

@@ -7,13 +7,14 @@
 
 namespace sgm {
 
-/// True if a fan has no triangles, one without area, or two that intersect other than in their common corners and
-/// edges.
+/// True if a fan is empty, or has a triangle without area, or has two triangles that intersect beyond their common
+/// corners and edges.
 bool hasFault(const LoopTriangles& fan);
 
-/// While a loop's fan intersects a triangle of another loop, the loop gets another centre, or is rounded. Loops that
-/// are not sharp keep their triangles. isSound: whether a fan that has lost face vertices may stay. takeNextCentre:
-/// gives a loop the next centre that makes a sound fan; false if no centre is left. Throws std::bad_alloc.
+/// While a loop's fan intersects a triangle of another loop, gives the loop another centre or, if none is left, rounds
+/// it (mesh/sharp_loops.h). Loops that are not sharp keep their triangles. isSound: returns whether a fan may stay
+/// although it has lost face vertices. takeNextCentre: gives a loop the next centre whose fan is sound; returns false
+/// if no centre is left. Throws std::bad_alloc.
 void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTriangles&)>& isSound,
                      const std::function<bool(SharpLoop&)>& takeNextCentre, std::pmr::memory_resource* memory);
 

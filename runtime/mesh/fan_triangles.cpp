@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-/// All face vertices and vertices of a loop, and the centre.
+/// The maximum number of points of a fan: the vertices and face vertices of a loop, and the centre.
 constexpr size_t kMostPoints = LoopTriangles::kMost + 1;
 
 struct Area {
@@ -27,7 +27,7 @@ void add(const FanPoint& a, const FanPoint& b, const FanPoint& c, LoopTriangles&
   triangles.add({a.at, b.at, c.at}, {a.name, b.name, c.name});
 }
 
-/// A polygon that is approximately planar, whose first corner is the centre.
+/// A patch of a fan: an approximately planar polygon whose first corner is the centre.
 class Patch {
  public:
   explicit Patch(const FanPoint& centre) : corners_{centre}, count_(1) {}
@@ -36,8 +36,8 @@ class Patch {
   size_t count() const { return count_; }
   const FanPoint& corner(size_t i) const { return corners_[i]; }
 
-  /// Triangulates as a fan around the centre, or with other diagonals. Returns false if every division of the patch has
-  /// a diagonal that is not free.
+  /// Triangulates as a fan around the centre or, if that folds, with other diagonals. Returns false if every
+  /// triangulation of the patch has a diagonal that is not free.
   bool triangulate(const IsFree& is_free, LoopTriangles& triangles) const {
     const bool may_be_fan = hasFreeSpokes(is_free);
     if ((may_be_fan && isFan(normal())) || !triangulateFlat(is_free, triangles)) {
@@ -47,7 +47,7 @@ class Patch {
     return true;
   }
 
-  /// Triangulates so that all triangles face one way. Returns false if no choice of diagonals does.
+  /// Triangulates so that all triangles face one way. Returns false if no choice of diagonals achieves that.
   bool triangulateFlat(const IsFree& is_free, LoopTriangles& triangles) const {
     std::array<std::array<uint8_t, kMostPoints>, kMostPoints> apexes;
     if (!findDiagonals(is_free, normal(), apexes)) return false;
@@ -85,8 +85,8 @@ class Patch {
     return true;
   }
 
-  /// apexes[i][j]: of the chord from corner i to j. Returns false if every choice has a triangle that faces the other
-  /// way.
+  /// Finds the diagonals by dynamic programming. apexes[i][j] becomes the apex of the triangle over the chord from
+  /// corner i to j. Returns false if every triangulation has a triangle that faces away from `out`.
   bool findDiagonals(const IsFree& is_free, const Area& out,
                      std::array<std::array<uint8_t, kMostPoints>, kMostPoints>& apexes) const {
     constexpr int64_t kNoTriangles = 0;
@@ -138,7 +138,7 @@ LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, c
     const FanPoint& point = ring[(start + i) % ring.size()];
     if (cuts_off) cut_off.add(point);
     is_empty = is_empty && point.is_feature;
-    // The walk ends at the first face vertex, which is already in the rest.
+    // A closed walk ends at the face vertex where it began, which `rest` already contains.
     if ((!cuts_off || point.is_feature) && i < ring.size()) rest.add(point);
     if (!point.is_feature) continue;
     if (!cuts_off && is_empty) return {};
@@ -156,11 +156,11 @@ LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> r
   const auto features = std::count_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
   if (is_closed && features < 2) return coneTriangles(centre, ring, is_closed);
   LoopTriangles triangles;
-  // A closed ring is walked from its first face vertex around to the same one.
+  // A closed ring is walked from its first face vertex once around, back to the same one.
   const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
   const size_t start = is_closed ? static_cast<size_t>(first - ring.begin()) : 0;
   const size_t count = ring.size() + (is_closed ? 1 : 0);
-  // Of two patches with the same two face vertices, only one may join them.
+  // Two patches may have the same two face vertices; only one of them may have the diagonal between these.
   std::array<uint32_t, 2> joined{centre.name, centre.name};
   const IsFree is_left = [&](uint32_t a, uint32_t b) { return !(a == joined[1] && b == joined[0]) && is_free(a, b); };
   Patch patch(centre);

@@ -2,10 +2,10 @@
 // The encoding of a feature vertex in Vertex::kind, so that its key follows from the kind and the position alone.
 //
 //   bit 15     1: a feature vertex
-//   bit 14     0: of a side in a face, 1: of a loop in a cell
+// bit 14     0: a face vertex, 1: a cell vertex
 //   bit 13     0: of the chunk's own level, 1: of the level above, only in seams
-//   bits 6-11  of a face: bits 6 and 7 its normal axis, 8 to 11 VertexKey::fan; of a cell: 6 to 9 its fan
-//   bits 0-5   two bits per axis: 1 + the offset of the vertex from the corner in cells of its level, rounded down
+// bits 6-11  face vertex: bits 6 and 7 the face's normal axis, 8 to 11 VertexKey::fan; cell vertex: 6 to 9 the fan
+// bits 0-5   two bits per axis: 1 + floor((vertex - key's corner) / cell), in cells of the vertex's level
 
 #include "mesh/chunk.h"
 
@@ -15,12 +15,13 @@ inline constexpr uint16_t kFeature = 1 << 15, kFeatureOfCell = 1 << 14, kFeature
 
 constexpr bool isFeature(uint16_t kind) { return (kind & kFeature) != 0; }
 
-/// True if the vertex's attributes come from the field of the level above its chunk's.
+/// True if the vertex takes its attributes from the field of the level above that of its chunk.
 constexpr bool isOfCoarserLevel(uint16_t kind) {
   return isFeature(kind) ? (kind & kFeatureOfCoarser) != 0 : kind == kCoarserEdge;
 }
 
-/// place: relative to the key's corner, in 1/256 of its level's cell, -256..512.
+/// Encodes a feature vertex. place: its position relative to the key's corner, in 1/256 of a cell of the key's level,
+/// -256..512.
 constexpr uint16_t featureKind(const VertexKey& key, const Int3& place, int chunk_level) {
   uint32_t kind = kFeature;
   if (key.axis == kCellVertex) {

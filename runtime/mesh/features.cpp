@@ -26,7 +26,7 @@ SharpLoops Features::find() && {
   return std::move(sharp_);
 }
 
-/// True if a crease passes through a loop without a sharp side, along vertices that lie on it.
+/// True if a crease passes through a loop that has no sharp side, along vertices that lie on the crease.
 bool Features::passesVertices(const SurfaceLoop& loop) const {
   const auto next = [&](uint32_t i) { return loop.vertices[(i + 1) % loop.count]; };
   bool any = false;
@@ -44,7 +44,7 @@ void Features::findSides() {
     if (keys[b] < keys[a]) std::swap(a, b);
     return uint64_t{a} << 32 | b;
   };
-  std::pmr::vector<uint64_t> names(memory_);  // of sides, by their ends
+  std::pmr::vector<uint64_t> names(memory_);  // names of sides: their two ends, packed
   for (uint32_t number = 0; number < body_.all().size(); ++number) {
     const SurfaceLoop& loop = body_.all()[number];
     const size_t before = names.size();
@@ -72,7 +72,7 @@ void Features::findSides() {
       if (!creases_.isSharp(a, b)) continue;
       sharp.sides[i] =
           static_cast<uint32_t>(std::lower_bound(names.begin(), names.end(), nameOf(a, b)) - names.begin());
-      // The cell on the high side of the face has its lowest corner in the face's plane.
+      // The cell on the high side of a face has its lowest corner in the plane of the face.
       SharpSide& side = sharp_.sides[sharp.sides[i]];
       const bool is_high = body_.cornerOf(loop.cell)[side.axis] == side.corner[side.axis];
       side.loops[is_high ? 1 : 0] = number;
@@ -136,7 +136,7 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   }
   add(plus(middle, axes.step(2)));
   if (feature_count == 1) {
-    // A crease may end in a vertex, which lies on it.
+    // A crease may end in a vertex that lies on it; then the loop has only one face vertex.
     const uint32_t only = *std::find_if(sharp.sides.begin(), sharp.sides.end(),
                                         [&](uint32_t s) { return s != kNone && !sharp_.sides[s].places.empty(); });
     const SharpSide& side = sharp_.sides[only];
@@ -152,8 +152,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   return centres;
 }
 
-/// Gives each loop the first candidate centre that makes a sound fan, with one field sampling for all candidates of one
-/// rank; strips sample by themselves.
+/// Gives each loop the first candidate centre that makes a sound fan. All candidates of one rank share one sampling of
+/// the field; strips sample separately.
 void Features::placeCellVertices() {
   std::pmr::vector<uint32_t> without(sharp_.loops.size(), memory_), left(memory_);
   std::iota(without.begin(), without.end(), 0);
@@ -179,7 +179,7 @@ void Features::placeCellVertices() {
   }
 }
 
-/// Changes the fan of a loop: the same centre with other diagonals, or the next centre.
+/// Changes the fan of a loop that intersects another: keeps the centre with other diagonals, or takes the next centre.
 bool Features::takeNextCentre(SharpLoop& sharp) const {
   if (sharp.isFan() && !sharp.by_patches && takeAs(sharp.centre, true, sharp)) return true;
   while (const std::optional<FanCentre> centre = nextCentre(sharp)) {
@@ -191,7 +191,7 @@ bool Features::takeNextCentre(SharpLoop& sharp) const {
   return false;
 }
 
-/// The next candidate centre of a loop, which is then marked as tried; nullopt if all were.
+/// Returns the next candidate centre of a loop, and marks it as tried; nullopt if all candidates were tried.
 std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   const Centres centres = centresOf(sharp);
   while (sharp.tried < centres.all().size()) {
@@ -203,15 +203,15 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   return std::nullopt;
 }
 
-/// Makes a loop a fan around a centre if that fan is sound and faces out of the solid.
+/// Makes a loop a fan around a centre, if that fan is sound and faces out of the solid; returns whether it did.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
   if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
-  // Around a face vertex, diagonals to the centre may lie in the face of the chunk.
+  // A centre that is a face vertex always needs patches: its diagonals could lie in the face of the chunk.
   return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
 }
 
-/// Makes a loop a strip if that is sound and the middles of its triangles lie on the surface.
+/// Makes a loop a strip, if that is sound and the middles of its triangles lie on the surface; returns whether it did.
 bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
   if (!facesOut(strip, creases_)) return false;

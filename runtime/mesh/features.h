@@ -1,5 +1,5 @@
 #pragma once
-// Finds the sharp features of a body: the positions of its face and cell vertices (mesh/sharp_loops.h).
+// Finds the sharp features of a body: the positions of its face vertices and cell vertices (mesh/sharp_loops.h).
 
 #include <array>
 #include <memory_resource>
@@ -10,10 +10,11 @@
 
 namespace sgm {
 
-/// Its functions throw std::bad_alloc.
+/// Computes the sharp loops of one body. Member functions throw std::bad_alloc.
 class Features {
  public:
-  /// Borrows all arguments. creases: of all vertices of the body, settled. border: borderSides of the body.
+  /// Borrows all arguments. creases: settled, with the tangents of all vertices of the body. border: result of
+  /// borderSides for the body.
   Features(const BodyLoops& body, const Creases& creases, std::span<const SharpSide> border, const FieldSampler& field,
            std::pmr::memory_resource* memory);
 
@@ -23,7 +24,7 @@ class Features {
  private:
   static constexpr uint32_t kNone = SharpLoops::kNone;
 
-  /// Candidate centres of one fan.
+  /// Candidate centres for the fan of one loop.
   class Centres {
    public:
     void add(const FanCentre& centre) {

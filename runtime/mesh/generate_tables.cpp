@@ -1,5 +1,5 @@
-// Writes the case tables as one C++ source file: generate_tables OUTPUT. It is built for the host; CMake runs it at
-// build time.
+// Usage: generate_tables OUTPUT. Writes the case tables (tables.h) as one C++ source file. It is built for the host;
+// CMake runs it at build time.
 
 #include <cstdio>
 #include <fstream>

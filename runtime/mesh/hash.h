@@ -1,5 +1,5 @@
 #pragma once
-// The content hash of a mesh part: an index-keyed sum that a GPU can compute in any order of addition.
+// The content hash of a mesh part: a sum of words, each mixed with its index, so that a GPU can add them in any order.
 //
 // A vertex is four words (x | y << 16, z | material << 16, normal_x | normal_y << 16, tag | kind << 16), an index
 // is one. Word w at place i, with i = 4 * vertex + word for vertices and 2^31 + n for the n-th index, is mixed to
@@ -33,7 +33,7 @@ inline void addWord(ContentHash& sum, uint32_t word, uint32_t place) {
 /// Fills part.hash from its vertices and indices; keys are not part of the content.
 void hashPart(MeshPart& part);
 
-/// One part with its grid, for a chunk's neighbours and for regions.
+/// A mesh part with the position of its chunk, for functions that take parts of several chunks.
 struct PlacedPart {
   const MeshPart* mesh = nullptr;
   ChunkGrid grid;

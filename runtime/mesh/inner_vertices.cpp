@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
 
-/// The distance of a tangent point from another plane.
+/// Returns the distance of one tangent's point from the other plane.
 double offPlane(const Tangent& plane, const Tangent& other) {
   return std::fabs(dot(plane.normal, between(plane.point, other.point)) - plane.distance);
 }
@@ -40,7 +40,7 @@ class InnerVertices {
     FieldSample sample;
   };
 
-  /// Finds the positions of face vertices without regard to their neighbours.
+  /// Finds each face vertex's ideal position, regardless of its neighbours.
   void findIdeals() {
     ideals_.reserve(sharp_.sides.size());
     for (const SharpSide& side : sharp_.sides) {
@@ -61,7 +61,7 @@ class InnerVertices {
     return Creases::nearestOnCrease(a, b, side.corner, times(plus(from, to), 0.5));
   }
 
-  /// For a loop in which several creases meet, the point nearest to its vertices' planes; in units from `corner`.
+  /// Returns the point nearest to the planes of a loop's vertices, where several creases meet; in units from `corner`.
   Vector3 meetingPoint(const SharpLoop& sharp, const Int3& corner) const {
     const SurfaceLoop& loop = sharp_.of(sharp);
     Vector3 middle{};
@@ -80,8 +80,8 @@ class InnerVertices {
     return plus(middle, PlaneAxes(planes).step(3));
   }
 
-  /// The next point on a side's crease within one of its loops: that of the loop's next side there, or the point in
-  /// which the crease ends. In units from the side's corner.
+  /// Returns the next point on a side's crease within one of its loops: the ideal point of the loop's next side on that
+  /// crease, or the point in which the crease ends. In units from the side's corner.
   Vector3 nextOnCrease(uint32_t own, uint32_t loop) const {
     const SharpSide& side = sharp_.sides[own];
     const auto idealOf = [&](uint32_t other) {
@@ -97,10 +97,10 @@ class InnerVertices {
       along = other;
       ++others_along;
     }
-    // If there is no next point, the side's own point replaces it, so that two sides do not get the same mean.
+    // Without a next point, the side's own point is used, so that two sides do not get the same mean.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
-    // Other creases pass through the loop, too.
+    // If other creases pass through the loop, too, the crease may end where they meet.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 
@@ -130,7 +130,8 @@ class InnerVertices {
     }
   }
 
-  /// Choices for the sides that have none on the surface: a third plane cuts off the crease of their ends' planes.
+  /// Finds positions for sides that have none on the surface, because a third plane cuts off the crease of their ends'
+  /// planes.
   void chooseCutOff() {
     const std::pmr::vector<Choice> tried = std::move(choices_);
     choices_.clear();
@@ -140,7 +141,8 @@ class InnerVertices {
       if (!side.places.empty() || !is_last) continue;
       const Tangent &a = creases_.tangent(side.from), &b = creases_.tangent(side.to);
       const Tangent& third = side.third.emplace(tangentAt(tried[i].point, tried[i].sample));
-      // An end in the third plane lies on a crease of that plane itself, and its normal belongs to no single plane.
+      // If an end lies in the third plane, it lies on the crease of that plane, and its normal belongs to no single
+      // plane.
       std::array<const Tangent*, 2> ends{&a, &b};
       if (offPlane(third, a) < offPlane(third, b)) std::swap(ends[0], ends[1]);
       for (const Tangent* end : ends) choose(tried[i].side, *end, third, nearestOnCrease(*end, third, side));
@@ -151,7 +153,7 @@ class InnerVertices {
   const FieldSampler& field_;
   SharpLoops& sharp_;
   std::pmr::vector<Vector3> ideals_;  ///< by side, in units from its corner
-  std::pmr::vector<Choice> choices_;  ///< side by side, best first
+  std::pmr::vector<Choice> choices_;  ///< positions to try, side by side; best first within a side
   std::pmr::memory_resource* memory_;
 };
 

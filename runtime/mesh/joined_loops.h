@@ -1,5 +1,5 @@
 #pragma once
-// The loops of a body's cells with joined ambiguous faces (mesh/ambiguous_faces.h).
+// The loops of a body's cells after some ambiguous faces are joined (mesh/ambiguous_faces.h).
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Identifies a face by the cell on its high side and its normal axis.
+/// Identifies a face of the grid by its normal axis and the cell on the face's high side.
 struct FaceName {
   Int3 cell;
   int axis = 0;
@@ -51,9 +51,9 @@ struct CellLoop {
   std::array<LoopPoint, kLongestBodyLoop> points;
   int count = 0;
 
-  /// True if it has a triangulation without a diagonal in a face of its cell.
+  /// True if the loop has a triangulation without a diagonal in a face of its cell.
   bool canTriangulate() const;
-  /// Its triangles, three vertices each, stored in `triangles`. Precondition: canTriangulate().
+  /// Returns the loop's triangles, three vertices each. Stores them in `triangles`. Precondition: canTriangulate().
   std::span<const uint32_t> triangulated(Triangles& triangles) const;
 };
 
@@ -74,7 +74,7 @@ class JoinedLoops {
   const BodyLoops& body() const { return body_; }
   /// The face that contains two vertices of a loop; the two must share one.
   FaceName faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const;
-  /// Calls visit(loop, from, to) for every side of a cell's loops as meshed.
+  /// Calls visit(loop, from, to) for every side of a cell's loops before faces are joined.
   template <class Visit>
   void visitSides(const Int3& cell, const Visit& visit) const {
     body_.visitWithin(cell, cell, [&](uint32_t number) {
@@ -98,7 +98,7 @@ class JoinedLoops {
   /// The segment of a loop in one face of a cell.
   struct Side {
     uint32_t from = 0, to = 0;
-    uint32_t face = kNone;  ///< index of the ambiguous face, if it may be joined
+    uint32_t face = kNone;  ///< index of the ambiguous face that the side lies in; kNone if its face is not ambiguous
   };
 
   /// The sides of all loops of a cell, from which the loops are built.

@@ -1,5 +1,5 @@
 #pragma once
-// Vertex keys packed for sorting, each with its index among all sorted vertices.
+// Vertex keys packed for sorting, each with the index of its vertex.
 
 #include <cstdint>
 

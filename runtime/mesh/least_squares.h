@@ -1,6 +1,7 @@
 #pragma once
-// The point nearest to a set of planes: the minimiser of dual contouring's quadratic error function (Ju et al. 2002),
-// by Jacobi's eigenvalue iteration. Doubles with + - * / sqrt alone, so the bits are the same everywhere.
+// The point nearest to a set of planes: the minimiser of the quadratic error function of dual contouring (Ju et al.
+// 2002), by Jacobi's eigenvalue iteration. Uses doubles with + - * / sqrt alone, so that all machines compute the same
+// bits.
 
 #include <array>
 #include <cmath>
@@ -11,7 +12,7 @@
 
 namespace sgm {
 
-/// Sums over planes normal . (x - start) = distance.
+/// Sums over planes normal . (x - start) = distance; they define the quadratic error function.
 struct PlaneSum {
   std::array<Vector3, 3> squares{};  ///< sum of the outer products of the normals
   Vector3 right{};                   ///< sum of normals times distances
@@ -45,8 +46,8 @@ class PlaneAxes {
     for (size_t k = 0; k < 3; ++k) told_[k] = a[k][k];
   }
 
-  /// The step from the sum's start to the nearest point, along the `rank` best-determined directions, but not along
-  /// directions with less than 1/1000 of the first one's eigenvalue.
+  /// Returns the step from the sum's start to the nearest point. Moves only along the `rank` best-determined directions
+  /// (largest eigenvalues), and not along a direction whose eigenvalue is below 1/1000 of the largest.
   Vector3 step(size_t rank) const {
     constexpr double kTold = 1e-3;
     Vector3 step{};
@@ -86,8 +87,8 @@ class PlaneAxes {
   std::array<size_t, 3> order_{0, 1, 2};
 };
 
-/// The shortest step that meets two planes normal . step = distance, with normals of length one, or 0 for a missing
-/// plane. For planes that nearly face each other, the step to the middle between them.
+/// Returns the shortest step that meets both planes normal . step = distance. Normals have length 1; a missing plane
+/// has normal 0. If the planes nearly face each other, returns the step to the middle between them.
 inline Vector3 stepToBoth(const Vector3& a, double to_a, const Vector3& b, double to_b) {
   constexpr double kFacing = 1e-3;
   const double cosine = dot(a, b), square = 1 - cosine * cosine;

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of one marching cubes loop, for exact tests.
+// The triangles of one marching cubes loop, as the exact intersection tests use them.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,9 @@
 namespace sgm {
 
 inline constexpr uint32_t kFaceVertices = 1u << 30,
-                          kCellVertices = 1u << 31;  ///< names of feature vertices start there
+                          /// first names (NamedTriangle::name) of face vertices and of cell vertices; smaller names
+                          /// index a part's vertices
+    kCellVertices = 1u << 31;
 
 /// A box of positions in 1/256 of a cell.
 struct PlaceBox {
@@ -31,7 +33,7 @@ struct PlaceBox {
 
 struct NamedTriangle {
   std::array<Int3, 3> at;
-  std::array<uint32_t, 3> name{};  ///< of vertices: equal if the vertices are the same
+  std::array<uint32_t, 3> name{};  ///< names of the corners: equal if the corners are the same vertex
 
   bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
   bool meets(const NamedTriangle& other) const {
@@ -55,7 +57,7 @@ struct NamedTriangle {
 /// The triangles of one loop.
 class LoopTriangles {
  public:
-  /// Per side, a vertex and two face vertices.
+  /// The maximum number of triangles: each side of a loop contributes a vertex and two face vertices to the ring.
   static constexpr size_t kMost = 3 * kLongestBodyLoop;
 
   LoopTriangles() = default;
@@ -74,7 +76,7 @@ class LoopTriangles {
   std::span<NamedTriangle> all() { return {store_.triangles.data(), count_}; }
 
  private:
-  /// Uninitialised at first: most loops have few triangles.
+  /// Uninitialised at first: most loops have few triangles, and initialising all would cost time.
   union Store {
     std::array<NamedTriangle, kMost> triangles;
     Store() {}  // NOLINT(modernize-use-equals-default): that would be deleted
@@ -88,7 +90,7 @@ inline Int3 placeOf(const MeshPart& part, uint32_t v) {
   return {part.vertices[v].x, part.vertices[v].y, part.vertices[v].z};
 }
 
-/// The triangles as meshed.
+/// Returns the triangles that marching cubes made for a loop.
 inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loop) {
   LoopTriangles triangles;
   for (uint32_t i = loop.first_index; i < loop.end_index; i += 3) {
@@ -98,7 +100,7 @@ inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loo
   return triangles;
 }
 
-/// Triangles with a box for each and one around all.
+/// Triangles with a bounding box for each and one around all of them.
 struct BoxedTriangles {
   std::span<const NamedTriangle> triangles;
   std::span<const PlaceBox> boxes;

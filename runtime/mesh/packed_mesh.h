@@ -16,9 +16,10 @@ struct PackedRange {
 };
 
 struct PackedMesh {
-  RawVector<Vertex> vertices;           ///< body first, then the seams by face
-  RawVector<uint32_t> indices;          ///< into vertices, from the array's beginning; three per triangle
-  std::array<PackedRange, 7> ranges{};  ///< body, then seams by Face; empty if absent
+  RawVector<Vertex> vertices;  ///< body first, then the seams by face
+  /// three per triangle; each counts from the beginning of `vertices`, not of its range
+  RawVector<uint32_t> indices;
+  std::array<PackedRange, 7> ranges{};  ///< the body, then the seams by Face; empty if absent
 
   explicit PackedMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : vertices(memory), indices(memory) {}
@@ -29,20 +30,20 @@ struct PackedMesh {
 /// parts[0] is the body, parts[1 + Face] a seam; null or empty if absent.
 using MeshParts = std::array<const MeshPart*, 7>;
 
-/// Concatenates parts. Ranges of `before` that `parts` lacks are copied, so that seams can be added to a mesh: its body
-/// then keeps the same bytes at the same place. Throws std::bad_alloc.
+/// Concatenates parts. Ranges that `before` has and `parts` lacks are copied from `before`. So seams can be added to a
+/// mesh whose body keeps the same bytes at the same place. Throws std::bad_alloc.
 PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory);
 
-/// Packs a body alone; its arrays are moved if they were allocated from `memory`. Throws std::bad_alloc.
+/// Packs a body without seams; moves its arrays if they were allocated from `memory`. Throws std::bad_alloc.
 PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory);
 
-/// Bounds in units that contain every vertex, including seams; all 0 if there is none.
+/// Returns a box in units that contains every vertex, including those of seams; all 0 if there is no vertex.
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices);
 
-/// The tags of the vertices, ascending, without 0.
+/// Returns the different tags of the vertices, ascending, without 0 (no tag).
 std::pmr::vector<uint16_t> tagsOf(std::span<const Vertex> vertices, std::pmr::memory_resource* memory);
 
-/// Same as hashParts of body and seams.
+/// Returns the same hash as hashParts for the body and the seams.
 ContentHash hashOf(const PackedMesh& mesh, const ChunkGrid& grid);
 
 }  // namespace sgm

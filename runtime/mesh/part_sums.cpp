@@ -17,7 +17,7 @@ double areaOf(const PartSums& sums, int32_t cell) {
 }
 
 double fluxOf(const PartSums& sums, int32_t cell, const std::array<double, 3>& origin) {
-  // A step is 1/256 of a cell; all sums of steps are exact in a double, except for extremely full chunks.
+  // Positions are in 1/256 of a cell; the sums are exact in a double, except for extremely full chunks.
   const double step = static_cast<double>(cell) / (kSubcell * kUnitsPerMetre), square = step * step;
   double about_origin = 0;
   for (size_t axis = 0; axis < 3; ++axis)

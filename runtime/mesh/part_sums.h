@@ -9,24 +9,28 @@
 
 namespace sgm {
 
-/// Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
+/// Sums over a part's triangles. Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
 struct PartSums {
   uint32_t triangles = 0;
-  int64_t area = 0;                ///< sum of twice the areas, each in 1/4096 (fixedRoot in triangle_terms.h)
-  std::array<int64_t, 3> cross{};  ///< sum of the cross products: twice the area vector
-  int64_t six_volumes = 0;         ///< six times the flux of x / 3 about the chunk's origin
+  /// sum of twice the triangles' areas, in 1/4096 of a square of 1/256 cell (fixedRoot in triangle_terms.h)
+  int64_t area = 0;
+  std::array<int64_t, 3> cross{};  ///< sum of the cross products of the triangles' sides: twice the area vector
+  /// sum of six times the signed volumes of the tetrahedra between triangles and chunk origin
+  int64_t six_volumes = 0;
 
   friend bool operator==(const PartSums&, const PartSums&) = default;
 };
 
-/// Precondition: indices are below vertices.size(), and positions in the range of triangle_terms.h.
+/// Computes the sums of one part. Precondition: indices are below vertices.size(), and positions in the range of
+/// triangle_terms.h.
 PartSums sumsOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices);
 
-/// Square metres. cell: of the chunk, units.
+/// Converts the area to square metres. cell: the chunk's cell edge, in units.
 double areaOf(const PartSums& sums, int32_t cell);
 
-/// Cubic metres: a third of the flux of x about a point; the chunk's origin is `origin` metres from it. Over a closed
-/// surface these add up to the enclosed volume.
+/// Returns a third of the flux of the position vector, in cubic metres. Over a closed surface these values add up to
+/// the enclosed volume. cell: the chunk's cell edge, in units. origin: the chunk's origin in metres from the point
+/// about which the flux is taken, which must be the same for all parts.
 double fluxOf(const PartSums& sums, int32_t cell, const std::array<double, 3>& origin);
 
 }  // namespace sgm

@@ -8,7 +8,8 @@ namespace sgm {
 
 namespace {
 
-/// The maximum number of other sides of a claim. Each may have its face vertices or lose them, so it doubles the cases.
+/// The maximum number of other sides of a claim (mesh/rounded_cells.h). Each side may have its face vertices or lose
+/// them, which doubles the number of cases to test.
 constexpr size_t kMostOthers = 4;
 
 }  // namespace
@@ -57,7 +58,8 @@ bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
          (part_.keys[a] == claim.to && part_.keys[b] == claim.from);
 }
 
-/// Finds the sides, other than the claims' own, that may have face vertices in a face of the chunk, and their places.
+/// Finds the sides, other than those of the claims, that may have face vertices in a face of the chunk, and places
+/// their vertices.
 void RoundedCells::findOthers() {
   std::pmr::vector<SharpSide> sides(memory_);
   std::pmr::vector<Border> all(memory_);
@@ -112,8 +114,8 @@ bool RoundedCells::keepsClear(const Claim& claim) const {
   return true;
 }
 
-/// The triangles of a loop if its own side and the other sides in `present` have their face vertices. Vertices that are
-/// also in the own side's loop have the names that they have there.
+/// Returns the triangles of a loop if its own side and the others in the mask `present` have their face vertices.
+/// Vertices that also belong to the own side's loop get the names that they have there.
 LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::span<const Border> others,
                                         uint32_t present) const {
   const SurfaceLoop &loop = loops_[number], &own_loop = loops_[own.loop];

@@ -1,6 +1,6 @@
 #pragma once
-// Tests whether rounded loops with a face vertex in a face of the chunk keep clear of other loops: of their own cell,
-// and of adjacent cells if the face vertex lies there.
+// Tests whether rounded loops with a face vertex in a face of the chunk intersect other loops: those of their own cell,
+// and those of adjacent cells if the face vertex lies there.
 
 #include <array>
 #include <functional>
@@ -16,26 +16,26 @@
 
 namespace sgm {
 
-/// Tests sides at the border against the cells beside them, one claim per side and cell. Loops there that have other
-/// sharp sides in faces of the chunk may keep or lose their face vertices: a side must keep clear of them in both
-/// cases.
+/// Tests sharp sides in faces of the chunk. A CLAIM says that the rounded loop of a side, in one of the two cells
+/// beside the side, intersects no other loop. Other loops there that have sharp sides in faces of the chunk may end up
+/// with or without their face vertices, so a claim is tested against both forms.
 class RoundedCells {
  public:
-  /// Gives sides at the border, between vertices with these creases, the places that they have if no rounded loop
-  /// interferes.
+  /// Places the face vertices of the given sides, which lie in faces of the chunk, as if no rounded loop interfered.
+  /// creases: of the vertices that the sides join.
   using PlaceAlone = std::function<void(const Creases& creases, std::span<SharpSide>)>;
 
   /// Borrows all arguments.
   RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
                std::pmr::memory_resource* memory);
 
-  /// Claims that the rounded loop of a side keeps clear in the cell above or below the side's face. Borrows the side.
-  /// from, to: the keys of its ends. q: the field at the cell's corners.
+  /// Adds the claim for the rounded loop of a side in the cell above or below the side's face. Borrows the side. from,
+  /// to: the keys of the side's ends. q: the field at the cell's corners.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
-  /// Adds an adjacent cell to the last claim, at an offset of `steps` cells.
+  /// Adds an adjacent cell to the last claim, `steps` cells away from the claim's cell. q: the field at its corners.
   void addBeside(const Int3& steps, const std::array<int32_t, 8>& q);
 
-  /// Removes the places of the sides whose claims fail. Call once.
+  /// Removes the positions (SharpSide::places) of the sides whose claims fail. Call once.
   void judge();
 
  private:
@@ -43,10 +43,11 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    size_t first, end, end_beside;  ///< the loops of the cell, followed by those of adjacent cells
+    /// range of the loops of the claim's cell, and the end of those of adjacent cells, which follow
+    size_t first, end, end_beside;
     size_t first_other = 0, end_other = 0;
   };
-  /// A sharp side in a face of the chunk: after a vertex of a claim's loop, or the claim's own.
+  /// A sharp side in a face of the chunk, of a claim's loop or of another loop of the claim.
   struct Border {
     size_t loop = 0;
     uint32_t behind = 0;
@@ -64,7 +65,7 @@ class RoundedCells {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<Claim> claims_;
-  std::pmr::vector<Border> others_;  ///< of all claims, in their order
+  std::pmr::vector<Border> others_;  ///< of all claims, in the order of the claims
   Creases creases_;
   std::pmr::memory_resource* memory_;
 };

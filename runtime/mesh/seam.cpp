@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kFineSide = kChunkSamples;
 constexpr size_t kCoarseSide = kCoarseSamples;
 
-/// The fine samples of the face as a plane of sign words (bit a of word b) and strides into q.
+/// Access to the fine samples in the face: sign words (bit a of word b), and strides into q.
 struct FinePlane {
   std::array<uint64_t, kFineSide> signs{};
   size_t origin = 0, step_u = 0, step_v = 0;
@@ -38,6 +38,7 @@ FinePlane planeOfFace(const ChunkSamples& samples, Face face) {
 }
 
 /// Builds one seam; holds the vertex numbers of its edges by owning sample.
+/// Builds one seam. Stores the vertex numbers of edges by the sample at which the edge starts.
 class SeamBuilder {
  public:
   SeamBuilder(Face face, const ChunkGrid& grid, MeshPart& part)
@@ -105,7 +106,8 @@ class SeamBuilder {
   }
 
  private:
-  /// A vertex on the edge that starts at (a, b) in steps of `step` fine cells, t / 256 of a step along it.
+  /// Adds a vertex on the edge that starts at (a, b), counted in steps of `step` fine cells; it lies at t / 256 of the
+  /// edge.
   uint32_t addVertex(size_t a, size_t b, int32_t step, int edge_axis, uint32_t t) {
     Int3 at, corner = grid_.origin;
     at[axis_] = faceIsHigh(face_) ? kChunkCells : 0;
@@ -126,7 +128,7 @@ class SeamBuilder {
     return static_cast<uint32_t>(part_.vertices.size() - 1);
   }
 
-  /// The edges of the seam cell at coarse square (a, b), numbered as in tables.h.
+  /// Returns the vertex on edge e of the seam cell at coarse square (a, b); edges are numbered as in tables.h.
   uint32_t vertexOfEdge(size_t a, size_t b, size_t e) const {
     if (e < 6) return fine_[2 * b + e / 2][2 * a + e % 2][0];
     if (e < 12) return fine_[2 * b + (e - 6) / 3][2 * a + (e - 6) % 3][1];
@@ -139,7 +141,7 @@ class SeamBuilder {
   int axis_, u_, v_;
   const ChunkGrid& grid_;
   MeshPart& part_;
-  // Read only if an edge is crossed, and therefore written before.
+  // Uninitialised: an entry is read only if its edge is crossed, and then it has been written.
   std::array<std::array<std::array<uint32_t, 2>, kFineSide>, kFineSide> fine_;
   std::array<std::array<std::array<uint32_t, 2>, kCoarseSide>, kCoarseSide> coarse_;
   std::array<std::array<uint32_t, kCoarseSide>, kCoarseSide> lateral_;

@@ -28,13 +28,14 @@ inline Int3 coarseFacePoint(const ChunkGrid& grid, Face face, int a, int b) {
 }
 
 /// Replaces part by the seam over one face. Positions are in 1/256 of the fine cell from the fine chunk's origin, as in
-/// a body; vertices on fine edges equal those of the fine chunk's body, and vertices on coarse edges those of the
-/// coarse chunk's, bit-identical in key and world position. Lateral vertices lie on their corner. `coarser` affects
-/// only the fans in the keys of lateral vertices at the face's border: vertices, indices and hash are a pure function
-/// of chunk and face. Canonical order: vertices on fine edges by owning sample (b, then a), u-edge before v-edge; then
-/// those on coarse edges in the same way by coarse sample; then lateral ones by coarse sample. Triangles by seam cell
-/// (b, a), loop (tables.h), then the order of triangulateFlatLoop. Fills x, y, z, kind and keys only, as polygonizeBody
-/// does. The attributes of a vertex come from the field of the level in its key.
+/// a body. Vertices on fine edges are those of the fine chunk's body, and vertices on coarse edges those of the coarse
+/// chunk's body, bit-identical in key and world position. Lateral vertices lie at the corner of the coarse grid that
+/// their edge joins. `coarser` affects only the fans in the keys of lateral vertices at the face's border: vertices,
+/// indices and hash are a pure function of chunk and face. Canonical order of vertices: first those on fine edges by
+/// owning sample (b, then a), u-edge before v-edge; then those on coarse edges in the same way by coarse sample; then
+/// lateral ones by coarse sample. Canonical order of triangles: by seam cell (b, a), then by loop (tables.h), then as
+/// triangulateFlatLoop outputs them. Fills x, y, z, kind and keys only, as polygonizeBody does; the caller evaluates
+/// the attributes of a vertex in the field of the level in its key.
 void polygonizeSeam(Face face, const ChunkSamples& fine, const CoarseFace& coarse, const ChunkGrid& grid,
                     Neighbourhood coarser, MeshPart& part);
 

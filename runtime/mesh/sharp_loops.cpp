@@ -76,8 +76,8 @@ std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
 
 namespace {
 
-/// True if no loop of the cell beside a loop's can have the same diagonal between two points of the ring: a diagonal in
-/// the common face between points of both.
+/// True if no loop of an adjacent cell can have the same diagonal between two points of the ring. It could only if both
+/// points lie in the face common to the cells.
 bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32_t b) {
   if (a >= kCellVertices || b >= kCellVertices) return true;
   const RawVector<VertexKey>& keys = sharp.body.part().keys;
@@ -85,7 +85,7 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
     return name < kFaceVertices ? nullptr : &sharp.sides[SharpLoops::sideOf(name - kFaceVertices)];
   };
   const SharpSide *const of_a = sideOf(a), *const of_b = sideOf(b);
-  // The ends of its side represent a face vertex.
+  // A face vertex lies in the same face as the two ends of its side, which are tested instead.
   const std::array<uint32_t, 4> ends{of_a ? of_a->from : a, of_a ? of_a->to : a, of_b ? of_b->from : b,
                                      of_b ? of_b->to : b};
   const int axis = of_a ? of_a->axis : of_b ? of_b->axis : sharedFace(keys[a], keys[b]);
@@ -95,7 +95,7 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
     if (keys[v].axis == axis || keys[v].corner[axis] != plane) return true;
   Int3 beside = loop.cell;
   beside[axis] += plane == sharp.body.cornerOf(loop.cell)[axis] ? -1 : 1;
-  // Nothing is known beyond the chunk.
+  // The loops beyond the chunk are unknown: they might have the diagonal.
   if (beside[axis] < 0 || beside[axis] >= kChunkCells) return false;
   bool is_free = true;
   sharp.body.visitWithin(beside, beside, [&](uint32_t number) {
@@ -107,13 +107,13 @@ bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32
   return is_free;
 }
 
-/// The vertices and face vertices of a loop, in its order; with room to walk it twice.
+/// The vertices and face vertices of a loop in its order; has capacity to walk them twice.
 struct Ring {
   std::array<FanPoint, 2 * LoopTriangles::kMost> points;
   size_t count = 0;
 };
 
-/// has(side): true if a side that can have face vertices has them.
+/// Builds the ring of a loop. has(side): returns true if a side that can have face vertices has them.
 template <class Has>
 Ring ringOf(const SharpLoops& sharp, const SharpLoop& own, const Has& has) {
   Ring ring;
@@ -145,7 +145,7 @@ LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const 
   }
   size_t start = 0;
   if (!is_closed) {
-    // Starts after the centre, which is a point of the ring.
+    // If the centre is a point of the ring, the ring starts behind it.
     while (ring.points[start++].name != middle.name) continue;
     std::copy_n(ring.points.begin(), start, ring.points.begin() + static_cast<std::ptrdiff_t>(ring.count));
   }

@@ -78,16 +78,18 @@ struct SharpSide {
   }
 };
 
-/// The side of a cell between two vertices of the part with these keys. Its other members have default values.
+/// Returns the side between two vertices, given by indices into keys. Fills from, to, corner and axis; the other
+/// members keep their defaults.
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
 
 /// True if a side is in a face of the chunk.
 bool isAtBorder(const ChunkGrid& grid, const SharpSide& side);
 
-/// The position of a side's place, in 1/256 of a cell from the chunk's origin.
+/// Converts a position relative to the side's corner to one relative to the chunk's origin; both in 1/256 of a cell.
 Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place);
 
-/// The key of a side's face vertex. from: the key of side.from. which: 0, or 1 for a second one.
+/// Returns the key of a side's face vertex. from: the key of the vertex side.from. which: 0, or 1 for the second face
+/// vertex of the side.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
 
 /// A face vertex in a face of the chunk.
@@ -96,19 +98,19 @@ struct BorderVertex {
   int axis = 0;  ///< the normal axis of the face
 };
 
-/// The centre of a rounded loop with such face vertices, strictly within its cell: the mean of all its vertices, but
-/// close to the face if the face vertex lies beyond the cell, so that nothing else lies between the fan and the face.
-/// All positions are in 1/256 of a cell from one origin.
+/// Returns the centre of a rounded loop with face vertices in a face of the chunk, strictly within its cell. It is the
+/// mean of the loop's vertices; but if a face vertex lies beyond the cell's square, it is 1/256 of a cell from the
+/// face, so that nothing else lies between the fan and the face. All positions are in 1/256 of a cell from one origin.
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
 
-/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border. Alternatively the loop is
-/// a strip without a centre, with creases that do not meet (stripTriangles).
+/// The centre of a fan: a cell vertex, or one of the loop's own face vertices in the chunk's face. The strip kinds have
+/// no centre: creases pass through the loop without meeting (stripTriangles).
 struct FanCentre {
   enum class Kind : uint8_t { cell_vertex, face_vertex, strip, strip_from_second };
 
-  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; of a strip, within the cell
+  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; for a strip, any point within the cell
   Kind kind = Kind::cell_vertex;
-  uint32_t face_vertex = SharpSide::kNone;  ///< its index, for the kind face_vertex
+  uint32_t face_vertex = SharpSide::kNone;  ///< index of the face vertex (faceVertexOf), for the kind face_vertex
 
   bool isStrip() const { return kind == Kind::strip || kind == Kind::strip_from_second; }
   friend bool operator==(const FanCentre&, const FanCentre&) = default;
@@ -119,20 +121,21 @@ struct SharpLoop {
   enum class Shape : uint8_t {
     plain,    ///< its own triangles, or a fan that keeps the face vertices at the chunk's border
     fan,      ///< around its centre, with all of its face vertices
-    rounded,  ///< as plain, although a fan's centre lies on the surface: no fan would be valid
+    rounded,  ///< triangles as plain, although the centre of a fan lies on the surface: no fan would be valid
   };
 
-  uint32_t loop = 0;                               ///< of the body
-  std::array<uint32_t, kLongestBodyLoop> sides{};  ///< indices of the sides after its vertices; kNone if not sharp
+  uint32_t loop = 0;  ///< index of the loop in the body
+  /// index of the side after each vertex of the loop; kNone if that side is not sharp
+  std::array<uint32_t, kLongestBodyLoop> sides{};
   Shape shape = Shape::plain;
-  FanCentre centre;         ///< of a fan
+  FanCentre centre;         ///< the centre, if the shape is fan
   bool by_patches = false;  ///< true if a fan may have diagonals that do not end at its centre
-  uint8_t tried = 0;        ///< the number of possible centres that were tried
+  uint8_t tried = 0;        ///< number of centres tried so far
 
   bool isFan() const { return shape == Shape::fan; }
 };
 
-/// All sharp loops of a body, in its order, and their sorted sides.
+/// All sharp loops of a body, in the order of the body's loops, and their sorted sides.
 struct SharpLoops {
   static constexpr uint32_t kNone = SharpSide::kNone;
 
@@ -144,19 +147,19 @@ struct SharpLoops {
       : body(of_body), sides(memory), loops(memory) {}
 
   const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
-  /// The index of a side's face vertex, and the side of an index.
+  /// Converts between a side with the number of its face vertex (`which`, 0 or 1) and the index of that face vertex.
   static uint32_t faceVertexOf(uint32_t side, size_t which) {
     return side * static_cast<uint32_t>(FacePlaces::kMost) + static_cast<uint32_t>(which);
   }
   static uint32_t sideOf(uint32_t face_vertex) { return face_vertex / static_cast<uint32_t>(FacePlaces::kMost); }
-  /// True if the side has its face vertices in the current state of its loops.
+  /// True if the loops of the side, in their current shapes, use its face vertices.
   bool hasFaceVertices(const SharpSide& side) const;
   Int3 fromChunk(const SharpSide& side, const Int3& place) const { return sgm::fromChunk(body.grid(), side, place); }
-  /// The centre of the fan that a loop currently is; nullopt if it keeps its own triangles.
+  /// Returns the centre of a loop if its current shape is a fan; nullopt if it has its own triangles.
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
-  /// The current triangles of a loop.
+  /// Returns the triangles of a loop in its current shape.
   LoopTriangles trianglesOf(const SharpLoop& loop) const;
-  /// The triangles of a fan with all face vertices that its sides can have.
+  /// Returns the triangles that a loop would have as a fan with all face vertices that its sides can have.
   LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre, bool by_patches) const;
 };
 

@@ -11,19 +11,21 @@
 
 namespace sgm {
 
-/// Adds feature vertices after the others, and recomputes the part's hash. A feature vertex lies at most 1/25 cell plus
-/// one unit off the surface, and less than a cell outside its cell, or the cells of its face; but the centre of a
-/// rounded loop with face vertices in a face of the chunk lies anywhere in its cell. No feature vertex lies beyond the
-/// chunk. No triangle has two corners in one place, and none intersects another of the level (mesh/triangle_faults.h):
-/// a loop whose fan would is rounded. Returns the number of rounded loops.
+/// Adds feature vertices behind the existing ones, and recomputes the part's hash. A feature vertex lies at most 1/25
+/// cell plus one unit off the surface, and less than a cell outside its cell, or outside the cells of its face. Only
+/// the centre of a rounded loop with face vertices in a face of the chunk may lie anywhere in its cell. No feature
+/// vertex lies beyond the chunk. No triangle has two corners in one place, and none intersects another triangle of the
+/// level (mesh/triangle_faults.h), because a loop whose fan would do so is rounded. Returns the number of rounded
+/// loops.
 ///
-/// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. Samples the field up to
-/// sharpReach() beyond the chunk. grid: of a chunk, whose origin is a multiple of 32 cells. Throws std::bad_alloc.
+/// Pure: the same part and field give the same bytes, since only doubles with + - * / sqrt are used. Samples the field
+/// up to sharpReach() beyond the chunk. grid: of a chunk, whose origin is a multiple of 32 cells. Throws
+/// std::bad_alloc.
 uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Same as sharpenBody, for the seam over a face: adds the face vertices that the bodies on both sides have there.
-/// coarser: the field of the level above, sampled up to sharpReach() of its cells beyond the face.
+/// Same as sharpenBody, for the seam over a face: adds the face vertices that the bodies on both sides have in that
+/// face. coarser: the field of the level above; it is sampled up to sharpReach() of the coarser cell beyond the face.
 void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, const FieldSampler& coarser,
                  MeshPart& seam, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr uint32_t kNoMiddle = SharpSide::kNone;
 
-/// Face vertices on a side, in order; unused entries are kNoMiddle.
+/// The face vertices on a side of a triangle, in order; unused entries are kNoMiddle.
 using Middles = std::array<uint32_t, FacePlaces::kMost>;
 constexpr Middles kNoMiddles{kNoMiddle, kNoMiddle};
 
-/// Triangulates a polygon that consists of a triangle's corners and the middles on its sides.
+/// Triangulates a polygon that consists of a triangle's corners and the face vertices (middles) on its sides.
 void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>& middles,
             RawVector<uint32_t>& indices) {
   std::array<uint32_t, 3 + 3 * FacePlaces::kMost> ring;
@@ -28,13 +28,14 @@ void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>
       ring[count++] = m;
     }
   }
-  // A fan around a middle: it is not a corner of another triangle here, so that no edge occurs twice.
+  // Makes a fan around a face vertex. No other triangle here has that vertex as a corner, so no edge occurs twice.
   for (size_t i = 1; i + 1 < count; ++i) {
     indices.insert(indices.end(), {ring[middle], ring[(middle + i) % count], ring[(middle + i + 1) % count]});
   }
 }
 
-/// The face vertices of one of the two levels that a seam joins. Positions in the seam are in 1/256 of the finer cell.
+/// Finds the face vertices of one of the two levels that a seam joins. Positions in the seam are in 1/256 of the finer
+/// cell.
 class LevelOfSeam {
  public:
   LevelOfSeam(const ChunkGrid& chunk, int level, Face face, const FieldSampler& field, MeshPart& seam,
@@ -53,7 +54,8 @@ class LevelOfSeam {
         middles_(memory),
         memory_(memory) {}
 
-  /// Finds the face vertices of the seam's sides of this level, slides its vertices, and appends them.
+  /// Finds the face vertices of this level's sides in the seam, slides this level's vertices onto the surface, and
+  /// appends the face vertices.
   void addFaceVertices(size_t triangles_end) {
     takeVertices();
     if (of_seam_.empty()) return;
@@ -64,8 +66,8 @@ class LevelOfSeam {
     append();
   }
 
-  /// The face vertices from one of the seam's vertices to another; kNoMiddles if the vertices are not the ends of a
-  /// side.
+  /// Returns the face vertices on the side from one of the seam's vertices to another; kNoMiddles if the two vertices
+  /// are not the ends of a side.
   Middles middlesOf(uint32_t a, uint32_t b) const {
     if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddles;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);
@@ -96,7 +98,7 @@ class LevelOfSeam {
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
       if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
-      // The squares of both levels have sides; diagonals are not sides.
+      // Only edges of one square make a side; other pairs are diagonals.
       if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
       sides_.push_back(sideBetween(a, b, part_.keys));
       sides_.back().axis = axis_;
@@ -108,7 +110,7 @@ class LevelOfSeam {
                  sides_.end());
   }
 
-  /// True if these are edges of one square in the seam's face.
+  /// True if both keys are of edges of one square in the seam's face.
   bool shareSquare(const VertexKey& a, const VertexKey& b) const {
     Int3 corner;
     for (int k = 0; k < 3; ++k) corner[k] = std::min(a.corner[k], b.corner[k]);
@@ -156,17 +158,18 @@ class LevelOfSeam {
   }
 
   const ChunkGrid chunk_;
-  const int scale_;  ///< levels above the chunk's
+  const int scale_;  ///< number of levels above the chunk's: 0 or 1
   const ChunkGrid grid_;
   const int axis_;
   const FieldSampler& field_;
   MeshPart& seam_;
-  MeshPart part_;  ///< the seam's vertices of this level
+  MeshPart part_;  ///< the vertices of this level, copied from the seam
   Creases creases_;
-  std::pmr::vector<uint32_t> of_seam_;  ///< by the part's vertex
-  std::pmr::vector<uint32_t> in_part_;  ///< by the seam's vertex; kNoMiddle for the other level's
-  std::pmr::vector<SharpSide> sides_;   ///< of the part, sorted
-  std::pmr::vector<Middles> middles_;   ///< of the seam, by side
+  std::pmr::vector<uint32_t> of_seam_;  ///< index in the seam of each vertex of the part
+  /// index in the part of each vertex of the seam; kNoMiddle for vertices of the other level
+  std::pmr::vector<uint32_t> in_part_;
+  std::pmr::vector<SharpSide> sides_;  ///< sides between vertices of the part, sorted
+  std::pmr::vector<Middles> middles_;  ///< indices into the seam's vertices, one entry per side
   std::pmr::memory_resource* memory_;
 };
 

@@ -17,14 +17,17 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// The data that a triangle gives its feature vertices: the attributes of a vertex of its side, and the side's normal.
+/// What the feature vertices of a triangle take over from its side of the crease: the attributes of a vertex of that
+/// side, and the side's normal.
 struct SideOfCrease {
   uint32_t like = kNoCopy;
   Vector3 normal{};
-  std::optional<std::array<int16_t, 2>> own_normal;  ///< packed, if that vertex has a different one
+  /// packed; set if the normal of that vertex differs from the side's
+  std::optional<std::array<int16_t, 2>> own_normal;
 };
 
-/// Mesh must have keys, one per vertex, and indices; at(v) and normal(v); give(v, side); copy(v), which appends a copy.
+/// Operations that Mesh must offer: keys (one per vertex) and indices; at(v) and normal(v), which read a vertex;
+/// give(v, side), which sets its attributes; copy(v), which appends a copy.
 template <class Mesh>
 SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
   // A triangle has one or two vertices on its side. A triangle that joins only features is followed by another one of
@@ -52,7 +55,7 @@ SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
 
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
-  // The copies of each vertex, in a chain; unset while a feature vertex has no side.
+  // A linked list of the copies of each vertex: the next copy. An entry is unset while its feature vertex has no side.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {

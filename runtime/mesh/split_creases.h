@@ -5,8 +5,9 @@
 
 namespace sgm {
 
-/// Duplicates feature vertices (mesh/sharpen.h): one for each side of their crease, with that side's attributes.
-/// Positions, keys and triangles stay: vertices with equal keys are one in the original mesh. Throws std::bad_alloc.
+/// Duplicates feature vertices (mesh/sharpen.h): each side of the crease gets a copy with that side's attributes.
+/// Positions and keys do not change, and triangles keep their shape: vertices with equal keys are copies of one vertex
+/// of the original mesh. Throws std::bad_alloc.
 WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 /// Same as above, in place; recomputes the part's hash.

@@ -5,9 +5,10 @@
 namespace sgm {
 namespace {
 
-// Corner a + 2b + 4c is at a along u = (axis + 1) % 3, b along v = (axis + 2) % 3, and c - 1 along the axis of the
-// face. The others lie at far edges: for the adjacent square, kFar + a + 2c, with a along the edge; for the squares at
-// its low and high end, a away from the side's own square; and for the opposite one, a along the edge.
+// Corner numbers. The corners of the side's own square are a + 2b + 4c: a counts along u = (axis + 1) % 3, b along v =
+// (axis + 2) % 3, and c - 1 along the axis of the face. The other squares add their far corners: kFar + a + 2c of the
+// adjacent square, with a along the edge; then those of the squares at its low and high end, with a away from the
+// side's own square; and those of the opposite square, with a along the edge.
 constexpr size_t kFar = 12, kLow = 18, kHigh = 24, kOpposite = 30;
 
 }  // namespace
@@ -79,7 +80,8 @@ void Surroundings::take(std::span<const FieldSample> samples) {
     if (corner(i)) q_[i] = samples[next++].q;
 }
 
-/// The number of a corner of a square's cells. bits: as in the side's own square, a + 2b; level: c.
+/// Returns the number of a corner of the cells at a square. bits: the corner's position in the square, a + 2b; level:
+/// c.
 size_t Surroundings::numberOf(Place place, size_t bits, size_t level) const {
   if (place == Place::own) return bits + 4 * level;
   const size_t across = bitOf(across_), along_bit = 3 - across;

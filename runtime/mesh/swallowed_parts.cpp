@@ -9,7 +9,8 @@
 namespace sgm {
 namespace {
 
-/// The parts of a body's surface that are connected through vertices, identified by one of their vertices.
+/// Union-find over vertices: connects the vertices of triangles, so that each part of the surface is identified by one
+/// vertex.
 class Parts {
  public:
   Parts(const BodyLoops& body, std::pmr::memory_resource* memory) : above_(body.part().vertices.size(), memory) {
@@ -29,10 +30,10 @@ class Parts {
     above_[std::max(a, b)] = std::min(a, b);
   }
 
-  std::pmr::vector<uint32_t> above_;  ///< a vertex of the same part, or the vertex itself
+  std::pmr::vector<uint32_t> above_;  ///< parent in the union-find: a vertex of the same part, or the vertex itself
 };
 
-/// Of the triangles above a point along z: the number facing up minus the number facing down.
+/// Returns, among the triangles above a point along z, the number that face up minus the number that face down.
 int turnsAbove(std::span<const NamedTriangle> triangles, const Int3& place) {
   int turns = 0;
   for (const NamedTriangle& triangle : triangles) {
@@ -69,10 +70,10 @@ class Swallowed {
     PlaceBox cells;
   };
 
-  /// The parts that have no vertex in a face of the chunk.
+  /// Returns the parts that have no vertex in a face of the chunk.
   std::pmr::vector<ClosedPart> closedParts() {
     const MeshPart& part = body_.part();
-    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // by part
+    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // one per part
     for (const SurfaceLoop& loop : body_.all()) boxes[parts_.of(loop.vertices[0])].take(loop.cell);
     for (uint32_t v = 0; v < boxes.size(); ++v) {
       const Int3 at = placeOf(part, v);
@@ -85,7 +86,7 @@ class Swallowed {
     return closed;
   }
 
-  /// Calls visit for the sharp loops of other parts whose features may extend into these cells.
+  /// Calls visit for the sharp loops of other parts whose features may reach into the cells lo..hi.
   template <class Visit>
   void visitOthers(uint32_t part, Int3 lo, Int3 hi, const Visit& visit) {
     for (int k = 0; k < 3; ++k) --lo[k], ++hi[k];
@@ -95,8 +96,8 @@ class Swallowed {
     });
   }
 
-  /// The change of the other parts' winding number around the point due to their features. The surfaces with and
-  /// without features differ by closed surfaces, except in the faces of the chunk.
+  /// Returns by how much features change the other parts' winding number around the point. The surfaces with and
+  /// without features differ by closed surfaces, except in the faces of the chunk, which inTopFace completes.
   int turnsOf(uint32_t part, const Int3& at) {
     int turns = 0;
     const Int3 cell{at.x / kSubcell, at.y / kSubcell, at.z / kSubcell};
@@ -109,7 +110,8 @@ class Swallowed {
     return turns;
   }
 
-  /// The triangles between a loop's sides in the upper face of the chunk and the detours through their face vertices.
+  /// Returns the triangles between a loop's straight sides in the upper face of the chunk and the paths over their face
+  /// vertices.
   LoopTriangles inTopFace(const SharpLoop& loop) const {
     LoopTriangles triangles;
     for (uint32_t i = 0; i < sharp_.of(loop).count; ++i) {
@@ -132,7 +134,7 @@ class Swallowed {
   const BodyLoops& body_;
   Parts parts_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<uint32_t> place_{memory_};  ///< index in sharp_.loops, by loop of the body
+  std::pmr::vector<uint32_t> place_{memory_};  ///< index in sharp_.loops by loop of the body
 };
 
 }  // namespace

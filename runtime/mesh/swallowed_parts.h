@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// Rounds the fans near such parts, and returns whether there were any. Examines only the parts without a vertex in a
-/// face of the chunk: features do not leave it, so that none grows around another part. Throws std::bad_alloc.
+/// Rounds the fans near swallowed parts; returns whether there were any. Examines only parts without a vertex in a face
+/// of the chunk, because features do not leave the chunk and so cannot swallow a part that does. Throws std::bad_alloc.
 bool roundAroundSwallowed(SharpLoops& sharp, std::pmr::memory_resource* memory);
 
 }  // namespace sgm

@@ -1,6 +1,6 @@
 #pragma once
-// The case tables of cubes and seam cells, and their numbering. The arrays are generated at build time from
-// case_rule.h, which states the rule and the canonical order of loops; GPUs use them unchanged.
+// The case tables of cubes and seam cells, and the numbering of corners, edges and faces. The arrays are generated at
+// build time by the rule in case_rule.h, which defines the order of loops; GPUs use the same arrays.
 //
 // Cube. Corner c lies at (c & 1, c >> 1 & 1, c >> 2). Edge 4 * axis + b0 + 2 * b1 runs along axis; b0 and b1 are its
 // coordinates on the two other axes, the lower axis first. Faces are numbered as in Face. Bit c of a case: corner c is
@@ -37,13 +37,14 @@ inline constexpr int kLongestLoop = 12;
 
 extern const uint16_t kCubeLoopStart[256 + 1];
 extern const uint8_t kCubeLoops[kCubeLoopBytes];
-extern const uint8_t kCubeTriangles[256];  ///< the number of triangles of a case
-/// The first loop of a case in kCubeLoops: the offset of its edges, its length << 16, and 1 << 24 if others follow.
+extern const uint8_t kCubeTriangles[256];  ///< number of triangles of each case
+/// The first loop of each case in kCubeLoops: the offset of its edges, its length << 16, and 1 << 24 if more loops
+/// follow.
 extern const uint32_t kCubeFirstLoop[256];
 extern const uint16_t kCubeEdgeFaces[kCubeEdges];
 
-/// The mask for diagonals of a cube's loop of n points: a diagonal must not join edges whose masks share a bit. These
-/// are edges of one face, and in a loop of seven also opposite parallel edges. faces: kCubeEdgeFaces[edge].
+/// Returns the mask of an edge for diagonals of a cube's loop of n points. A diagonal must not join two edges whose
+/// masks share a bit: edges of one face and, in a loop of seven, opposite parallel edges. faces: kCubeEdgeFaces[edge].
 ///
 /// A loop of seven has two pairs of such edges. Of its sixteen triangulations without a diagonal in a face, four can
 /// intersect themselves, and each of these joins one of the pairs. No triangulation of a shorter loop can intersect

@@ -1,9 +1,9 @@
 #pragma once
-// Defects of a triangle and of a pair of triangles: the common definition for all checks of meshes, of streamed chunks,
-// drawn frames, and measured regions and files.
+// Defects of a triangle and of a pair of triangles. All checks use this definition: those of meshes, of streamed
+// chunks, of drawn frames, and of measured regions and files.
 //
 // A triangle is
-//   DEGENERATE  if two of its corners are one, by index or by position;
+// DEGENERATE  if two of its corners are the same, by index or by position;
 //   FLAT        if its corners are three distinct points on a line.
 // Two triangles that have an area
 //   FOLD        if they share two corners and overlap: the angle between them is exactly 0;
@@ -11,11 +11,12 @@
 //               cutting.
 // Two that share all three corners are duplicates, which check.h reports. Every answer is exact.
 //
-// A file, a region of one level and the body of a chunk have none of these. A SEAM is a sheet of zero thickness in the
-// face between two levels: if both have the same surface, its triangles are flat, fold, and overlap others, and a
-// corner of each level may have the same position, since keys distinguish them. So in seams only these are wrong: two
-// corners of one triangle at one position that are not one of each level (maySharePlace), and a triangle that PIERCES
-// another one of any part: an edge with its ends on both sides of it passes through its interior.
+// A file, a region of one level and the body of a chunk have none of these defects. A SEAM is a sheet of zero thickness
+// in the face between two levels. If both levels have the same surface, the seam's triangles are flat, fold, and
+// overlap others, and a corner of each level may have the same position, since keys distinguish them. So in seams only
+// two conditions are defects: two corners of one triangle have the same position although they do not belong to
+// different levels (maySharePlace); or a triangle PIERCES another one of any part: an edge whose ends lie on both sides
+// of the other triangle's plane passes through its interior.
 
 #include <algorithm>
 #include <array>
@@ -29,8 +30,8 @@ namespace sgm {
 
 enum class PairFault : uint8_t { none, folded, cut };
 
-/// True if corners of these kinds (Vertex::kind) may have the same position in a triangle of a seam: one on its fine
-/// side, one on its coarse side. A lateral vertex is on both.
+/// True if two corners of a triangle of a seam may have the same position: one lies on the fine side of the seam, the
+/// other on the coarse side. A lateral vertex lies on both. a, b: the corners' Vertex::kind.
 constexpr bool maySharePlace(uint16_t a, uint16_t b) {
   const auto sides = [](uint16_t kind) { return kind == kLateralEdge ? 3 : isOfCoarserLevel(kind) ? 2 : 1; };
   return (sides(a) ^ sides(b)) == 3;
@@ -41,20 +42,20 @@ struct IntegerSigns {
   using Place = Int3;
 
   static constexpr int signOf(int64_t v) { return (v > 0) - (v < 0); }
-  /// Returns 1, 0 or -1 if d lies behind, in or in front of the plane of a, b, c, which are counter-clockwise seen from
-  /// the front.
+  /// Returns 1 if d lies behind the plane of a, b, c, 0 if in it, and -1 if in front of it. a, b, c are
+  /// counter-clockwise seen from the front.
   static int orientation(const Place& a, const Place& b, const Place& c, const Place& d) {
     const int64_t ux = a.x - d.x, uy = a.y - d.y, uz = a.z - d.z, vx = b.x - d.x, vy = b.y - d.y, vz = b.z - d.z,
                   wx = c.x - d.x, wy = c.y - d.y, wz = c.z - d.z;
     return signOf(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
   }
-  /// Returns 1, 0 or -1 if a, b, c are counter-clockwise, collinear or clockwise, seen from the positive end of the
+  /// Returns 1 if a, b, c are counter-clockwise, 0 if collinear, -1 if clockwise, seen from the positive end of the
   /// axis `drop` (0..2).
   static int orientationAlong(int drop, const Place& a, const Place& b, const Place& c) {
     const int x = (drop + 1) % 3, y = (drop + 2) % 3;
     return signOf(int64_t{a[x] - c[x]} * (b[y] - c[y]) - int64_t{a[y] - c[y]} * (b[x] - c[x]));
   }
-  /// An axis along which a triangle does not look flat; -1 if it is flat.
+  /// Returns an axis (0..2) along which the triangle does not project to a line; -1 if it is flat.
   static int seenAlong(const std::array<Place, 3>& t) {
     for (int axis = 0; axis < 3; ++axis)
       if (orientationAlong(axis, t[0], t[1], t[2]) != 0) return axis;
@@ -69,7 +70,7 @@ class TrianglePair {
   using Place = typename Signs::Place;
   using Corners = std::array<Place, 3>;
 
-  /// The common corners come first, in the same order in both; `shared` is their number.
+  /// Precondition: the `shared` common corners come first, in the same order in both triangles.
   static PairFault faultOf(const Corners& a, const Corners& b, int shared) {
     switch (shared) {
       case 0:
@@ -86,7 +87,8 @@ class TrianglePair {
   static bool pierce(const Corners& a, const Corners& b) { return passesThrough(a, b) || passesThrough(b, a); }
 
  private:
-  /// For a point in the plane of the triangle, seen along `drop`.
+  /// True if p lies in the triangle or on its border. p must lie in the triangle's plane; both are projected along
+  /// `drop`.
   static bool inTriangle(int drop, const Corners& t, const Place& p) {
     const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k)
@@ -94,7 +96,7 @@ class TrianglePair {
     return true;
   }
 
-  /// For points on one line.
+  /// True if p lies between a and b, or on one of them. The three points must be collinear.
   static bool between(const Place& a, const Place& b, const Place& p) {
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] < std::min(a[axis], b[axis]) || p[axis] > std::max(a[axis], b[axis])) return false;
@@ -109,7 +111,8 @@ class TrianglePair {
            (a_side == 0 && between(c, d, a)) || (b_side == 0 && between(c, d, b));
   }
 
-  /// from_side, to_side: relative to the triangle's plane, by orientation().
+  /// True if the segment meets the triangle. from_side, to_side: the results of orientation() for its ends and the
+  /// triangle.
   static bool segmentMeets(const Place& from, const Place& to, int from_side, int to_side, const Corners& t, int drop) {
     if (from_side * to_side > 0) return false;
     if (from_side == 0 && to_side == 0) {
@@ -160,15 +163,17 @@ class TrianglePair {
     return false;
   }
 
-  /// The corner that lies on the other side than the other two; nullopt if a corner lies in the plane.
+  /// Returns the corner that is alone on its side of a plane; nullopt if a corner lies in the plane. sides: of each
+  /// corner.
   static std::optional<size_t> loneCorner(const std::array<int, 3>& sides) {
     if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) return std::nullopt;
     return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;
   }
 
-  /// Requires that both triangles cross the other's plane, at no corner. On the common line of both planes each covers
-  /// the interval between the two edges from its lone corner; one orientation decides which of two edges comes first
-  /// (Guigue and Devillers, Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
+  /// True if two triangles intersect. Precondition: each crosses the other's plane, with no corner in it. On the line
+  /// common to both planes, each triangle covers the interval between its two edges at the lone corner; one orientation
+  /// decides which of two edges comes first (Guigue and Devillers, Fast and Robust Triangle-Triangle Overlap Test Using
+  /// Orientation Predicates, 2003).
   static bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
     // Rotate the corners so that both lone corners lie in front of the other plane.
     const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
@@ -189,8 +194,8 @@ class TrianglePair {
     return anyEdgeMeets(a, a_sides, b, b_drop) || anyEdgeMeets(b, b_sides, a, a_drop);
   }
 
-  /// The first corner of both is the common one. If they meet elsewhere, the opposite edge of one meets the other: a
-  /// segment in both triangles that starts at the common corner ends at such an edge.
+  /// True if two triangles that share their first corner meet elsewhere. Then the opposite edge of one meets the other:
+  /// a segment in both triangles that starts at the common corner ends at such an edge.
   static bool meetBesideCorner(const Corners& a, const Corners& b) {
     const int b1 = Signs::orientation(a[0], a[1], a[2], b[1]), b2 = Signs::orientation(a[0], a[1], a[2], b[2]);
     if (b1 * b2 > 0) return false;
@@ -202,7 +207,7 @@ class TrianglePair {
     return segmentMeets(b[1], b[2], b1, b2, a, a_drop) || segmentMeets(a[1], a[2], a1, a2, b, b_drop);
   }
 
-  /// The first two corners of both are the common ones.
+  /// True if two triangles that share their first two corners overlap in one plane.
   static bool lieUponEachOther(const Corners& a, const Corners& b) {
     if (Signs::orientation(a[0], a[1], a[2], b[2]) != 0) return false;
     const int drop = Signs::seenAlong(a);

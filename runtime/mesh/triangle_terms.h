@@ -1,7 +1,7 @@
 #pragma once
-// The contribution of one packed triangle to the sums over a mesh, in integers alone: equal for every backend, order of
-// addition and machine. CUDA's kernels compile this source, and those of Vulkan repeat it (shaders/mesher/sums.comp).
-// Lengths are in 1/256 of the chunk's cell.
+// The contribution of one packed triangle to the sums over a mesh, in integers alone. So the result is equal on every
+// backend and machine, in any order of addition. The CUDA kernels compile this source; Vulkan has a copy
+// (shaders/mesher/sums.comp). Lengths are in 1/256 of the chunk's cell.
 
 #include <cmath>
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace sgm {
 
-/// The range of measured vertices on each axis: feature vertices may lie slightly more than a cell beyond the chunk.
+/// The allowed positions of measured vertices on each axis: feature vertices may lie slightly more than a cell beyond
+/// the chunk.
 inline constexpr int kLeastPosition = -2 * kSubcell, kMostPosition = kChunkCells * kSubcell + 2 * kSubcell;
 
-/// A direction in integers: components below 2^15, whose absolute values sum to 32767.
+/// A direction in integers: components are below 2^15 in magnitude, and their absolute values sum to 32767.
 struct PackedDirection {
   int16_t x, y, z;
 };
 
-/// The packed octahedral normal, unfolded as in unpackNormal (mesh/vertex.h), but not normalised.
+/// Unpacks the octahedral normal as unpackNormal does (mesh/vertex.h), but does not normalise it.
 SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
   const int32_t ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, z = 32767 - ax - ay;
   const int32_t folded_x = x < 0 ? ay - 32767 : 32767 - ay, folded_y = y < 0 ? ax - 32767 : 32767 - ax;
@@ -37,18 +38,18 @@ SGM_KERNEL int64_t roundedRoot(int64_t x) {
 
 inline constexpr int kLengthBits = 12;
 
-/// sqrt(square) in 1/4096, each step rounded to nearest. The error is at most 1/8192 below 2^38, which includes all
-/// triangles of a few cells.
+/// Returns sqrt(square) in 1/4096, rounded to nearest. Below 2^38, which includes all triangles of a few cells, the
+/// error is at most 1/8192.
 SGM_KERNEL int64_t fixedRoot(int64_t square) {
   const int bits = square < int64_t{1} << 38 ? kLengthBits : square < int64_t{1} << 50 ? kLengthBits / 2 : 0;
   return roundedRoot(square << 2 * bits) << (kLengthBits - bits);
 }
 
 struct TriangleTerms {
-  int32_t x, y, z;      ///< the cross product of two sides: twice the area along the normal
-  int64_t square;       ///< of its length
-  uint32_t sides;       ///< sum of the squared sides
-  int64_t six_volumes;  ///< of the tetrahedron with the chunk's origin
+  int32_t x, y, z;      ///< cross product of two sides: twice the area, along the normal
+  int64_t square;       ///< the square of that cross product's length
+  uint32_t sides;       ///< sum of the three squared side lengths
+  int64_t six_volumes;  ///< six times the signed volume of the tetrahedron between the triangle and the chunk's origin
 };
 
 /// Precondition: all coordinates are in kLeastPosition..kMostPosition.
@@ -67,7 +68,8 @@ SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex&
   return t;
 }
 
-/// True if its quality, 4 sqrt(3) area / sides, is below 0.05 (kSliver in mesh_measures.h): 4800 square < sides^2.
+/// True if the quality, 4 sqrt(3) area / sum of squared sides, is below 0.05 (kSliver in mesh_measures.h). Equivalent
+/// to 4800 square < sides^2.
 SGM_KERNEL bool isSliver(const TriangleTerms& t) {
   // Both sides are divided by 64, so that the products fit.
   return 75 * t.square < (int64_t{t.sides} * t.sides + 63) >> 6;
@@ -75,7 +77,7 @@ SGM_KERNEL bool isSliver(const TriangleTerms& t) {
 
 /// The sums over triangles.
 struct TermSums {
-  int64_t area = 0;  ///< twice, in 1/4096 (fixedRoot)
+  int64_t area = 0;  ///< sum of twice the areas, in 1/4096 (fixedRoot)
   int64_t x = 0, y = 0, z = 0, six_volumes = 0;
   uint32_t slivers = 0;
 };
@@ -89,7 +91,7 @@ SGM_KERNEL void addTerms(const TriangleTerms& t, TermSums& sums) {
   sums.slivers += isSliver(t) ? 1u : 0u;
 }
 
-/// True if it faces in the direction of the sum of its corners' normals.
+/// True if the triangle faces in the direction of the sum of its corners' normals. a, b, c: these normals.
 SGM_KERNEL bool facesAlong(const TriangleTerms& t, const PackedDirection& a, const PackedDirection& b,
                            const PackedDirection& c) {
   return int64_t{t.x} * (a.x + b.x + c.x) + int64_t{t.y} * (a.y + b.y + c.y) + int64_t{t.z} * (a.z + b.z + c.z) > 0;

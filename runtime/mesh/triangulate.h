@@ -5,8 +5,8 @@
 // largest, by dynamic programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece
 // i..j, and each chord takes the first apex k in ascending order that reaches it. The measure of a triangle is the L1
 // norm of the cross product of two of its sides. Triangles are output in pre-order: (i, k, j), then those of (i, k),
-// then those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot occur. A seam's loops are
-// flat, and least overlap takes precedence over the largest smallest triangle (triangulateFlatLoop).
+// then those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot occur. For the flat
+// loops of a seam, least overlap takes precedence over the rule above (triangulateFlatLoop).
 
 #include <algorithm>
 #include <array>
@@ -26,18 +26,18 @@ namespace sgm {
 
 namespace triangulation {
 
-/// The number of triangulations of a piece of n points: the Catalan numbers.
+/// The number of triangulations of a polygon of n points: the Catalan numbers.
 inline constexpr std::array<int, 8> kWays{0, 0, 1, 1, 2, 5, 14, 42};
 
-/// The index of the first triangulation of a piece of n points whose apex is its k-th point. Triangulations are ordered
-/// by apex, then by that of the left piece, then by that of the right one.
+/// Returns the index of the first triangulation of a piece of n points whose apex is its k-th point. Triangulations are
+/// ordered by apex, then by the triangulation of the left piece, then by that of the right piece.
 constexpr int firstWay(size_t n, size_t k) {
   int way = 0;
   for (size_t earlier = 1; earlier < k; ++earlier) way += kWays[earlier + 1] * kWays[n - earlier];
   return way;
 }
 
-/// Writes triangulation `way` of the points from..from + n - 1, in pre-order.
+/// Writes triangulation number `way` of the n points from `from` on, in pre-order.
 constexpr uint8_t* writeWay(size_t from, size_t n, int way, uint8_t* out) {
   if (n < 3) return out;
   size_t k = 1;
@@ -70,8 +70,8 @@ SGM_ALWAYS_INLINE inline void unrolled(F&& f) {
 
 }  // namespace triangulation
 
-/// triangulateAnyLoop for a compile-time length: without branches, and with cross products shared by triangles.
-/// point(i) returns the i-th LoopPoint and is called once for each.
+/// Same as triangulateAnyLoop, for a length known at compile time: has no branches, and triangles share cross products.
+/// point(i) returns the i-th LoopPoint and is called once for each i.
 template <size_t N, class Load>
 inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   using namespace triangulation;
@@ -126,8 +126,8 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   return out + 3 * (N - 2);
 }
 
-/// Selects triangulateAnyLoop by length. point(i, n) returns the i-th of n LoopPoints; n is constant. 3 <= n <=
-/// kLongestCubeLoop.
+/// Calls triangulateLoopOf for a loop of n points. point(i, n) returns the i-th LoopPoint; n is passed as a constant. 3
+/// <= n <= kLongestCubeLoop.
 template <class Load>
 inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   switch (n) {

@@ -15,19 +15,20 @@ namespace sgm {
 /// A vertex of a loop. Positions may have any origin; two points of a loop are at most 512 apart on each axis.
 struct LoopPoint {
   int32_t x, y, z;
-  uint32_t faces;   ///< a diagonal must not join points that share a bit: chordMask, or kSeamEdgeFaces (tables.h)
+  /// face mask: a diagonal must not join points that share a bit (chordMask, kSeamEdgeFaces in tables.h)
+  uint32_t faces;
   uint32_t vertex;  ///< the value written into the index list
 };
 
-/// The L1 norm of twice the triangle's area vector.
+/// Returns the L1 norm of twice the triangle's area vector, the measure of its size.
 SGM_KERNEL int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const LoopPoint& c) {
   const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
   return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
 }
 
-/// Writes the triangles of a loop of n points in pre-order. apex[i * kSide + j] is the apex of the chord from i to j.
-/// Returns the end of the 3 * (n - 2) indices.
+/// Writes the 3 * (n - 2) indices of a loop's triangles in pre-order; returns their end. apex[i * kSide + j] is the
+/// apex of the triangle over the chord from i to j.
 template <int kSide>
 SGM_KERNEL uint32_t* writeTriangles(const LoopPoint* loop, int n, const uint8_t* apex, uint32_t* out) {
   uint8_t stack[static_cast<size_t>(2 * kSide)];
@@ -78,10 +79,10 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
   return writeTriangles<kSide>(loop, n, apex, out);
 }
 
-/// Triangulates a seam's loop, whose points lie in one plane: chooses, among the triangulations with the least total
-/// area, the one whose smallest triangle is largest. The total is least if no two triangles overlap; a loop that
-/// crosses itself, because the two levels' contours do, gets the triangles that overlap least. Otherwise the same as
-/// triangulateAnyLoop.
+/// Triangulates a seam's loop, whose points lie in one plane. Among the triangulations with the least total area,
+/// chooses the one whose smallest triangle is largest. The total area is least if no two triangles overlap. A loop
+/// crosses itself if the contours of the two levels cross; it gets the triangles that overlap least. In all else the
+/// same as triangulateAnyLoop.
 SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongestLoop;
   constexpr int32_t kForbidden = 1 << 24;  // more than the area of any loop: 10 triangles of at most 2^19

@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-/// The position along an edge, in 1/256, at which the surface crosses between q0 (the lower end on the edge's axis) and
-/// q1: 1..255. round(256 |q0| / (|q0| + |q1|)), halves up, in 32-bit integers. The signs differ, so that the sum is not
-/// 0.
+/// Returns the position, in 1/256 of an edge, at which the surface crosses it: 1..255. q0, q1: the samples at the lower
+/// and the higher end on the edge's axis; their signs differ, so that the sum is not 0. Computes round(256 |q0| / (|q0|
+/// + |q1|)), halves up, in 32-bit integers.
 SGM_KERNEL uint32_t crossing(int32_t q0, int32_t q1) {
   const uint32_t a = static_cast<uint32_t>(std::abs(q0)), sum = a + static_cast<uint32_t>(std::abs(q1));
   const uint32_t t = (512 * a + sum) / (2 * sum);
@@ -21,20 +21,22 @@ SGM_KERNEL uint32_t crossing(int32_t q0, int32_t q1) {
 }
 
 /// Converts a local position in 1/256 of a cell to whole units: round(position * cell / 256), halves up. 32 bits
-/// suffice for a cell of at most 2^22 units. Equal for all chunks that share a vertex, of any level, since the exact
-/// position is equal.
+/// suffice for a cell of at most 2^22 units. All chunks that share a vertex get the same result, at any level, since
+/// its exact position is the same.
 SGM_KERNEL int32_t localUnits(int32_t position, int32_t cell) {
   return (position >> 8) * cell + (((position & 255) * cell + 128) >> 8);
 }
 
-/// The vertex of a body or seam in world units, rounded as in localUnits; its attributes are evaluated there.
+/// Returns the position of a vertex of a body or seam in world units, rounded as in localUnits. The vertex's attributes
+/// are evaluated there.
 SGM_KERNEL Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
   return {grid.origin.x + localUnits(v.x, grid.cell), grid.origin.y + localUnits(v.y, grid.cell),
           grid.origin.z + localUnits(v.z, grid.cell)};
 }
 
 /// The crossed edge of a body's vertex: the sample at its lower end, and its axis. A vertex never lies on a sample, so
-/// that exactly one coordinate has a fraction. Not for seams, whose edges are given by the keys.
+/// exactly one of its coordinates has a fraction, which gives the axis. Not for seams, whose edges are given by their
+/// keys.
 struct SampleEdge {
   int x, y, z, axis;
   size_t sample() const { return static_cast<size_t>(x + kChunkSamples * (y + kChunkSamples * z)); }

@@ -1,5 +1,5 @@
 #pragma once
-// Derives the keys of a part that has none, from another device or a file, from its packed vertices.
+// Derives the keys of a part that comes without keys, from a device or a file, from its packed vertices.
 
 #include "mesh/chunk.h"
 #include "mesh/fans.h"

@@ -10,11 +10,12 @@ namespace {
 
 constexpr size_t kLast = kChunkCells;
 
-/// The blocks that contain a sample, by sample.
+/// The blocks that contain a sample, by the sample's coordinate.
 struct BlockTables {
   std::array<uint8_t, kChunkSamples> low{}, high{};
-  std::array<uint64_t, kChunkSamples> bits{};  ///< bit i: block i
-  std::array<uint64_t, kChunkSamples> rows{};  ///< bit 8 i: times the bits of another axis, the blocks of a square
+  std::array<uint64_t, kChunkSamples> bits{};  ///< bit i is set if block i contains the sample
+  /// bit 8 i is set if block i does: multiplied by the bits of another axis, gives the blocks of a square
+  std::array<uint64_t, kChunkSamples> rows{};
 
   constexpr BlockTables() {
     for (size_t sample = 0; sample < kChunkSamples; ++sample) {

@@ -1,11 +1,12 @@
 #pragma once
-// The connected voids of a chunk, and where each touches the chunk's faces: for walking, flying and visibility.
+// The connected voids of a chunk, and the places where each touches the chunk's faces. Walking, flying and visibility
+// use them.
 //
 // The voids are those of the mesh, so they follow its rule for faces of a cell (mesh/case_rule.h), which cuts off every
 // run of solid corners by itself: void samples are connected along the axes and across the diagonal of a face.
-// Connecting along the axes alone would separate voids that the mesh connects. A sharp mesh closes some of those
-// diagonals (mesh/ambiguous_faces.h); more voids are connected here than there, so that nothing visible is considered
-// hidden.
+// If only the axes connected samples, voids that the mesh connects would be separate. A sharp mesh closes some of those
+// diagonals (mesh/ambiguous_faces.h), so the voids here may be larger than those of the mesh: nothing visible is taken
+// for hidden.
 
 #include <array>
 #include <cstdint>
@@ -17,11 +18,11 @@
 
 namespace sgm {
 
-inline constexpr int kVoidBlock = 4;                          ///< cells on each axis in one bit of a mask
-inline constexpr int kVoidBlocks = kChunkCells / kVoidBlock;  ///< on each axis
+inline constexpr int kVoidBlock = 4;                          ///< cells per axis that one bit of a mask stands for
+inline constexpr int kVoidBlocks = kChunkCells / kVoidBlock;  ///< blocks per axis of a chunk
 inline constexpr size_t kMostVoidComponents = 64;             ///< per chunk
 
-/// One void. Block i of an axis has the samples 4 i to 4 i + 4: a sample in a border counts for both sides.
+/// One void. Block i of an axis has the samples 4 i to 4 i + 4: a sample on the border of two blocks counts for both.
 struct VoidComponent {
   /// By Face: bit a + 8 b is set if a sample of the void lies in that block of the face; a and b count along the two
   /// other axes, the lower axis first, so that chunks which share a face agree. 0: the void does not touch the face.
@@ -32,20 +33,21 @@ struct VoidComponent {
   friend bool operator==(const VoidComponent&, const VoidComponent&) = default;
 };
 
-/// Empty in solid rock. First the voids that touch a face, in the order of their first samples; then one entry for all
-/// voids that touch none. Beyond 63 of the former, the last entry stands for all further ones: that merges separate
-/// voids, but never splits connected ones.
+/// The voids of a chunk; empty if the chunk is solid. First come the voids that touch a face, in the order of their
+/// first samples, then one entry for all voids that touch none. If more than 63 voids touch a face, the last entry
+/// stands for all further voids: separate voids may be merged, but connected ones are never split.
 using VoidComponents = std::pmr::vector<VoidComponent>;
 
 /// The voids of a chunk from the signs of its samples (ChunkSamples::signs). Pure.
 VoidComponents voidComponents(std::span<const uint64_t> signs,
                               std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// The voids of a chunk whose samples have one sign.
+/// Returns the voids of a chunk whose samples all have the same sign.
 VoidComponents voidOfUniform(bool solid, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Bit i is set if components[i] has a sample in the block of the cell (0..31 on each axis): the void that contains a
-/// position in that cell, and any other within four cells. 0: all of the block is solid.
+/// Bit i is set if components[i] has a sample in the block of `cell` (0..31 on each axis). So the mask includes the
+/// void that contains a position in that cell, and other voids in the same block of four cells. 0: all of the block is
+/// solid.
 uint64_t voidsAround(std::span<const VoidComponent> components, Int3 cell);
 
 }  // namespace sgm

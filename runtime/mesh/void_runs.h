@@ -1,5 +1,5 @@
 #pragma once
-// Labels the voids of a block of a chunk's samples run by run, for voidComponents() and exact searches.
+// Labels the connected voids among a chunk's samples, run by run. Used by voidComponents() and by exact searches.
 //
 // Void samples are connected along the axes and across the diagonal of a face: see mesh/void_components.h.
 
@@ -14,10 +14,11 @@
 
 namespace sgm {
 
-inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< of a chunk, row y + 33 z
+inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< number of rows of a chunk; row y + 33 z
 
-/// The runs of void samples of each row, labelled by the runs that they touch in previous rows; labels that meet later
-/// are united. Runs are faster than samples: a cave has one or two per row, and few labels.
+/// Finds the runs of void samples of each row. A run gets the label of the runs that it touches in previous rows;
+/// labels that turn out to be connected later are united. Runs are faster than samples: a row of a cave has one or two
+/// of them.
 class VoidRuns {
  public:
   VoidRuns(std::span<const uint64_t> signs, std::pmr::memory_resource* memory)
@@ -38,7 +39,7 @@ class VoidRuns {
   }
 
   size_t labels() const { return parents_.size(); }
-  /// The lowest label of the same void.
+  /// Returns the lowest label of the void that a label belongs to.
   size_t rootOf(size_t label) {
     while (parents_[label] != label) {
       parents_[label] = parents_[parents_[label]];
@@ -47,7 +48,7 @@ class VoidRuns {
     return label;
   }
 
-  /// True if a run with exactly that label touches a face.
+  /// Returns 1 if a run with exactly this label touches a face of the chunk, else 0.
   uint8_t touchesFace(size_t label) const { return touches_[label]; }
 
   /// Calls visit(label, first sample, last sample, y, z) for each run, in order.
@@ -88,7 +89,8 @@ class VoidRuns {
       if (z > 0) {
         const size_t below = row - kChunkSamples;
         join(label, below, around);
-        // If one of the other two corners is void, the axes have connected them, or will.
+        // If one of the two other corners of the face is void, the axes connect the samples anyway; only the rest is
+        // joined here.
         if (y > 0) join(label, below - 1, run & ~open_[row - 1] & ~open_[below]);
         if (y < kLast) join(label, below + 1, run & ~open_[row + 1] & ~open_[below]);
       }
@@ -103,7 +105,7 @@ class VoidRuns {
     }
   }
 
-  /// Joins the label with the runs of a row that contain one of the samples.
+  /// Unites the label with those of the runs of a row that contain one of the samples in the mask.
   void join(uint16_t& label, size_t row, uint64_t samples) {
     for (uint64_t touched = samples & open_[row]; touched != 0; touched &= touched + (touched & -touched)) {
       const uint16_t other = labelAt(row, std::countr_zero(touched));
@@ -115,8 +117,8 @@ class VoidRuns {
   }
 
   std::pmr::vector<uint64_t> open_, starts_;
-  std::pmr::vector<uint16_t> first_, labels_;  ///< the first run of each row; the label of each run
-  std::pmr::vector<uint16_t> parents_;         ///< union-find over labels; a set's root is its lowest
+  std::pmr::vector<uint16_t> first_, labels_;  ///< index of the first run of each row; the label of each run
+  std::pmr::vector<uint16_t> parents_;         ///< union-find parents of labels; the root of a set is its lowest label
   std::pmr::vector<uint8_t> touches_;
 };
 

@@ -11,15 +11,17 @@
 namespace sgm {
 namespace {
 
-/// True if a vertex may occur several times. Parts meet only in the faces of their chunks: a vertex on an edge inside
-/// its chunk is in no other part. Feature vertices may lie off their faces, and a part may contain one several times.
+/// True if a vertex may occur several times among the parts. Parts meet only in the faces of their chunks, so that a
+/// vertex on an edge inside its chunk belongs to one part. Feature vertices may lie off their faces, and a part may
+/// contain one several times.
 bool mayBeOneOfMany(const Vertex& v) {
   if (isFeature(v.kind)) return true;
   constexpr int kEnd = kChunkCells * kSubcell;
   return v.x == 0 || v.x == kEnd || v.y == 0 || v.y == kEnd || v.z == 0 || v.z == kEnd;
 }
 
-/// The keys of border vertices with their indices among all vertices, sorted by key, then by index.
+/// Returns the keys of the vertices that may occur several times, with their indices among all vertices, sorted by key,
+/// then by index.
 std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std::pmr::memory_resource* memory) {
   std::pmr::vector<OrderedKey> border(memory);
   uint32_t place = 0;
@@ -32,7 +34,7 @@ std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std
   return border;
 }
 
-/// Multiples of 1/256 unit, at most 2^41 of them: exact in a double.
+/// Converts a position to metres. It is a multiple of 1/256 unit, at most 2^41 of them: exact in a double.
 double metres(int32_t chunk_origin, int32_t mesh_origin, int16_t position, int32_t cell) {
   const int64_t steps = (int64_t{chunk_origin} - mesh_origin) * kSubcell + int64_t{position} * cell;
   return static_cast<double>(steps) * (1.0 / (kSubcell * kUnitsPerMetre));
@@ -59,7 +61,8 @@ Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin, std::pmr:
                                   " vertices, more than 32-bit indices can number; mesh a smaller one"};
   }
 
-  // number[index]: first the index of an earlier vertex with the same key, or kNone; finally the welded number.
+  // number[index]: while equal keys are searched, the index of an earlier vertex with the same key, or kNone; then the
+  // number of the welded vertex.
   std::pmr::vector<uint32_t> number(vertex_count, kNone, memory);
   size_t welded_count = vertex_count;
   {

@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// The attributes that a welded vertex keeps of its packed vertex.
+/// The attributes of a welded vertex, copied from a packed vertex.
 struct VertexAttributes {
   int16_t normal_x = 0, normal_y = 0;
   uint16_t material = 0, tag = 0;
@@ -21,7 +21,7 @@ struct VertexAttributes {
 
 /// An indexed triangle mesh of a region. All arrays except indices have one entry per vertex.
 struct WorldMesh {
-  Int3 origin;  ///< of the positions, in units
+  Int3 origin;  ///< origin of the positions, in units
   /// In metres from origin. Exact: positions are multiples of 1/2^18 m.
   std::pmr::vector<std::array<double, 3>> positions;
   std::pmr::vector<VertexAttributes> attributes;
@@ -32,10 +32,11 @@ struct WorldMesh {
       : positions(memory), attributes(memory), keys(memory), indices(memory) {}
 };
 
-/// Welds bodies and seams of any number of chunks. The result does not depend on the order of parts: they are sorted by
-/// level, then origin (z, y, x), then number. Vertices are in order of first occurrence, with the attributes of the
-/// first copy; triangles follow their parts. Border vertices appear once; open edges remain only where no part adjoins.
-/// Error: Code::limit if the region has 2^32 vertices or more before welding.
+/// Welds the bodies and seams of any number of chunks. The order of `parts` does not affect the result: they are sorted
+/// by level, then origin (z, y, x), then number. Vertices are in the order of their first occurrence, with the
+/// attributes of the first copy; triangles follow the order of the parts. A vertex that several parts share appears
+/// once; open edges remain only where no part adjoins. Error: Code::limit if the parts have 2^32 vertices or more in
+/// total.
 Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin,
                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

@@ -20,37 +20,40 @@ struct ExportMaterial {
   float roughness = 0.9f;                         ///< 0..1
 };
 
-/// Two materials and their shares at a vertex; all triangles there have the same two. Shares in 255ths.
+/// Two materials and their shares at a vertex, in 255ths. All corners of a triangle have the same two materials.
 struct ExportBlend {
-  std::array<uint16_t, 2> materials{};  ///< both the same: one material
-  uint8_t share = 0;                    ///< of the second
-  std::array<uint8_t, 3> planes{};      ///< shares of textures projected along x, y and z; all 0: by coordinates
+  std::array<uint16_t, 2> materials{};  ///< equal if the vertex has one material
+  uint8_t share = 0;                    ///< share of the second material, in 255ths
+  /// shares of the texture's projections along x, y and z, in 255ths; all 0: the texture is mapped by coordinates
+  std::array<uint8_t, 3> planes{};
 };
 
-/// Texture vertices. At the border of charts or pairs of materials, a mesh vertex has several.
+/// Texture vertices. A mesh vertex at the border of two charts, or of two pairs of materials, has several of them.
 struct ExportTexture {
-  std::span<const uint32_t> vertices;  ///< of the mesh, one per texture vertex
-  std::span<const std::array<float, 2>> coordinates;
-  std::span<const ExportBlend> blends;  ///< one per texture vertex
-  std::span<const uint32_t> corners;    ///< into these, parallel to the mesh's indices
-  std::span<const std::byte> png;       ///< an image file that repeats over the whole mesh; empty: none
+  std::span<const uint32_t> vertices;                 ///< index of the mesh vertex of each texture vertex
+  std::span<const std::array<float, 2>> coordinates;  ///< texture coordinates, one pair per texture vertex
+  std::span<const ExportBlend> blends;                ///< one per texture vertex
+  std::span<const uint32_t> corners;                  ///< indices of texture vertices, parallel to the mesh's indices
+  std::span<const std::byte> png;                     ///< a PNG file, repeated over the whole mesh; empty: no image
 };
 
 /// Additional content of the file. Materials with indices beyond the table are written as grey, named "material N".
 struct ExportInfo {
-  std::string name = "mesh";      ///< of the object
-  std::string generator = "sgm";  ///< program and version
+  std::string name = "mesh";      ///< name of the object
+  std::string generator = "sgm";  ///< name and version of the program
   std::vector<ExportMaterial> materials;
   std::vector<std::string> tags;
-  const ExportTexture* texture = nullptr;  ///< borrowed; null: none. Not for .ply and .stl, which store none
+  /// borrowed; null: no texture. Ignored by .ply and .stl, which cannot store it
+  const ExportTexture* texture = nullptr;
 };
 
 enum class MeshFormat { glb, obj, ply, stl };
 
-/// The format by the file extension, in any case. Error: Code::invalid_argument, with the four extensions.
+/// Returns the format for a file extension, in upper or lower case. Error: Code::invalid_argument, which lists the four
+/// extensions.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 
-/// A file for a mesh, opened before the mesh exists, so that an unwritable path is reported before the work.
+/// An output file that is opened before the mesh is computed, so that an unwritable path is reported early.
 ///
 /// Positions are in metres from mesh.origin, rounded to float32.
 ///  .glb  binary glTF 2.0: one primitive per material with vertices of its own, POSITION, NORMAL, _TAG; the scene's
@@ -65,8 +68,8 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 /// valid file. Files appear complete or not at all (FileWriter); .obj and .mtl appear together or not at all.
 class MeshFile {
  public:
-  /// Uses the format of the path's extension. unfinished: see FileWriter. Errors: Code::io, also if another program
-  /// wrote the .mtl of an .obj; Code::invalid_argument for the extension.
+  /// Uses the format of the path's extension. unfinished: see FileWriter. Errors: Code::io, also if the .mtl beside an
+  /// .obj exists and was written by another program; Code::invalid_argument if the extension is unknown.
   static Result<MeshFile> create(const std::filesystem::path& path, UnfinishedFiles* unfinished = nullptr);
   /// True if files of the path's format can hold texture coordinates.
   static bool holdsTexture(const std::filesystem::path& path);
@@ -75,7 +78,7 @@ class MeshFile {
 
   /// The files that write creates: the path, and the .mtl of an .obj.
   const std::vector<std::filesystem::path>& paths() const { return paths_; }
-  /// The size of all of them, after write.
+  /// The total size of the files, once write has succeeded.
   uint64_t bytes() const;
 
  private:

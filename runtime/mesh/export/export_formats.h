@@ -12,13 +12,13 @@ namespace sgm {
 Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
 Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
 Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
-/// library_name: the name of the library in the file.
+/// Writes an .obj to `file` and its materials to `library`. library_name: the .mtl name that the .obj refers to.
 Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
                       FileWriter& library, FileWriter& file);
-/// The file name of the materials of an .obj. Many readers end a name at a space and accept only ASCII letters: a name
-/// with other characters is replaced by a unique one.
+/// Returns the .mtl file name for an .obj. Many readers end a name at a space and accept only ASCII letters, so a name
+/// with other characters is replaced by a unique one that has none.
 std::string materialLibraryName(const std::filesystem::path& obj);
-/// Error: Code::io if a file exists there that writeObj has not written.
+/// Error: Code::io if the file exists and was not written by writeObj, and so must not be overwritten.
 Result<void> mayReplaceLibrary(const std::filesystem::path& library);
 
 using Float3 = std::array<float, 3>;
@@ -30,7 +30,7 @@ ExportMaterial materialAt(const ExportInfo& info, uint16_t index);
 /// The shortest text that reads back as the same number, in any locale.
 std::string decimalText(float value);
 std::string decimalText(double value);
-/// Line breaks and other control characters become spaces, so that a name stays within its line.
+/// Replaces line breaks and other control characters by spaces, so that a name stays within its line of the file.
 std::string oneLine(std::string text);
 
 }  // namespace sgm

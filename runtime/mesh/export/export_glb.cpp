@@ -11,21 +11,21 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
-constexpr size_t kVertexBytes = 28;   // position, normal, tag, two bytes of padding
-constexpr size_t kTextureBytes = 12;  // added by a texture: coordinates, blend
-constexpr size_t kColourBytes = 8;    // added by a pair of materials
+constexpr size_t kVertexBytes = 28;   // bytes per vertex: position, normal, tag, two bytes of padding
+constexpr size_t kTextureBytes = 12;  // additional bytes per vertex with a texture: coordinates, blend
+constexpr size_t kColourBytes = 8;    // additional bytes per vertex of a pair of materials
 
 /// The triangles of one material, or of a pair of materials. Vertices are renumbered in the order in which the
 /// triangles use them.
 struct Primitive {
   std::array<uint16_t, 2> materials{};
   size_t vertex_size = kVertexBytes;
-  std::vector<uint32_t> vertices;  // indices in the whole mesh; with a texture, indices of its texture vertices
+  std::vector<uint32_t> vertices;  // indices of the mesh's vertices; with a texture, indices of its texture vertices
   std::vector<uint32_t> indices;   // into vertices
   Float3 low{}, high{};
 
   bool blends() const { return materials[0] != materials[1]; }
-  // 65535 itself is the primitive restart value.
+  // Index 65535 is reserved: it restarts a primitive.
   bool shortIndices() const { return vertices.size() <= 65535; }
   size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
   size_t paddedIndexBytes() const { return (indexBytes() + 3) / 4 * 4; }
@@ -37,7 +37,8 @@ uint32_t vertexOf(const ExportTexture* texture, uint32_t number) {
 }
 
 std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTexture* texture) {
-  std::map<std::array<uint16_t, 2>, std::vector<size_t>> triangles_of;  // by their first index
+  // offset of the first index of each triangle, by materials
+  std::map<std::array<uint16_t, 2>, std::vector<size_t>> triangles_of;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const uint16_t alone = triangleMaterial(mesh, i);
     const bool blended = texture != nullptr;
@@ -131,7 +132,7 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   };
   const bool pictured = info.texture != nullptr && !info.texture->png.empty();
   const float roughness = (std::clamp(first.roughness, 0.0f, 1.0f) + std::clamp(second.roughness, 0.0f, 1.0f)) / 2;
-  // The mixture in the vertices' colours, for importers with materials of their own.
+  // The extras name both materials, for importers that use materials of their own instead of the vertices' colours.
   const std::string extras = !primitive.blends() ? ""
                                                  : ",\"extras\":{\"sgm\":{\"materials\":[" + quoted(first.name) + ',' +
                                                        quoted(second.name) + "],\"shareOfSecond\":\"_BLEND.w\"}}";
@@ -225,7 +226,7 @@ void writePrimitive(const WorldMesh& mesh, const ExportInfo& info, const Primiti
     if (texture != nullptr) {
       const auto& [u, v] = texture->coordinates[number];
       file.writeValue(u);
-      file.writeValue(-v);  // the rows of an image go down
+      file.writeValue(-v);  // texture coordinate v points down in glTF
       const ExportBlend& blend = texture->blends[number];
       file.write(blend.planes.data(), blend.planes.size());
       file.writeValue(blend.share);

@@ -8,7 +8,8 @@
 namespace sgm {
 namespace {
 
-/// Identifies material libraries that this library wrote. The first line names the generator.
+/// The beginning of the second line of a .mtl, which identifies files that this library wrote. The first line names the
+/// generator.
 constexpr const char* kSecondLine = "# origin_units ";
 
 /// Many readers end the names in usemtl and newmtl at white space.
@@ -19,7 +20,7 @@ std::string materialWord(const ExportInfo& info, uint16_t index) {
   return word.empty() ? "material_" + std::to_string(index) : word;
 }
 
-/// Triangles grouped by material, in the mesh's order within a group.
+/// Returns the materials that the mesh uses, ascending.
 std::vector<uint16_t> usedMaterials(const WorldMesh& mesh) {
   std::vector<bool> used(size_t{1} << 16);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) used[triangleMaterial(mesh, i)] = true;
@@ -66,7 +67,8 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
       file.write(line + '\n');
     }
   }
-  // Both files are complete on the disk before either gets its name, and a file never refers to a missing library.
+  // Both files are complete on the disk before either gets its final name, and the .mtl is renamed first: the .obj
+  // never refers to a missing .mtl.
   if (Result<void> done = library.finish(); !done) return done;
   if (Result<void> done = file.finish(); !done) return done;
   if (Result<void> done = library.commitReversibly(); !done) return done;
@@ -84,7 +86,7 @@ std::string materialLibraryName(const std::filesystem::path& obj) {
     if (!plain) c = '_';
   }
   if (name == stem) return name + ".mtl";
-  // Other names may become the same name.
+  // Different names may become equal by the replacement; the hash of the original name keeps them apart.
   constexpr char kDigits[] = "0123456789abcdef";
   name += '_';
   const uint64_t hash = hashText(stem);
@@ -97,7 +99,8 @@ Result<void> mayReplaceLibrary(const std::filesystem::path& library) {
   std::ifstream in(library, std::ios::binary);
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<size_t>(in.gcount()));
-  // Replacing an empty file loses nothing, and FileWriter reports why a file cannot be read.
+  // An unreadable or empty file is accepted: replacing an empty file loses nothing, and FileWriter reports why a file
+  // cannot be read.
   if (start.empty()) return {};
   const size_t second = start.find('\n') + 1;
   if (start.starts_with("# ") && start.substr(second).starts_with(kSecondLine)) return {};
