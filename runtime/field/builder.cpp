@@ -19,7 +19,8 @@ ProgramBuilder::ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label, 
   program_.q_scale = quantiseScale(finest_cell);
 }
 
-// No denormals, which devices treat differently (shaders/common/real.h, settleReal).
+// Writes a parameter word. Denormals become 0, because devices treat them differently (shaders/common/real.h,
+// settleReal).
 void ProgramBuilder::put(float f) {
   program_.params.push_back(std::bit_cast<uint32_t>(std::abs(f) < 1e-30f ? 0.0f : f));
 }
@@ -330,7 +331,7 @@ Result<void> ProgramBuilder::group(Value root, const IntBox& influence, uint32_t
     Instr in{s.op, 0, of(s.a), 0, of(s.c), s.place, 0, s.params};
     if (begins) settle(s.b);
     in.b = of(s.b);
-    // Operands that end here release their register first, so that the result can reuse it in place.
+    // Operands that are not used later release their register first, so that the result can reuse it in place.
     release(s.a, i);
     if (!begins) release(s.b, i);
     release(s.c, i);

@@ -1,5 +1,6 @@
 #pragma once
-// Builds field programs, group by group. The only place that defines each op's parameter words and allocates registers.
+// Builds field programs, group by group. Only this class defines the parameter words of each op and allocates
+// registers.
 
 #include <span>
 
@@ -10,16 +11,17 @@
 
 namespace sgm {
 
-/// A value of the group under construction.
+/// The result of an op in the group under construction.
 struct Value {
   uint32_t id = kNone;
 };
 
 /// Not thread-safe. Lengths are in units unless noted; all numbers must be finite, and sizes positive. Primitives and
-/// coordinates read the current place: the sample's position, or that of the innermost warp.
+/// coordinates read the current place, a position: the sample's, or the result of the innermost warp (pushWarp).
 class ProgramBuilder {
  public:
-  /// finest_cell in units, at least 1, sets the scale of Q; `solid` and `label` are those of the domain.
+  /// finest_cell: in units, at least 1; sets the scale of the quantised samples Q. solid, label: of the domain, which
+  /// has no shape.
   ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
@@ -31,34 +33,35 @@ class ProgramBuilder {
   Value torus(const Frame& frame, float ring, float tube, uint32_t label);
   Value ellipsoid(const Frame& frame, float x, float y, float z, uint32_t label);
   Value superquadric(const Frame& frame, float x, float y, float z, float exponent, uint32_t label);
-  /// Radii from (size[0..2]) at t = 0 to (size[3..5]) at t = 1.
+  /// An ellipsoid of powers whose radii change from size[0..2] at t = 0 to size[3..5] at t = 1.
   Value powerMorph(const Frame& frame, std::span<const float, 6> size, Value t, uint32_t label);
   Value halfspace(const Frame& frame, uint32_t label);
-  /// Corners in local xz (x and z of each point, in units), counter-clockwise seen from +y, at least three.
+  /// A prism with this base: x and z of at least three local corners, in units, counter-clockwise seen from +y.
   Value prism(const Frame& frame, float half_height, std::span<const Int3> corners, uint32_t label);
 
-  /// One sample per point, in units, multiples of 1/1024. limit: a value of at least this magnitude counts as far
-  /// (1e18).
+  /// Interpolates a lattice of samples. samples: one per point, in units, multiples of 1/1024. limit: a value of at
+  /// least this magnitude becomes the far value (1e18) of its sign.
   Value lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label);
 
-  /// Operands of a sum: the cheap ball, and any distance with its inner radius in units, greater than 0.
+  /// An operand of a sum: a ball, which is cheap, or any distance with its inner radius. Radii are in units and above
+  /// 0.
   Value blobWeight(Int3 centre, float radius, uint32_t label);
   Value kernelWeight(Value distance, float inner_radius);
 
   Value constant(float value);  ///< clamped to +-1e18
   /// row . (place - anchor), in metres; the row is dimensionless.
   Value coordinate(Int3 anchor, float row_x, float row_y, float row_z);
-  /// Evaluates `octaves` of spec.octaves; the amplitude stays that of the whole sum.
+  /// Evaluates the first `octaves` octaves of a noise; the amplitude stays normalised for all spec.octaves.
   Value noise(const NoiseSpec& spec, uint32_t octaves);
-  /// At least two points. 0 at the first, 1 at the last.
+  /// The parameter along a polyline of at least two points: 0 at the first point, 1 at the last.
   Value sweep(std::span<const Int3> polyline);
-  Value unary(Op op, Value a);                          ///< copy, negate, absolute, floor, square_root
-  Value binary(Op op, Value a, Value b);                ///< add to divide, less, minimum, maximum, cut, displace
-  Value ternary(Op op, Value a, Value b, Value c);      ///< mix and morph
+  Value unary(Op op, Value a);                          ///< op: copy, negate, absolute, floor, square_root
+  Value binary(Op op, Value a, Value b);                ///< op: add to divide, less, minimum, maximum, cut, displace
+  Value ternary(Op op, Value a, Value b, Value c);      ///< op: mix, morph
   Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falling if upper < lower
 
-  /// Round union and compact-kernel sum over any number of operands: begin, add each, end.
-  /// Only the functions that add to an accumulator and end it may read it.
+  /// A round union, or a sum with a compact kernel, over any number of operands: begin the accumulator, add each
+  /// operand, end it. No other functions may read an accumulator.
   struct Accumulator {
     Value nearest, sum;
     float k = 0;
@@ -67,17 +70,20 @@ class ProgramBuilder {
   void addRound(const Accumulator& acc, Value d);
   Value endRound(const Accumulator& acc);
   Accumulator beginSum();
-  /// weight: never negative, since pruning drops an operand that is nowhere above 0.
+  /// weight: never negative, because pruning drops an operand whose weight is nowhere above 0.
   void addSum(const Accumulator& acc, Value weight);
-  /// threshold: the weight of the surface; length in units turns the dimensionless difference into a distance.
+  /// threshold: the sum of weights at the surface. length: the factor in units that turns the dimensionless difference
+  /// from the threshold into a distance.
   Value endSum(const Accumulator& acc, float threshold, float length);
 
-  /// Evaluates the following values at p + round(1024 (x, y, z)), metres, until popWarp().
+  /// Evaluates the values that follow at the position p + round(1024 (x, y, z)), until popWarp(). p: the current place;
+  /// x, y, z: in metres.
   void pushWarp(Value x, Value y, Value z);
   void popWarp();
 
-  /// Ends the group. Groups must be in order of layer, adds before cuts; a smooth one (a width in units, at most 2^20)
-  /// must be the only one of its layer. Error: limit if it needs more registers or places than exist.
+  /// Ends the group. Groups must be emitted in order of layer, and adds before cuts within a layer; a smooth group must
+  /// be the only one of its layer. smooth: width of the blend in units, at most 2^20; 0: none. Error: limit if the
+  /// group needs more registers or places than exist.
   Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth = 0);
 
   FieldProgram finish() { return std::move(program_); }

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kMaxShapeDepth = 256;
 
-// The field's slope compared with the compact kernel's at the surface of a lone ball of radius 1 (shape.h, `sum`).
+// The ratio of the field's slope to that of the compact kernel, at the surface of a single ball of radius 1 (shape.h,
+// `sum`).
 double kernelSlope() {
   const double x = 1.0 / (double{kSumSupport} * double{kSumSupport});
   return 3 * (1 - x) * (1 - x) * 2 * x;
@@ -30,8 +31,8 @@ float kernelThreshold() {
 // Emits one grammar chunk's shapes.
 class ShapeCompiler {
  public:
-  /// box: contains every position that is read; cell_number: as in ShapeLabels::Source; shapes: null, or receives the
-  /// shapes that labels name.
+  /// box: contains every position that will be sampled; cell_number: as in ShapeLabels::Source; shapes: null, or the
+  /// table in which labels get numbers of shapes.
   ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
                 ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk),
@@ -42,7 +43,7 @@ class ShapeCompiler {
         builder_(builder),
         known_(chunk.exprs.size(), memory) {}
 
-  /// nullopt if the level drops the whole shape.
+  /// Emits a shape; nullopt if the level drops the whole shape as too small.
   Result<std::optional<Value>> root(uint32_t shape) {
     epoch_ = ++epochs_;
     return emit(shape, 0);
@@ -56,7 +57,7 @@ class ShapeCompiler {
     return (s.detail != 0 && cell_ > s.detail) || (s.coarsest != 0 && cell_ < s.coarsest);
   }
 
-  /// Material and tag, or the number of the shape; pieces of one sweep have the number of the whole.
+  /// Returns a shape's material and tag, or its number in the table of shapes; the pieces of one sweep share a number.
   uint32_t labelOf(uint32_t index) {
     const Shape& s = chunk_.shapes[index];
     if (shapes_ == nullptr) return makeLabel(s.material, s.tag);
@@ -67,7 +68,7 @@ class ShapeCompiler {
     return std::span(chunk_.children).subspan(s.first_child, s.child_count);
   }
 
-  // Each expression is emitted once per group and place; a shared one keeps its register.
+  // Emits an expression. Each one is emitted once per group and place; further uses read its register.
   Value expr(uint32_t index) {
     Known& known = known_[index];
     if (known.epoch == epoch_) return known.value;
@@ -153,10 +154,10 @@ class ShapeCompiler {
       case ExprOp::mix:
         break;
     }
-    return Op::count;  // all others do not take two operands
+    return Op::count;  // the other operators have one or three operands
   }
 
-  // Octaves with a period under two cells would only alias.
+  // Returns the number of octaves to evaluate. Octaves with a period under two cells would only alias.
   uint32_t octavesAt(const NoiseSpec& n) const {
     uint32_t count = 0;
     while (count < n.octaves && (int64_t{n.period} >> count) >= 2 * int64_t{cell_}) ++count;
@@ -233,8 +234,8 @@ class ShapeCompiler {
 
   static Emitted some(Value v) { return std::optional<Value>(v); }
 
-  // Hard union or intersection, operand by operand. If an operand of an intersection is dropped, so is the
-  // intersection.
+  // Emits a hard union or intersection, operand by operand. If an operand of an intersection is dropped, the whole
+  // intersection is.
   Emitted chain(const Shape& s, Op op, int depth, bool all) {
     std::optional<Value> result;
     for (uint32_t child : children(s)) {
@@ -260,8 +261,8 @@ class ShapeCompiler {
     return result;
   }
 
-  // Round union of the children; intersection and subtraction follow by negation. A meet negates all operands. A
-  // subtraction negates only the first: -(min round of -a, b, c, ...).
+  // Emits the round union of the children. Intersection and subtraction use it by negation: an intersection negates all
+  // operands, a subtraction only the first: -(round union of -a, b, c, ...).
   Emitted round(const Shape& s, int depth, bool negated, bool only_first) {
     std::optional<ProgramBuilder::Accumulator> acc;
     const auto list = children(s);
@@ -285,7 +286,7 @@ class ShapeCompiler {
   Emitted sum(const Shape& s, int depth) {
     std::optional<ProgramBuilder::Accumulator> acc;
     float largest = 0;
-    // The scale belongs to the group at every level, so dropped operands count as well.
+    // The scale belongs to the group at every level, so operands that this level drops count as well.
     for (uint32_t child : children(s)) largest = std::max(largest, chunk_.shapes[child].inner_radius);
     for (uint32_t child : children(s)) {
       const Shape& c = chunk_.shapes[child];
@@ -307,8 +308,8 @@ class ShapeCompiler {
     return some(builder_.endSum(*acc, kernelThreshold(), static_cast<float>(double{largest} / kernelSlope())));
   }
 
-  /// True if a ball's weight is 0 at every position that is read: adding it changes no bit. Under a warp, where
-  /// positions differ, none is left out.
+  /// True if a ball's weight is 0 at every position that will be sampled, so that leaving it out changes no bit. Always
+  /// false under a warp, where positions differ.
   bool weighsNothing(const Shape& ball) const {
     if (warps_ > 0) return false;
     double squared = 0;
@@ -317,7 +318,7 @@ class ShapeCompiler {
       const double away = std::max({read_.lo[axis] - at, at - read_.hi[axis], 0.0});
       squared += away * away;
     }
-    // The rounding of its float distance is far below this factor.
+    // The rounding error of the ball's distance in floats is far below this factor.
     constexpr double kSafely = 1 + 1e-4;
     const double support = double{ball.size[0]} * double{kSumSupport} * kSafely;
     return squared > support * support;
@@ -343,7 +344,7 @@ class ShapeCompiler {
   Emitted warp(const Shape& s, int depth) {
     const Value x = expr(s.expr), y = expr(s.expr + 1), z = expr(s.expr + 2);
     builder_.pushWarp(x, y, z);
-    // Values read at the outer place must be read again inside.
+    // Values that were read at the outer place must be read again at the warped place.
     const uint64_t outer = epoch_;
     const IntBox outer_read = read_;
     epoch_ = ++epochs_;
@@ -364,11 +365,11 @@ class ShapeCompiler {
 
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
-  IntBox read_;    ///< contains every position that is read
+  IntBox read_;    ///< contains every position that will be sampled
   int warps_ = 0;  ///< number of warps around the current shape
   int32_t cell_;
   ShapeLabels* shapes_;
-  std::optional<uint32_t> sweep_;  ///< the label of the current shape if it is a piece of a sweep
+  std::optional<uint32_t> sweep_;  ///< label of the sweep whose piece is compiled now; nullopt outside of sweeps
   ProgramBuilder& builder_;
   std::pmr::vector<Known> known_;
   uint64_t epochs_ = 0;
@@ -376,7 +377,7 @@ class ShapeCompiler {
 };
 
 struct Gathered {
-  size_t cell;  ///< index in the given cells
+  size_t cell;  ///< index in the cells passed to compileField
   uint32_t group;
   uint32_t layer;
   bool cut;
@@ -388,10 +389,10 @@ struct Gathered {
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory, std::span<const HostField> hosts,
                                   std::span<const Brush> brushes) {
-  // Growing arrays allocate from this buffer: requests to `memory` are counted there, with contention between threads.
+  // Growing arrays allocate from this buffer, because each request to `memory` is counted, which threads contend for.
   std::array<std::byte, 8192> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
-  // A host's samples can be large, and memory that an array has outgrown is not freed in the scratch buffer.
+  // The samples of a host field can be large, and the scratch buffer never frees memory that an array has outgrown.
   std::pmr::memory_resource* large = hosts.empty() ? &scratch : memory;
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(&scratch);

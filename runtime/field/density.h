@@ -1,5 +1,5 @@
 #pragma once
-// Density from quantised samples: the rule of shaders/common/density.h for arrays.
+// Computes densities from arrays of quantised samples, by the rule of shaders/common/density.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,21 +7,21 @@
 
 namespace sgm {
 
-/// The limit of quantised samples: an edge is at most this many finest cells deep.
+/// The maximum width of an edge in finest cells: quantised samples have a limited range.
 inline constexpr int32_t kMostEdgeCells = 4096;
 
-/// The width of an edge, from the surface to density 1, in the scale of the samples.
+/// The width of the edge over which the density rises from 0 to 1, in the scale of the quantised samples.
 struct DensityEdge {
-  double steps = 0;   ///< in 1024ths of a finest cell
-  float inverse = 0;  ///< the argument of densityOf()
+  double steps = 0;   ///< width in 1024ths of a finest cell
+  float inverse = 0;  ///< the reciprocal of the width, an argument of densityOf()
 };
 
-/// edge in units, 1 to kMostEdgeCells * finest_cell.
+/// Converts a width. edge: in units, 1 to kMostEdgeCells * finest_cell.
 DensityEdge densityEdge(double edge, int32_t finest_cell);
 
 /// Writes a density from 0 to 1 for each sample; out has as many elements as q.
 void densities(std::span<const int32_t> q, const DensityEdge& edge, float* out);
-/// The same, rounded to the nearest 255th.
+/// Same as above, with densities 0 to 255, rounded to the nearest.
 void densities(std::span<const int32_t> q, const DensityEdge& edge, uint8_t* out);
 
 }  // namespace sgm

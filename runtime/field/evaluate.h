@@ -1,5 +1,5 @@
 #pragma once
-// Evaluators of field programs. All produce the same bits; the scalar one here is the reference.
+// Evaluators of field programs. All of them compute the same bits; the scalar evaluator here is the reference.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,8 @@
 
 namespace sgm {
 
-inline constexpr size_t kEvalBlock = 256;  ///< points that pass through a program together, within the cache
+/// number of points that an evaluator sends through a program together; their registers fit in the cache
+inline constexpr size_t kEvalBlock = 256;
 
 /// Scratch memory of one thread: reused, grows to the size of the largest program.
 class EvalScratch {
@@ -43,8 +44,8 @@ struct LatticeBox {
   std::array<size_t, 3> size{};
 };
 
-/// The destination of a box's samples: Q of (i, j, k) goes to q[i + j * row + k * plane]; if it is negative, bit
-/// first_bit + i of signs[j + k * sign_plane] is set.
+/// The destination of a box's samples. The sample (i, j, k) is written to q[i + j * row + k * plane]; if it is negative
+/// (solid), bit first_bit + i of signs[j + k * sign_plane] is set.
 struct LatticeSamples {
   int32_t* q = nullptr;
   size_t row = 0, plane = 0;
@@ -52,18 +53,19 @@ struct LatticeSamples {
   size_t sign_plane = 0, first_bit = 0;
 };
 
-/// The destination of attributes, each `count` long; null if not wanted.
+/// The destination of attributes: arrays of `count` elements each, or null if an attribute is not wanted.
 struct Attributes {
   float* value = nullptr;  ///< units
   float* gradient_x = nullptr;
   float* gradient_y = nullptr;
   float* gradient_z = nullptr;
-  int16_t* normal_x = nullptr;  ///< octahedral, as in Vertex
+  int16_t* normal_x = nullptr;  ///< octahedral normal, packed as in Vertex
   int16_t* normal_y = nullptr;
   uint32_t* label = nullptr;  ///< tag << 16 | material
 };
 
-/// The evaluator for one instruction set. The functions are pure except for scratch; any count of points, including 0.
+/// The functions of an evaluator for one instruction set. They are pure except for the scratch memory, and accept any
+/// number of points, including 0.
 struct FieldKernels {
   const char* name;
   void (*samples)(const ProgramView&, const Points&, EvalScratch&, int32_t* q);
@@ -71,11 +73,11 @@ struct FieldKernels {
   void (*box)(const ProgramView&, const LatticeBox&, EvalScratch&, const LatticeSamples&);
 };
 
-/// Plain float, one point at a time.
+/// An evaluator that computes one point at a time with plain floats.
 const FieldKernels& scalarKernels();
 
-/// Same as scalarKernels(), but adds to EvalScratch::operations the number of instructions times points: the work of
-/// every evaluator of this interface, except for the padding to whole vectors at a block's end.
+/// Same as scalarKernels(), but adds the number of instructions times points to EvalScratch::operations. That is the
+/// work of every evaluator of this interface, except for the padding of a block's last vector.
 const FieldKernels& countingKernels();
 
 }  // namespace sgm

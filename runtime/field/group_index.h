@@ -1,5 +1,6 @@
 #pragma once
-// A bounding volume hierarchy over a grammar chunk's groups, so that a mesh chunk need not scan all shapes of a cell.
+// A bounding volume hierarchy over a grammar chunk's groups: finds the groups near a mesh chunk without a scan of all
+// shapes of the cell.
 
 #include <memory_resource>
 #include <vector>
@@ -18,14 +19,14 @@ class GroupIndex {
  private:
   struct Node {
     IntBox bounds;
-    uint32_t first = 0, count = 0;  ///< of order_, in a leaf
-    uint32_t right = 0;             ///< the other child; the left one follows its parent
+    uint32_t first = 0, count = 0;  ///< in a leaf: range of order_
+    uint32_t right = 0;             ///< index of the right child; the left child follows its parent
   };
   uint32_t build(const GrammarChunk& chunk, uint32_t first, uint32_t count);
 
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint32_t> order_;
-  std::pmr::vector<IntBox> bounds_;  ///< of the groups, in the order of order_
+  std::pmr::vector<IntBox> bounds_;  ///< bounds of the groups, parallel to order_
 };
 
 }  // namespace sgm

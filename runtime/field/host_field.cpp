@@ -11,10 +11,11 @@ namespace sgm {
 namespace {
 
 constexpr double kStepsAUnit = 1024;
-/// The spacing of samples for a box that is far from the surface; all of them are equal.
+/// The spacing of the samples of a far lattice, all of which are equal.
 constexpr int32_t kFarSpacing = 1 << 22;
 
-/// Whole steps, so that the last bits of hosts do not matter and there are no denormals (shaders/common/lattice.h).
+/// Rounds a sample to whole steps, so that the last bits of host programs do not matter and there are no denormals
+/// (shaders/common/lattice.h).
 float wholeSteps(float sample) {
   const double held = std::clamp(double{sample}, -double{kLargestSample}, double{kLargestSample});
   return static_cast<float>(std::floor(held * kStepsAUnit + 0.5) / kStepsAUnit);
@@ -31,7 +32,8 @@ Error badSample(const SampleLattice& at, size_t i, const std::string& what) {
   return {Code::invalid_argument, text};
 }
 
-/// Otherwise a chunk that relies on the steepness and a chunk that samples would not match.
+/// Rejects samples that are steeper than the host states: a chunk that relies on the steepness, and takes one sample,
+/// would not match a chunk that samples all points.
 Result<void> checkSteepness(const HostField& field, const SampleLattice& at, std::span<const float> values) {
   const size_t row = at.count[0], layer = row * at.count[1];
   const double most = double{field.steepness} * at.spacing;
@@ -56,14 +58,14 @@ Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::s
   return field.steepness > 0 ? checkSteepness(field, at, values) : Result<void>();
 }
 
-/// Returns the far value with the sign of its side if one sample proves that the whole lattice counts as far; otherwise
-/// 0.
+/// If one sample proves that all of the lattice is far from the surface, returns the far value with the sign of that
+/// sample; otherwise 0.
 Result<float> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
   SampleLattice middle = lattice;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    // A point of the lattice itself: the host may not know others.
+    // Samples at a point of the lattice: the host may not know the field elsewhere.
     const int64_t cells = lattice.count[a] - 1, before = cells / 2, after = cells - before;
     middle.origin[axis] = static_cast<int32_t>(lattice.origin[axis] + before * lattice.spacing);
     middle.count[a] = 1;
@@ -72,7 +74,7 @@ Result<float> farSide(const HostField& field, const SampleLattice& lattice, doub
   }
   float sample = 0;
   if (Result<void> taken = takeSamples(field, middle, {&sample, 1}); !taken) return taken.error();
-  // The change that checkSteepness() accepts, plus the rounding of samples and of their interpolation.
+  // The largest change that checkSteepness() accepts, plus the rounding of samples and of their interpolation.
   const double change = double{field.steepness} * std::sqrt(square) * (1 + 1e-5) + 1;
   if (std::abs(double{sample}) - change < limit * (1 + 1e-5)) return 0.0f;
   return sample < 0 ? -1.0f : 1.0f;
@@ -88,7 +90,7 @@ Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, cons
   const double limit = steep > 0 ? std::max(steep, double{kWidestHostBlend}) : double{kFarSample};
   const Result<float> side = steep > 0 ? farSide(field, lattice, limit) : Result<float>(0.0f);
   if (!side) return side.error();
-  // Between equal samples all values are equal, so that their positions do not matter.
+  // All samples are equal, so the positions of the lattice's points do not matter.
   if (*side != 0) lattice = {{0, 0, 0}, kFarSpacing, {4, 4, 4}};
   const std::optional<size_t> points = latticePoints(lattice);
   if (!points) {

@@ -1,5 +1,5 @@
 #pragma once
-// Fields from outside the grammar, sampled beside it: a terrain of the engine, or the output of another program.
+// Fields from outside the grammar that the program supplies as samples, such as a terrain of the engine.
 
 #include <cstdint>
 #include <functional>
@@ -13,22 +13,23 @@ namespace sgm {
 inline constexpr int32_t kWidestHostBlend = 16 * kUnitsPerMetre;
 
 struct HostField {
-  /// Writes the field in units, solid below 0, at each point. Must be a pure function of positions and spacing: chunks
-  /// that share points request them separately. Called from any thread, also concurrently.
+  /// Writes the field's value in units at each point; solid is below 0. Must be a pure function of positions and
+  /// spacing, because chunks that share points request them separately. Called from any thread, also concurrently.
   std::function<Result<void>(const SampleLattice& at, std::span<float> values)> sample;
-  uint64_t identity = 0;  ///< of the sampled field: changes if any sample changes
-  IntBox bounds;          ///< the field has no effect beyond it by more than two cells and the blend
-  bool cut = false;       ///< removes its solid; otherwise adds it
+  uint64_t identity = 0;  ///< identifies the sampled field: must change if any sample changes
+  IntBox bounds;          ///< the field has no effect farther outside the bounds than two cells plus the blend
+  bool cut = false;       ///< true: removes the field's solid; false: adds it
   uint32_t label = 0;     ///< tag << 16 | material
   int32_t smooth = 0;     ///< width of the blend with the existing field, 0 to kWidestHostBlend units; 0: none
-  /// The maximum change of the value per unit of distance; 0: unknown. If it is known, a box far from the surface takes
-  /// one sample, and a value counts as far if it exceeds kWidestHostBlend and the possible change over two cells.
+  /// The maximum change of the value per unit of distance; 0: unknown. If it is known, a box far from the surface needs
+  /// only one sample. A value then counts as far if it exceeds kWidestHostBlend plus the possible change over two
+  /// cells.
   float steepness = 0;
 };
 
-/// Emits the field over a box as the only group of a layer, with `label` instead of its own label, sampled at the
-/// level's cells. Errors: of the samples; invalid_argument if a sample is not finite, or two differ more than the
-/// steepness allows; limit if there are more samples than an op can have.
+/// Samples the field over a box, at the cells of the level, and emits it as the only group of a layer. label: replaces
+/// the field's own label. Errors: those of HostField::sample; invalid_argument if a sample is not finite, or two
+/// samples differ more than the steepness allows; limit if an op cannot have so many samples.
 Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, const IntBox& box, int32_t cell,
                            uint32_t layer, uint32_t label, std::pmr::memory_resource* memory);
 

@@ -12,8 +12,8 @@ namespace sgm {
 namespace {
 
 constexpr double kLimit = 1e37;
-constexpr double kHeld = 1e18;   // results of expressions are clamped to this (real.h, settleReal)
-constexpr double kTiny = 1e-30;  // and are 0 below this
+constexpr double kHeld = 1e18;   // results of expressions are clamped to this magnitude (real.h, settleReal)
+constexpr double kTiny = 1e-30;  // results of expressions below this magnitude are 0
 
 constexpr double errorOf(Op op) {
   switch (op) {
@@ -43,8 +43,8 @@ Interval clamped(Interval a, double lo, double hi) { return {std::clamp(a.lo, lo
 
 Interval kept(Interval a) { return clamped(a, -kHeld, kHeld); }
 
-// Offsets from c along one axis, saturated as in the evaluators. Saturation makes none of them change faster with the
-// position, so the bounds on slopes below hold at any distance.
+// Returns the offsets of positions from c along one axis, saturated as in the evaluators. Saturation never makes them
+// change faster with the position, so the bounds on slopes below hold at any distance.
 Interval offsets(Interval axis, double c) { return clamped({axis.lo - c, axis.hi - c}, -2147483648.0, 2147483647.0); }
 
 Interval squared(Interval a) {
@@ -52,7 +52,8 @@ Interval squared(Interval a) {
   return {a.lo <= 0 && a.hi >= 0 ? 0.0 : std::min(l, h), std::max(l, h)};
 }
 
-// (1 - t) a + t b over all t of an interval: linear in t, so its ends suffice; the same for a and b.
+// Returns (1 - t) a + t b over all t, a and b of three intervals. It is linear in each of them, so the ends of the
+// intervals suffice.
 Interval blend(Interval a, Interval b, Interval t) {
   auto at = [&](double s) {
     const Interval p = product(a, {1 - s, 1 - s}), q = product(b, {s, s});
@@ -62,7 +63,7 @@ Interval blend(Interval a, Interval b, Interval t) {
   return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
 }
 
-// Exact zero if the kernel is certainly 0: an operand that adds exactly nothing may be dropped.
+// Returns exactly [0, 0] if the kernel is certainly 0, because an operand that adds exactly nothing may be dropped.
 Interval kernelBounds(Interval x, double error) {
   auto cube = [](double v) {
     const double k = std::max(0.0, 1 - v);
@@ -74,7 +75,7 @@ Interval kernelBounds(Interval x, double error) {
 }
 
 struct CentredBox {
-  double x, y, z;     // centre
+  double x, y, z;     // x, y, z: centre
   double hx, hy, hz;  // half extents
 };
 
@@ -83,18 +84,19 @@ CentredBox centred(const PlaceBox& b) {
           (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
 }
 
-// Squared distance from a ball's centre to the box; the range is exact.
+// Returns the range of squared distances from a ball's centre to points of the box; exact.
 Interval distance2(const uint32_t* p, const PlaceBox& b) {
   auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
   const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
   return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
 }
 
-// The slope of an octave is at most 15/4 per period: the largest that any of the twelve directions at the eight corners
-// can give (in the middle of a cell, along an axis).
+// The maximum slope of an octave is 15/4 per period. It occurs in the middle of a cell, along an axis, for the worst of
+// the twelve gradient directions at each of its eight corners.
 constexpr double kNoiseSlope = 3.7501;
 
-// The value at the middle, plus or minus the slope times the distance to the corners: small for small boxes.
+// Bounds noise by its value at the box's middle, plus or minus the slope times the distance to the box's corners. Good
+// for small boxes.
 Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   constexpr Interval all{-1, 1};
   double slope = 0, weight = realAt(p, 5) * kNoiseSlope;
@@ -104,7 +106,7 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   const std::array<Interval, 3> axes{box.x, box.y, box.z};
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = axes[static_cast<size_t>(axis)];
-    // The lattice wraps around if an offset would leave the integers.
+    // The noise lattice wraps around at the ends of the integers; if an offset could leave them, nothing is known.
     const double anchor = wholeAt(p, axis);
     if (side.lo - anchor < -2147483648.0 || side.hi - anchor > 2147483647.0) return all;
     middle[axis] = static_cast<int32_t>(std::floor((side.lo + side.hi) / 2));
@@ -117,10 +119,10 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
 }
 
-// Bounds values that are monotone in the distances from the three local planes, by the ranges of these in the box:
-// nearly tight if the frame is axis-aligned, however long the box's diagonal is.
+// Bounds values that are monotone in the local |x|, |y|, |z|, by the ranges of these over the box. Nearly tight if the
+// frame is axis-aligned, however long the box's diagonal is.
 struct LocalRange {
-  std::array<double, 3> near{}, far{};  ///< |q| by local axis, at least and at most
+  std::array<double, 3> near{}, far{};  ///< minimum and maximum of |q| along each local axis
 };
 
 LocalRange localRange(const uint32_t* p, const CentredBox& c) {
@@ -157,9 +159,9 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
   return std::sqrt(outer_a * outer_a + outer_b * outer_b) + std::min(std::max(a, b), 0.0);
 }
 
-// The distance from a convex set is convex, so it is nowhere below its tangent at the middle of the box; and it is
-// nowhere larger than the distance from the point of the axis that is nearest to the middle. Neither bound is wider
-// than half the diagonal each way.
+// Bounds the distance from a capsule's axis. The distance from a convex set is convex, so it is nowhere below its
+// tangent at the box's middle; and it is nowhere above the distance from that point of the axis that is nearest to the
+// middle. Neither bound is farther from the middle's value than half the diagonal.
 Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
@@ -182,7 +184,8 @@ Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   return {std::max(lowest, 0.0) - realAt(p, 8), std::sqrt(far2) - realAt(p, 8)};
 }
 
-// Often tighter than a value at the middle and half the diagonal each way; everything if nothing is known.
+// Bounds a primitive by its geometry, often tighter than its value at the middle plus or minus half the diagonal.
+// Returns everything if nothing is known.
 Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   switch (op) {
     case Op::box: {
@@ -194,7 +197,7 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
       return {cylinderDistance(realAt(p, 13), realAt(p, 14), r.near),
               cylinderDistance(realAt(p, 13), realAt(p, 14), r.far)};
     }
-    case Op::truncone: {  // between its inscribed and its enclosing cylinder
+    case Op::truncone: {  // lies between the inscribed and the enclosing cylinder
       const LocalRange r = localRange(p, c);
       const double bottom = realAt(p, 13), top = realAt(p, 14), height = realAt(p, 15);
       return {cylinderDistance(std::max(bottom, top), height, r.near),
@@ -213,7 +216,8 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-// At least the distance of any point of the box from the centre: by axes, without a root.
+// Returns an upper bound for the distance of the box's points from the centre: the sum over axes, which needs no square
+// root.
 double farthestOffset(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return std::abs(offsets({at, at}, wholeAt(p, word)).lo); };
   return offset(c.x, 1) + c.hx + offset(c.y, 2) + c.hy + offset(c.z, 3) + c.hz;
@@ -288,13 +292,13 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     default:
       break;
   }
-  // No primitive is steeper than 1 (primitives.h): its value at the centre, and half the diagonal each way.
+  // No primitive is steeper than 1 (primitives.h), so its value is that at the centre, plus or minus half the diagonal.
   const CentredBox c = centred(box);
   const double radius = std::sqrt(c.hx * c.hx + c.hy * c.hy + c.hz * c.hz);
   const double error = errorOf(op) * (farthestOffset(p, c) + sizeSum(op, p)) + radius * 1e-6;
   if (op == Op::power_morph) {
-    // Between its ends the norm falls as t increases the exponent, and the radii change: bounded from both ends of t,
-    // with the two effects separated. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
+    // As t increases, the exponent grows, so the norm falls, and the radii change. The bounds treat both effects
+    // separately, at both ends of t: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii.
     const Interval s = clamped(t, 0, 1);
     if (s.lo == s.hi) {
       const double v = referencePowerMorph(p, s.lo, c.x, c.y, c.z);
@@ -327,7 +331,7 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
   }
   if (op == Op::capsule) return widened(capsuleRange(p, c), error);
   const double v = referencePrimitive(op, p, c.x, c.y, c.z);
-  if (op == Op::halfspace) {  // linear
+  if (op == Op::halfspace) {  // halfspace is linear
     const double reach = std::abs(realAt(p, 7)) * c.hx + std::abs(realAt(p, 8)) * c.hy + std::abs(realAt(p, 9)) * c.hz;
     return widened({v - reach, v + reach}, error);
   }
@@ -352,7 +356,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     }
     case Op::square_root: {
       const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
-      return widened(r, error * r.hi + 1e-15);  // the root of values that count as 0
+      return widened(r, error * r.hi + 1e-15);  // covers the square root of values that the evaluators treat as 0
     }
     case Op::add:
       return widened(kept({a.lo + b.lo, a.hi + b.hi}), error * (magnitude(a) + magnitude(b)));
@@ -371,7 +375,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     case Op::less:
       return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
     case Op::smoothstep: {
-      // t is clamped before any other rounding, so its ends give exactly 0 and 1.
+      // The evaluators clamp t before any other rounding, so that its ends give exactly 0 and 1.
       const double inv = realAt(p, 1);
       const Interval raw = product({a.lo - realAt(p, 0), a.hi - realAt(p, 0)}, {inv, inv});
       const Interval t = widened(raw, error * std::abs(inv) * (magnitude(a) + std::abs(realAt(p, 0))));
@@ -424,7 +428,7 @@ Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
 }
 
 Interval boundRoundUnion(Interval a, Interval b, double k) {
-  // Monotone in both operands, and never above the nearer one.
+  // The round union is monotone in both operands, and never above the smaller one.
   const Interval nearest{std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
   const double u = std::clamp(k - a.lo, 0.0, 1e9), v = std::clamp(k - b.lo, 0.0, 1e9), root = std::sqrt(u * u + v * v);
   if (u == 0 || v == 0) return nearest;

@@ -6,37 +6,38 @@
 
 namespace sgm {
 
-/// Closed; both ends finite (magnitudes are clamped to 1e37).
+/// A closed interval with finite ends (magnitudes are clamped to 1e37).
 struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// A box of positions at one place, in units.
+/// A box of positions at one place (of a program's registers for positions), in units.
 struct PlaceBox {
   Interval x, y, z;
 };
 
 PlaceBox placeBox(const IntBox& box);
 
-/// The op's relative error in ops.def.
+/// Returns the relative error that ops.def states for the op.
 double statedError(Op op);
 
-/// The sum of the sizes in a primitive's value, apart from its offset: its rounding error is relative to the sum of
-/// both.
+/// Returns the sum of the sizes that enter a primitive's value, without the position: the rounding error of the value
+/// is relative to this sum plus the distance from the primitive's centre.
 double sizeSum(Op op, const uint32_t* params);
 
-/// Bounds of an op that reads a position (t: the operand of power_morph).
+/// Returns bounds of an op that reads a position. t: the operand of power_morph; ignored by other ops.
 Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Interval t);
 
-/// Bounds of an op on operands; not for accumulating ops and warps.
+/// Returns bounds of an op on operands a, b, c. Not for accumulating ops and warps.
 Interval boundOperands(Op op, const uint32_t* params, Interval a, Interval b, Interval c);
 
-/// The end of a round union or a sum.
+/// Returns bounds of the value at the end of a round union. nearest, sum: bounds of its two registers.
 Interval boundRoundEnd(const uint32_t* params, Interval nearest, Interval sum);
 Interval boundSumEnd(const uint32_t* params, Interval sum);
-/// The contribution of one operand to a round union's sum.
+/// Returns bounds of what one operand adds to the sum of a round union. d: bounds of the operand.
 Interval boundRoundShare(const uint32_t* params, Interval d);
-/// A field and a smooth group (program.h) of width k > 0: their round union, and the field minus the group.
+/// Returns bounds of the round union of a field and a smooth group (program.h) of width k > 0; the second function, of
+/// the field minus the group.
 Interval boundRoundUnion(Interval a, Interval b, double k);
 Interval boundRoundCut(Interval a, Interval b, double k);
 

@@ -9,12 +9,14 @@ namespace sgm {
 
 namespace {
 
-constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;  // words (shaders/common/lattice.h)
+// parameter words (shaders/common/lattice.h)
+constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;
 constexpr double kFarAway = double{kFarSample};
 constexpr int64_t kMostPoints = int64_t{1} << 25;
 constexpr double kFarthest = 1 << 30;
 
-/// The coordinate along an axis, in cells: at least 1, because the first and the last cell only provide slopes.
+/// Returns the position `at` along an axis in lattice cells, at least 1, because the first and the last cell only
+/// provide slopes.
 double along(const uint32_t* p, int axis, double at) {
   const double last = wholeAt(p, kCountWord + axis) - 2;
   const double offset = std::clamp(at - wholeAt(p, 1 + axis), 0.0, kFarthest);
@@ -30,7 +32,7 @@ double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
   return realAt(p + kSamplesWord, static_cast<int>((z * column + y) * row + x));
 }
 
-/// Interpolated from the corners of a cell. at: in cells.
+/// Interpolates the samples at the corners of a cell. at: position in cells.
 double mixedAt(const uint32_t* p, const std::array<double, 3>& at) {
   std::array<int64_t, 3> cell{};
   std::array<double, 3> t{};
@@ -102,7 +104,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
     }
   }
   const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
-  // Within one cell the corners of the box suffice, because the value is linear along each axis.
+  // The value is linear along each axis within a cell, so the corners of the box suffice.
   if (last[0] == first[0] + 1 && last[1] == first[1] + 1 && last[2] == first[2] + 1) {
     all = {kFarAway, -kFarAway};
     for (int corner = 0; corner < 8; ++corner) {
@@ -112,7 +114,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
       all = {std::min(all.lo, value), std::max(all.hi, value)};
     }
   }
-  // Values that may count as far may be as large as the far value.
+  // Values that may count as far may be replaced by the far value.
   const double limit = realAt(p, kLimitWord);
   const double lo = all.lo - slack, hi = all.hi + slack;
   return {lo >= limit    ? kFarAway

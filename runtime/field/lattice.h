@@ -1,5 +1,5 @@
 #pragma once
-// Samples on a lattice of integer positions: the form of a field from outside the grammar (shaders/common/lattice.h).
+// Samples on a lattice of integer positions, the form of a field from outside the grammar (shaders/common/lattice.h).
 
 #include <array>
 #include <cstddef>
@@ -9,25 +9,28 @@
 
 namespace sgm {
 
-/// Positions origin + spacing (i, j, k), in units; sampled with x fastest. All of them lie in the world.
+/// The positions origin + spacing (i, j, k), in units, with i fastest. All of them lie in the world.
 struct SampleLattice {
   Int3 origin;
-  int32_t spacing = 1;                     ///< 1 to 2^22
-  std::array<uint32_t, 3> count{4, 4, 4};  ///< along x, y, z; an op reads at least four along each
+  int32_t spacing = 1;  ///< 1 to 2^22
+  /// number of points along x, y, z; an op reads at least four along each axis
+  std::array<uint32_t, 3> count{4, 4, 4};
 };
 
-/// The value that counts as far. The magnitude of samples is at most kLargestSample.
+/// kFarSample replaces samples that count as far. Other samples have a magnitude of at most kLargestSample.
 inline constexpr float kFarSample = 1e18f, kLargestSample = 1e12f;
 
-/// The points of the cells that contain the box, and of one more cell on every side. The lattice of a spacing passes
-/// through the world's origin, so that boxes which share a cell share its samples. At the end of the world, the last
-/// whole cell replaces the rest.
+/// Returns the points of the lattice cells that contain the box, and of one more cell on every side. Lattices of equal
+/// spacing all pass through the world's origin, so that boxes which share a cell share its samples. At the end of the
+/// world, where a cell would leave it, the lattice ends with the last whole cell.
 SampleLattice latticeAround(const IntBox& box, int32_t spacing);
 
-/// The number of points; nullopt if it exceeds the limit of an op (2^25 points, extent 2^30 units along an axis).
+/// Returns the number of points; nullopt if it exceeds the limits of an op (2^25 points; an extent of 2^30 units along
+/// an axis).
 std::optional<size_t> latticePoints(const SampleLattice& lattice);
 
-/// The bounds of the op over a box of positions, and its value at one of them in double precision. p: its parameters.
+/// boundLattice returns bounds of the lattice op over a box of positions; the other function returns its value at a
+/// position in double precision. p: the op's parameter words.
 Interval boundLattice(const uint32_t* p, const PlaceBox& box);
 double referenceLattice(const uint32_t* p, double x, double y, double z);
 

@@ -27,38 +27,42 @@ enum class Op : uint8_t {
 const char* opName(Op op);
 
 inline constexpr int kMaxRegisters = 32;  ///< per group
-inline constexpr int kMaxPlaces = 8;      ///< positions: 0 is the sample's own, the others are warped
-/// The domain's field, in units: beyond every value, so that an absent cut removes nothing.
+/// registers for positions: place 0 is the sample's position, the others are results of warps
+inline constexpr int kMaxPlaces = 8;
+/// The value of an empty domain, in units: larger than every other value, so that a cut by an empty group removes
+/// nothing.
 inline constexpr float kFar = 1.0e30f;
 
-/// One operation. Registers dst, a, b, c; place is the position that a POSITION op reads and from which a warp starts;
-/// the place of its result is dst. Accumulating ops use dst and b as their two registers and a as the operand.
+/// One operation. Its result goes to register dst; a, b and c are its operands. place: the position that a POSITION op
+/// reads, or from which a warp starts; a warp's result is the place dst. Accumulating ops use dst and b as their two
+/// registers, and a as the operand.
 struct Instr {
   Op op = Op::constant;
   uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;
   uint16_t reserved = 0;
-  uint32_t params = 0;  ///< first word of its parameters
+  uint32_t params = 0;  ///< index of its first parameter word
 };
 static_assert(sizeof(Instr) == 12);
 
 struct ProgramGroup {
   IntBox influence;
-  uint32_t first = 0, count = 0;  ///< range in instrs
+  uint32_t first = 0, count = 0;  ///< range of the group's instructions in instrs
   uint32_t layer = 0;             ///< groups of a layer are consecutive, its adds before its cuts
-  uint8_t result = 0;             ///< register
+  uint8_t result = 0;             ///< the register that holds the group's value
   bool cut = false;
-  bool guarded = true;  ///< false if every requested sample is known to lie in the influence box
-  float smooth = 0;     ///< width of the blend in units, only for the single group of a layer; 0: min and max
+  /// false if all samples that will be requested are known to lie in the influence box, so that no test is needed
+  bool guarded = true;
+  float smooth = 0;  ///< width of the blend in units, only for the single group of a layer; 0: min and max
 };
 
-/// The input of an evaluator. Does not own the arrays.
+/// A program as the evaluators read it. Does not own the arrays.
 struct ProgramView {
   std::span<const Instr> instrs;
   std::span<const uint32_t> params;
   std::span<const ProgramGroup> groups;
   float initial = kFar;
   uint32_t initial_label = 0;  ///< tag << 16 | material
-  float q_scale = 1;           ///< Q per unit: 1024 / finest cell edge in units
+  float q_scale = 1;           ///< converts units to quantised samples: 1024 / finest cell edge in units
 };
 
 struct FieldProgram {
@@ -71,7 +75,7 @@ struct FieldProgram {
 
   explicit FieldProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : instrs(memory), params(memory), groups(memory) {}
-  /// A copy in other memory.
+  /// Copies a program; the copy's arrays are allocated from `memory`.
   FieldProgram(const FieldProgram& other, std::pmr::memory_resource* memory)
       : instrs(other.instrs, memory),
         params(other.params, memory),
@@ -85,7 +89,7 @@ struct FieldProgram {
 
 inline constexpr uint32_t makeLabel(uint16_t material, uint16_t tag) { return uint32_t{tag} << 16 | material; }
 
-/// Q = floor(f * scale + 0.5): the scale for a finest cell of this many units.
+/// Returns the scale for a finest cell of this many units: Q = floor(f * scale + 0.5).
 inline float quantiseScale(int32_t finest_cell_units) {
   return static_cast<float>(1024.0 / static_cast<double>(finest_cell_units));
 }

@@ -6,7 +6,8 @@
 
 namespace sgm {
 
-/// A pruned program. Reads its parent's parameters, which must outlive it; reused as scratch for several boxes.
+/// The result of pruning. Reads the parameter words of the program that was pruned, which must outlive it. Can be
+/// reused for several boxes, to save allocations.
 struct PrunedProgram {
   std::pmr::vector<Instr> instrs;
   std::pmr::vector<ProgramGroup> groups;
@@ -20,7 +21,7 @@ struct PrunedProgram {
       : instrs(memory), groups(memory) {}
 
   ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
-  /// All samples of the box are quantised to the same sign.
+  /// True if all samples of the box are quantised to solid; empty(): to void.
   bool solid() const { return field.hi * static_cast<double>(q_scale) < -0.51; }
   bool empty() const { return field.lo * static_cast<double>(q_scale) > -0.49; }
 };
@@ -34,15 +35,17 @@ class PruneScratch {
     Interval value;
     bool met, whole, live;
   };
-  std::pmr::vector<Interval> marks;  ///< by instr: decides whether it stays (prune_kernel.inl)
+  std::pmr::vector<Interval> marks;  ///< one per instruction: decides whether it stays (prune_kernel.inl)
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };
 
-/// The result for a program proven to be uniformly solid or empty: drop everything, or keep what its values need.
+/// What prune() does with a program that is proven to be solid or void everywhere in the box: drop all instructions, or
+/// keep those that the exact values need.
 enum class Uniform { drop, keep };
 
-/// Prunes `program` to `box` (closed; contains all positions to be sampled). out must not be the storage of the view.
+/// Prunes `program` to a closed box, which must contain all positions that will be sampled. `out` must not own the
+/// arrays of the view.
 void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out,
            Uniform uniform = Uniform::drop);
 

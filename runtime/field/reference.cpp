@@ -15,13 +15,14 @@ struct Local {
   double x, y, z;
 };
 
-// The C library's hypot and pow are not used: libraries differ in their last bits, and derivation depends on bounds.
+// The C library's hypot and pow are not used: their last bits differ between libraries, and the shapes that derivation
+// makes depend on these bounds.
 double hypotenuse(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
 // An offset along an axis, clamped to the range of an int32, where the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
 
-// p: the parameter words of the centre.
+// Returns a position relative to a centre. p: the parameter words of the centre.
 Local offsetFrom(const uint32_t* p, double x, double y, double z) {
   return {minus(x, wholeAt(p, 0)), minus(y, wholeAt(p, 1)), minus(z, wholeAt(p, 2))};
 }
@@ -33,14 +34,14 @@ Local toLocal(const uint32_t* p, double x, double y, double z) {
   return {row(4), row(7), row(10)};
 }
 
-// Distance to the planar region {a <= 0 and b <= 0} from its two signed face distances.
+// Returns the distance to the planar region {a <= 0 and b <= 0}. a, b: signed distances from its two faces.
 double corner(double a, double b) {
   return hypotenuse(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0);
 }
 
 double trunconeDistance(double radial, double y, double bottom, double top, double h) {
-  // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h), mirrored at the axis: the nearest of its three outer
-  // edges.
+  // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h), mirrored at the axis: that of the nearest of its three
+  // outer edges.
   const std::array<std::array<double, 2>, 4> corners{{{0, -h}, {bottom, -h}, {top, h}, {0, h}}};
   double best = 1e300;
   for (size_t i = 0; i < 3; ++i) {
@@ -131,7 +132,7 @@ double roundUnion(double a, double b, double k) {
   return u > 0 && v > 0 ? std::min(nearest, k - hypotenuse(u, v)) : nearest;
 }
 
-// Settles the result of an expression: see real.h, settleReal.
+// Clamps the result of an expression, as settleReal does (real.h).
 double settle(double x) { return std::abs(x) < 1e-30 ? 0.0 : std::clamp(x, -1e18, 1e18); }
 
 }  // namespace
@@ -335,7 +336,7 @@ double referenceField(const ProgramView& program, Int3 p) {
       field = g.cut ? -joined : joined;
       continue;
     }
-    // max(f, -g) for one cut after another equals removing their union.
+    // One cut after another, max(f, -g), equals the removal of their union.
     field = g.cut ? std::max(field, -r[g.result]) : std::min(field, r[g.result]);
   }
   return field;

@@ -1,6 +1,7 @@
 #pragma once
-// The reference: every op in double precision, from its geometric definition. It is close to the float evaluators,
-// never equal, with the same bits everywhere. Interval bounds use its value at a box's centre.
+// The reference evaluator: computes every op in double precision, from its geometric definition. Its results are close
+// to those of the float evaluators, but not equal, and have the same bits on every machine. Interval bounds use the
+// value at a box's centre.
 
 #include <bit>
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace sgm {
 inline double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 inline double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
-/// Value in units of one primitive (sphere to prism; blob: its weight) at a position in units.
+/// Returns the value of a primitive (sphere to prism) in units, or the weight of a blob, at a position in units.
 double referencePrimitive(Op op, const uint32_t* params, double x, double y, double z);
 
 /// The noise op at p, -1 to 1.

@@ -1,6 +1,5 @@
 #pragma once
-// Determines the shape that makes the surface at a point: the labels of a field may identify shapes instead of
-// materials.
+// Determines which shape makes the surface at a point: instead of materials, the labels of a field can identify shapes.
 
 #include <cstdint>
 #include <optional>
@@ -11,20 +10,21 @@
 namespace sgm {
 
 /// The label of everything not made by a grammar's shape: the domain, a host field, an edit.
+/// The label of everything that no shape of a grammar made: the domain, host fields and edits.
 inline constexpr uint32_t kNoShape = 0xFFFFFFFFu;
 
-/// Numbers shapes as labels. Not thread-safe.
+/// Assigns numbers to shapes, for use as labels. Not thread-safe.
 class ShapeLabels {
  public:
   struct Source {
-    uint32_t cell = 0;   ///< index of the compiled cell
-    uint32_t shape = 0;  ///< in its GrammarChunk::shapes: a leaf, or the union of a sweep's pieces
+    uint32_t cell = 0;   ///< index among the compiled cells
+    uint32_t shape = 0;  ///< index in GrammarChunk::shapes of that cell: a leaf, or the union of the pieces of a sweep
   };
 
   uint32_t add(Source source) {
     const auto number = static_cast<uint32_t>(sources_.size());
     sources_.push_back(source);
-    // A half of 0 would mean the label of the solid that is cut.
+    // Both halves are at least 1: a material or tag of 0 would mean the label of the solid that is cut.
     return makeLabel(static_cast<uint16_t>(1 + number % kHalf), static_cast<uint16_t>(1 + number / kHalf));
   }
   /// nullopt for kNoShape and unknown labels.

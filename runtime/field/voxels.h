@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of voxels as a field: smooth, and the same in every block that contains the same voxels.
+// Compiles blocks of voxels to a smooth field. Blocks that contain the same voxels agree on it, to the bit.
 //
 // A sample lies on every voxel, or, at levels with cells of at least two or four voxels, on every second or fourth
 // along each axis, at world indices that are multiples of this step, so that all blocks and all chunks of a level use
@@ -21,11 +21,11 @@
 
 namespace sgm {
 
-/// True if levels with cells of this edge, in units, contain the block's voxels (AutomatonLimits::coarsest_voxels).
+/// True if blocks are visible at levels with cells of this edge, in units (AutomatonLimits::coarsest_voxels).
 bool voxelsShow(const VoxelBlock& block, int32_t cell);
 
-/// Fills `samples`, in whole units, and returns their lattice: the samples that determine the shape within `read`.
-/// nullopt if the box alone determines it. shape: of kind voxels, of the chunk.
+/// Fills `samples`, in whole units, and returns their lattice: the samples that determine the shape within the box
+/// `read`. nullopt if the block's box alone determines it. shape: of kind voxels, one of the chunk's shapes.
 std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape& shape, const IntBox& read,
                                           int32_t cell, std::pmr::vector<float>& samples);
 

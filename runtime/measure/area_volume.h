@@ -7,7 +7,8 @@
 namespace sgm::measure {
 
 struct AreaVolume {
-  /// Equation 7, which the paper prints as a vector: the sum of half the length of each triangle's cross product.
+  /// The sum of half the lengths of the triangles' cross products. Equation 7 of the paper, which prints it as a
+  /// vector.
   double area = 0;
   /// Half the sum of the cross products. 0 for a closed surface, up to rounding; but 0 does not prove that it is
   /// closed.
@@ -15,7 +16,7 @@ struct AreaVolume {
   /// By the divergence theorem: a sixth of the sum of the triple products, about `centre`. Exact for a closed mesh;
   /// negative if its triangles face inward; overlapping parts count twice.
   double volume = 0;
-  Point low, high;  ///< around the triangles' corners; 0 if there is none
+  Point low, high;  ///< bounding box of the triangles' corners; 0 if there is no triangle
   /// The origin of the triple products: the middle of low and high, so that a mesh far from the origin loses no
   /// precision. About another origin o, an open mesh has volume + dot(centre - o, area_vector) / 3, and these values of
   /// the parts of a closed surface add up to its volume.
@@ -24,10 +25,11 @@ struct AreaVolume {
   double volumeAbout(Point origin) const { return volume + dot(centre - origin, area_vector) / 3; }
 };
 
-/// Precondition: the coordinates are finite. The same bits for any number of threads.
+/// Computes area and volume of a mesh. Precondition: the coordinates are finite. The result has the same bits for any
+/// number of threads.
 AreaVolume areaVolume(const Triangles& mesh, JobSystem& jobs);
 
-/// Twice the area of a triangle along its normal.
+/// Returns the cross product of two sides: twice the area of the triangle, along its normal.
 inline Point crossOf(Point a, Point b, Point c) { return asset::cross(b - a, c - a); }
 
 }  // namespace sgm::measure

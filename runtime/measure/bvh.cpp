@@ -13,7 +13,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr Bvh::Box kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
-/// A step farther out than rounding can have gone in; std::nextafter takes ten times as long.
+/// Returns a float certainly below v: one step lower than rounding could have raised it. std::nextafter takes ten times
+/// as long.
 float below(double v) {
   const auto f = static_cast<float>(v);
   return f - std::fabs(f) * std::numeric_limits<float>::epsilon() - std::numeric_limits<float>::min();
@@ -43,7 +44,7 @@ Bvh::Box boxOf(std::span<const Point> points, const Triangle& t) {
   return box;
 }
 
-/// 10 bits, with two zeroes after each.
+/// Spreads 10 bits, with two zero bits after each.
 uint32_t spread(uint32_t v) {
   v = (v | v << 16) & 0x030000FFu;
   v = (v | v << 8) & 0x0300F00Fu;
@@ -53,7 +54,8 @@ uint32_t spread(uint32_t v) {
 
 float middleOf(const Bvh::Box& box, int axis) { return 0.5f * box.low[axis] + 0.5f * box.high[axis]; }
 
-/// A box around most of the triangles: a few distant ones would leave one step of the curve to all others.
+/// Returns a box around most of the triangles. A box around all would let a few distant ones squeeze the others into
+/// one step of the Morton curve.
 Bvh::Box coreOf(const Triangles& mesh) {
   constexpr size_t kSamples = 4096;
   const size_t step = mesh.triangles.size() / kSamples + 1;
@@ -73,7 +75,7 @@ Bvh::Box coreOf(const Triangles& mesh) {
   return core;
 }
 
-/// The position of the box's middle in the core, along a Morton curve of 1024 steps per axis; clamped to the border.
+/// Returns the Morton code of the middle of a box, with 1024 steps per axis of `core`; clamped to the core's border.
 uint32_t codeOf(const Bvh::Box& box, const Bvh::Box& core) {
   uint32_t code = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -84,8 +86,8 @@ uint32_t codeOf(const Bvh::Box& box, const Bvh::Box& core) {
   return code;
 }
 
-/// Sorts by the upper code and keeps the order of the numbers below it. Three passes of 10 bits: a third of the time of
-/// std::sort.
+/// Sorts by the code in the upper bits; equal codes keep the order of the numbers in the lower bits. A radix sort in
+/// three passes of 10 bits, in a third of the time of std::sort.
 void sortByCode(LargeVector<uint64_t>& keys) {
   LargeVector<uint64_t> sorted(keys.size(), keys.get_allocator());
   for (const int shift : {32, 42, 52}) {
@@ -109,8 +111,8 @@ void forBlocks(JobSystem& jobs, size_t count, const std::function<void(size_t, s
 Bvh::Bvh(const Triangles& mesh, JobSystem& jobs) : boxes_(mesh.memory), order_(mesh.triangles.size(), mesh.memory) {
   const size_t count = mesh.triangles.size(), leaves = std::bit_ceil(std::max<size_t>(count, 1));
   const Box core = coreOf(mesh);
-  // Boxes are computed twice rather than stored: a fresh page of memory takes longer than its boxes. A key is the code
-  // above the triangle's number.
+  // Boxes are computed twice instead of being stored: a fresh page of memory takes longer than computing its boxes. A
+  // key has the code in its upper bits and the triangle's number below.
   LargeVector<uint64_t> keys(count, mesh.memory);
   forBlocks(jobs, count, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
@@ -133,7 +135,7 @@ std::vector<Bvh::Pair> Bvh::parts(size_t parts) const {
     std::vector<Pair> finer;
     bool whole = false;
     for (const Pair& pair : found) {
-      // All are in the same row.
+      // All pairs are in the same row of the tree.
       whole = isLeaf(pair.first);
       if (whole) break;
       std::array<Pair, 4> children;

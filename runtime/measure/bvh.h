@@ -17,11 +17,11 @@ namespace sgm::measure {
 /// node 1 is the root.
 class Bvh {
  public:
-  /// In single precision, rounded outwards. An empty box overlaps no other box.
+  /// A box in single precision, rounded outwards. An empty box overlaps no other box.
   struct Box {
     float low[3], high[3];
 
-    /// Branchless: the comparisons are unpredictable.
+    /// Combines the comparisons without branches, because their results are unpredictable.
     bool overlaps(const Box& other) const {
       int all = 1;
       for (int axis = 0; axis < 3; ++axis) {
@@ -37,19 +37,20 @@ class Bvh {
   size_t leaves() const { return boxes_.size() / 2; }
   const Box& box(size_t node) const { return boxes_[node]; }
   bool isLeaf(size_t node) const { return node >= leaves(); }
-  /// The triangle of a leaf that has one: leaves at the end of the last row may be empty; their boxes overlap no other
-  /// box.
+  /// Returns the triangle of a leaf. Leaves at the end of the last row may have no triangle; their boxes overlap no
+  /// other box.
   uint32_t triangle(size_t leaf) const { return order_[leaf - leaves()]; }
 
-  /// Two nodes whose leaves may overlap each other; twice the same node: leaves that may overlap among themselves.
+  /// Two nodes whose leaves may overlap each other. If both are the same node, its leaves may overlap among themselves.
   using Pair = std::pair<uint32_t, uint32_t>;
   /// Splits the search for several threads: every pair of leaves with overlapping boxes belongs to exactly one of the
   /// returned pairs. Returns at least about `parts` of them if there are as many.
   std::vector<Pair> parts(size_t parts) const;
 
-  /// The state of a walk over the leaves under a pair, so that it can be resumed.
+  /// The state of a walk over the pairs of leaves under a pair of nodes, so that the walk can be resumed.
   struct Walk {
     // Each row of the tree leaves at most three pairs.
+    /// Capacity: each row of the tree adds at most three waiting pairs.
     std::array<Pair, 3 * 32 + 4> waiting;
     size_t count = 0;
 
@@ -57,9 +58,9 @@ class Bvh {
     bool ended() const { return count == 0; }
   };
 
-  /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap, and stops after
-  /// `most_steps` steps: a call counts as one, plus the steps that it returns, and so does a visit of two nodes.
-  /// Returns the steps taken.
+  /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap. visit returns the
+  /// steps that it took. A call counts as one step plus these, and so does each visit of two nodes. Stops after
+  /// `most_steps` steps; returns the number of steps taken.
   template <class Visit>
   uint64_t visitPairs(Walk& walk, uint64_t most_steps, Visit&& visit) const {
     uint64_t steps = 0;
@@ -78,17 +79,17 @@ class Bvh {
     return steps;
   }
 
-  /// The ray from a point along an axis, including the point: towards higher or lower coordinates.
+  /// A ray along an axis, towards higher or lower coordinates. The ray includes the point at which it starts.
   struct Column {
     int axis = 2;
     bool above = true;
   };
 
-  /// Calls visit(triangle) for each triangle whose box meets that ray. Returns true if it finished within `most_steps`
-  /// visited nodes.
+  /// Calls visit(triangle) for each triangle whose box meets the ray from `at`. Returns false if it stopped because it
+  /// had visited `most_steps` nodes.
   template <class Visit>
   bool visitColumn(Point at, Column column, uint64_t most_steps, Visit&& visit) const {
-    // Each row of the tree leaves at most one node.
+    // Capacity: each row of the tree adds at most one waiting node.
     std::array<uint32_t, 34> waiting;
     waiting[0] = 1;
     size_t count = 1;
@@ -113,7 +114,7 @@ class Bvh {
   }
 
  private:
-  /// Writes the overlapping pairs of children, at most four, and returns their number. into: room for four.
+  /// Writes the pairs of children whose boxes overlap to `into`, which has space for four; returns their number.
   size_t split(Pair pair, Pair* into) const {
     const auto [a, b] = pair;
     size_t count = 0;
@@ -128,7 +129,7 @@ class Bvh {
       push(2 * a, 2 * a + 1);
       return count;
     }
-    // Both are in the same row of the tree.
+    // Both nodes are in the same row of the tree, so both have children.
     push(2 * a, 2 * b);
     push(2 * a, 2 * b + 1);
     push(2 * a + 1, 2 * b);

@@ -1,9 +1,9 @@
 #pragma once
-// Measures of a streamed chunk, cheap enough for every chunk: its defects, and its contribution to the total area and
-// volume. Sums are integers, the same for every backend and number of threads.
+// Measures of a streamed chunk: its defects, and its contribution to the total area and volume. They are cheap enough
+// to be taken of every chunk. Sums are integers, the same for every backend and number of threads.
 //
-// The field's values at the vertices are not checked: samples do not leave the backend. Their signs do on request, and
-// each vertex is then compared with its grid edge.
+// The field's values at the vertices are not checked, because samples stay on the backend. On request, the backend
+// returns the samples' signs, and each vertex is compared with the signs at the ends of its grid edge.
 
 #include <array>
 #include <cstdint>
@@ -13,33 +13,35 @@
 
 namespace sgm::measure {
 
-/// All are counted in a body. In a seam, which lies flat in its face and is closed by its neighbours, only the first
-/// two, and `degenerate` for corners that must not share a position there. mesh/triangle_faults.h defines degenerate,
-/// flat, folded and cut.
+/// The kinds of defects of a part. In a body, all kinds are counted. A seam lies flat in its face and is closed by its
+/// neighbours; there only `index` and `outside` are counted, and `degenerate` for corners that must not share a
+/// position. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
 enum class Defect : uint8_t {
-  index,             ///< triangles with an index beyond the vertices: excluded from all others
-  outside,           ///< vertices beyond the chunk (features: beyond a cell around it); excludes their triangles
-  misplaced,         ///< vertices on no edge of the grid, or not one per edge in the order of the edges
-  unlike_samples,    ///< vertices on an edge whose samples have one sign, crossed edges without a vertex
-  degenerate,        ///< triangles with two equal corners: by index (excluded from the others) or by position
+  index,  ///< triangles with an index beyond the vertices; excluded from all other counts
+  /// vertices beyond the chunk (feature vertices: more than a cell beyond); their triangles are excluded
+  outside,
+  /// vertices that lie on no edge of the grid, are second on an edge, or are not in the order of the edges
+  misplaced,
+  unlike_samples,    ///< vertices on an edge whose samples have equal signs, and crossed edges without a vertex
+  degenerate,        ///< triangles with two equal corners, by index (then excluded from other counts) or by position
   flat,              ///< triangles whose corners are three distinct points on a line
-  duplicate,         ///< triangles with the corners of another one
-  open_edge,         ///< edges with one triangle, not in the chunk's border
+  duplicate,         ///< triangles with the same corners as another one
+  open_edge,         ///< edges of one triangle, not in a face of the chunk
   turned_edge,       ///< misoriented edges: two triangles use them in the same direction
-  nonmanifold_edge,  ///< edges with more than two triangles
+  nonmanifold_edge,  ///< edges of more than two triangles
   pinched_vertex,    ///< non-manifold vertices: their triangles form more than one fan
   folded,            ///< pairs of triangles that overlap at an edge
   self_intersection  ///< pairs of triangles that intersect or touch elsewhere (mesh/body_pairs.h)
 };
 inline constexpr size_t kDefects = 13;
 
-/// The name for users, such as "non-manifold vertices".
+/// Returns the name for users, such as "non-manifold vertices".
 const char* defectName(Defect defect);
 
 using Defects = std::array<uint32_t, kDefects>;
 
-/// Of a body or a seam: the sums of PartSums over the triangles not excluded, except for the total count, and the
-/// defects. Lengths are in 1/256 of the chunk's cell.
+/// The measures of a body or a seam: the sums of PartSums and the defects. Excluded triangles are counted in
+/// `triangles`, but in no sum. Lengths are in 1/256 of the chunk's cell.
 struct PartMeasures : PartSums {
   uint32_t vertices = 0;
   Defects defects{};
@@ -50,11 +52,11 @@ struct PartMeasures : PartSums {
   uint32_t defect(Defect kind) const { return defects[static_cast<size_t>(kind)]; }
 };
 
-/// The topology of a body. The copies of a split vertex (mesh/split_creases.h) count as one.
+/// The topology of a body. The copies that splitCreases() made of a vertex (mesh/split_creases.h) count as one vertex.
 struct BodyTopology {
-  uint32_t vertices = 0, edges = 0, triangles = 0;  ///< of triangles that are neither excluded nor degenerate
-  std::array<uint32_t, 6> border_edges{};           ///< with one triangle, by the Face that contains them
-  uint32_t compared = 0;                            ///< vertices that were compared with samples
+  uint32_t vertices = 0, edges = 0, triangles = 0;  ///< counted over triangles that are neither excluded nor degenerate
+  std::array<uint32_t, 6> border_edges{};           ///< edges of one triangle in a face of the chunk, by Face
+  uint32_t compared = 0;                            ///< vertices that were compared with samples' signs
   friend bool operator==(const BodyTopology&, const BodyTopology&) = default;
   int64_t euler() const { return int64_t{vertices} - edges + triangles; }
 };
@@ -67,18 +69,18 @@ struct ChunkMeasures {
 
 /// Sums over chunks of one or several levels.
 struct SurfaceSums {
-  uint64_t bodies = 0, seams = 0;  ///< with triangles
+  uint64_t bodies = 0, seams = 0;  ///< number of bodies and seams that have triangles
   uint64_t triangles = 0, bytes = 0;
   uint64_t slivers = 0, against_gradient = 0, border_edges = 0, compared = 0;
   std::array<uint64_t, kDefects> defects{};
   double area = 0;                      ///< square metres
   std::array<double, 3> area_vector{};  ///< square metres; 0 for a closed surface
-  /// Cubic metres: a third of the flux of x about the world's origin. If the bodies and seams together are closed, it
-  /// is the volume of the solid inside.
+  /// Cubic metres: a third of the flux of the position vector about the world's origin. If the bodies and seams
+  /// together are closed, it is the volume of the solid inside.
   double flux = 0;
 
-  /// Adds the body if `body`, and seams by bit (1 << Face). The order affects the last bits of area, area_vector and
-  /// flux.
+  /// Adds the chunk's body if `body` is true, and the seams whose bit (1 << Face) is set. The order of calls affects
+  /// the last bits of area, area_vector and flux.
   void add(const ChunkMeasures& chunk, const ChunkGrid& grid, bool body, uint8_t seam_faces);
   void add(const SurfaceSums& other);
   bool sound() const;  ///< true if there is no defect

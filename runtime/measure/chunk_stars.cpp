@@ -37,26 +37,26 @@ class StarCounter {
         ends += countStar(v, star);
       }
     }
-    // Each edge was counted at both of its ends.
+    // Each edge was counted once at each of its two ends.
     counts_.edges = static_cast<uint32_t>(ends / 2);
     return counts_;
   }
 
  private:
   static constexpr uint64_t kNobody = UINT64_MAX;
-  /// One word, as in Corner.
+  /// Packs an entry of StarScratch::seen.
   static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
-  /// An edge from the current vertex, as a node of its link.
+  /// An edge from the current vertex; the edges are the nodes of the vertex's link.
   struct Node {
     uint32_t vertex, parent, out, in;
   };
 
-  /// Sorts corners by their vertex, in the order of triangles.
+  /// Groups corners by their vertex; within a group, in the order of triangles.
   void sortCorners(std::span<const uint32_t> indices) {
     for (const uint32_t v : indices) ++first_[v];
     uint32_t sum = 0;
     for (uint32_t& first : first_) first = sum += first;
-    // From the last to the first, so that each range ends at its beginning.
+    // Fills each group from its end, so that first[v] finally is the start of the group.
     for (size_t at = indices.size(); at != 0; at -= 3) {
       const uint32_t a = indices[at - 3], b = indices[at - 2], c = indices[at - 1];
       corners_[--first_[a]] = Corner::of(b, c);
@@ -65,7 +65,7 @@ class StarCounter {
     }
   }
 
-  /// Records the next vertex of each corner; returns true if each occurs once.
+  /// Records the next vertex of each corner of a star; returns true if no vertex occurs twice.
   bool meet(uint32_t v, std::span<const Corner> star) {
     bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
@@ -76,8 +76,8 @@ class StarCounter {
     return once;
   }
 
-  /// True if the star is one closed fan in which each edge has two triangles in opposite directions, the usual case.
-  /// Precondition: meet().
+  /// True if the star is one closed fan in which each edge has two triangles that use it in opposite directions, the
+  /// usual case. Precondition: meet() returned true.
   bool isCycle(uint32_t v, std::span<const Corner> star) {
     if (star.size() < 3) return false;
     uint32_t at = 0;
@@ -90,9 +90,11 @@ class StarCounter {
     return false;
   }
 
-  /// True if the star is one open fan; then counts the edges at its ends. Precondition: meet().
+  /// True if the star is one open fan; then it also counts the two edges at its ends. Precondition: meet() returned
+  /// true.
   bool isPath(uint32_t v, std::span<const Corner> star) {
-    // The start, which no corner leads to, is the sum of all positions minus the sum of the others.
+    // The start is the only corner that no corner leads to: the sum of all positions minus the sum of those that are
+    // led to.
     size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
     for (const Corner& corner : star) {
       const uint64_t seen = seen_[corner.previous()];
@@ -107,7 +109,7 @@ class StarCounter {
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
     }
-    // A fan that ends has met no vertex twice.
+    // A walk that reaches its end has visited no vertex twice.
     if (seen_[star[at].previous()] >> 32 == v) return false;
     for (const uint32_t end : {star[start].next(), star[at].previous()}) {
       if (end > v) countOpen(v, end);
@@ -122,7 +124,7 @@ class StarCounter {
 
   uint32_t nodeOf(uint32_t v, uint32_t other) {
     uint64_t& seen = seen_[other];
-    const uint32_t mark = v | uint32_t{1} << 31;  // differs from that of isCycle
+    const uint32_t mark = v | uint32_t{1} << 31;  // the high bit tells these marks apart from those of isCycle
     if (seen >> 32 != mark) {
       const auto place = static_cast<uint32_t>(nodes_.size());
       seen = seenBy(mark, place);
@@ -131,7 +133,7 @@ class StarCounter {
     return static_cast<uint32_t>(seen);
   }
 
-  /// Handles any star; returns the number of its edges.
+  /// Counts the defects of any star; returns the number of its edges.
   size_t countStar(uint32_t v, std::span<const Corner> star) {
     nodes_.clear();
     opposite_.clear();

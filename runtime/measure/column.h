@@ -1,5 +1,5 @@
 #pragma once
-// Finds the triangles above or below a point along z, to decide whether the point is inside.
+// Finds the triangles above or below a point along z, to decide whether the point is inside a closed surface.
 
 #include <array>
 

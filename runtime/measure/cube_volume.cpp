@@ -10,7 +10,7 @@
 namespace sgm::measure {
 namespace {
 
-/// Columns of samples along z: the samples of column (x, y) are bits of a row of words.
+/// The grid of samples as columns along z: the samples of column (x, y) are the bits of a row of words.
 struct Lattice {
   Point first;
   double edge = 0;
@@ -22,7 +22,7 @@ struct Lattice {
   double z(size_t k) const { return first.z + static_cast<double>(k) * edge; }
 };
 
-/// A place where a column enters (1) or leaves (-1) the solid on the way up.
+/// A crossing where a column enters (1) or leaves (-1) the solid, in upward direction.
 struct Crossing {
   uint64_t column;
   double z;
@@ -32,7 +32,8 @@ struct Crossing {
   }
 };
 
-/// First and last sample of a range of coordinates; the last may come before the first.
+/// Returns the first and the last sample within a range of coordinates; if there is none, the last comes before the
+/// first.
 std::pair<size_t, size_t> samplesIn(double low, double high, double first, double edge, size_t count) {
   const double last = static_cast<double>(count - 1);
   const double a = std::clamp(std::floor((low - first) / edge), 0.0, last);
@@ -53,7 +54,8 @@ void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, LargeVec
       const int turn = turnOver(t, x, y);
       if (turn == 0) continue;
       const double z = t[0].z - (normal.x * (x - t[0].x) + normal.y * (y - t[0].y)) / normal.z;
-      // On the way up, a triangle that faces up leaves the solid. Nearly vertical triangles may give any z, or none.
+      // In upward direction, a triangle that faces up is where the column leaves the solid. Nearly vertical triangles
+      // may give any z or NaN, so z is clamped to the triangle.
       crossings.push_back({i + lattice.nx * j, z > low_z ? std::min(z, high_z) : low_z, -turn});
     }
   }
@@ -72,7 +74,7 @@ LargeVector<uint64_t> insideOf(const Triangles& mesh, const Lattice& lattice) {
     int depth = 0;
     size_t k = 0;
     for (; c < crossings.size() && crossings[c].column == column; ++c) {
-      // A sample on the surface lies behind it.
+      // A sample exactly on the surface counts as above the crossing.
       for (; k < lattice.nz && lattice.z(k) < crossings[c].z; ++k)
         if (depth > 0) bits[k / 64] |= uint64_t{1} << k % 64;
       depth += crossings[c].turn;
@@ -138,7 +140,7 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
         all[w] = a[w] & b[w] & c[w] & d[w];
         any[w] = a[w] | b[w] | c[w] | d[w];
       }
-      // The highest sample is outside, so that no cube is counted beyond it.
+      // The highest sample is outside, so no cube reaches beyond it.
       for (size_t w = 0; w < words; ++w) {
         result.all += static_cast<uint64_t>(std::popcount(all[w] & (all[w] >> 1 | all[w + 1] << 63)));
         result.any += static_cast<uint64_t>(std::popcount(any[w] | (any[w] >> 1 | any[w + 1] << 63)));

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 11> kNames{"open_edge",  "turned_edge", "
                                                   "degenerate", "flat",        "duplicate",        "inside_out",
                                                   "nested",     "folded",      "self_intersection"};
 
-/// A triangle that is far from flat needs no exact test.
+/// True if the triangle may be flat. If this inexact test returns false, the exact one is not needed.
 bool nearlyFlat(const Triangles& mesh, const Triangle& t) {
   const Point a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]];
   const double longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
@@ -46,7 +46,7 @@ class Places {
   std::vector<DefectPlace> found_;
 };
 
-/// The corner that is not on the half edge.
+/// Returns the corner of the triangle opposite to the half edge.
 uint32_t apexOf(std::span<const Triangle> triangles, HalfEdge half) { return endOf(triangles, nextHalf(half)); }
 
 void addOfEdges(const Triangles& mesh, const Edges& edges, const Cut* cut, Places& places) {
@@ -62,7 +62,7 @@ void addOfEdges(const Triangles& mesh, const Edges& edges, const Cut* cut, Place
     if (around.size() > 2) add(DefectKind::nonmanifold_edge);
     if (around.size() == 2 && beginOf(triangles, around[0]) == beginOf(triangles, around[1]))
       add(DefectKind::turned_edge);
-    // Each duplicate is found at its three edges; the one opposite to its highest corner records it.
+    // A duplicate is found at each of its three edges; only the edge opposite to its highest corner records it.
     for (size_t i = 1; i < around.size() && !places.full(DefectKind::duplicate); ++i) {
       const uint32_t apex = apexOf(triangles, around[i]);
       if (apex < beginOf(triangles, around[i]) || apex < endOf(triangles, around[i])) continue;

@@ -9,7 +9,7 @@
 
 namespace sgm::measure {
 
-/// Side k of triangle i, from its corner k to the next one, is the half edge 3 i + k; so a half edge also identifies
+/// Side k of triangle i, from its corner k to the next corner, is the half edge 3 i + k. A half edge also identifies
 /// the corner at which it begins.
 using HalfEdge = uint32_t;
 
@@ -19,8 +19,8 @@ inline uint32_t endOf(std::span<const Triangle> triangles, HalfEdge half) {
   return triangles[half / 3][(half % 3 + 1) % 3];
 }
 
-/// Half edges grouped by their edge, regardless of direction. Edges are sorted by their lower vertex, then by their
-/// higher one; half edges of one edge by number. Triangles with a repeated corner have none.
+/// The half edges of a mesh, grouped by their undirected edge. Edges are sorted by their lower vertex, then by their
+/// higher vertex; half edges of one edge by number. Triangles with a repeated corner have no half edges here.
 class Edges {
  public:
   /// Precondition: at most 2^32 / 3 triangles. Takes about 12 bytes per half edge.
@@ -33,7 +33,7 @@ class Edges {
 
  private:
   LargeVector<HalfEdge> halves_;
-  LargeVector<uint32_t> start_;  ///< start of each edge, and the end
+  LargeVector<uint32_t> start_;  ///< start of each edge's group, and the end of the last one
 };
 
 }  // namespace sgm::measure

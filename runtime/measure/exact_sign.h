@@ -1,5 +1,5 @@
 #pragma once
-// The exact predicates under the names that measures use.
+// Makes the exact predicates available in the namespace of measures.
 
 #include "asset/exact_sign.h"
 

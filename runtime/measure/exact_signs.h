@@ -1,5 +1,5 @@
 #pragma once
-// The predicates on doubles for mesh/triangle_faults.h and mesh/column.h.
+// The orientation predicates for doubles, in the form that mesh/triangle_faults.h and mesh/column.h require.
 
 #include <array>
 #include <cmath>
@@ -8,13 +8,14 @@
 
 namespace sgm::measure {
 
-/// Signs of doubles, exact.
+/// Exact signs of predicates on doubles.
 struct ExactSigns {
   using Place = Point;
 
   static int orientation(Point a, Point b, Point c, Point d) { return measure::orientation(a, b, c, d); }
   static int orientationAlong(int drop, Point a, Point b, Point c) { return measure::orientationAlong(drop, a, b, c); }
-  /// The axis along which the triangle looks largest, so that the sign is quick to determine; -1 if it is flat.
+  /// Returns the axis along which the triangle's projection is largest, so that the sign is quick to determine; -1 if
+  /// the triangle is flat.
   static int seenAlong(const std::array<Point, 3>& t) {
     const Point normal = asset::cross(t[1] - t[0], t[2] - t[0]);
     int best = 0;

@@ -14,16 +14,17 @@ namespace sgm::measure {
 namespace {
 
 constexpr uint32_t kMostCuts = 64;
-// The size of one job. Fixed, so that results do not depend on the number of threads; small, since one search may visit
-// much of the other surface if all of it is equally far.
-constexpr size_t kSampledTogether = 128;  // triangles, or points
-constexpr size_t kRefinedTogether = 64;   // parts
+// Sizes of one job. They are fixed, so that results do not depend on the number of threads, and small, since one search
+// may visit much of the other surface if all of it is equally far.
+constexpr size_t kSampledTogether = 128;  // triangles, or points, per job
+constexpr size_t kRefinedTogether = 64;   // parts per job
 
 using Part = std::array<Point, 3>;
 
 Point middleOf(const Part& part) { return (1.0 / 3) * (part[0] + part[1] + part[2]); }
 
-/// Part `number` of the cuts^2 equal parts of a triangle: row by row from the side opposite to its first corner.
+/// Returns part `number` of the cuts^2 equal parts of a triangle, counted row by row from the side opposite to its
+/// first corner.
 Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   const auto at = [&](uint32_t i, uint32_t j) {
     const double u = static_cast<double>(i) / cuts, v = static_cast<double>(j) / cuts;
@@ -36,14 +37,15 @@ Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   return {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
 }
 
-/// The distance from points of a surface to another surface.
+/// Measures distances from points of one surface to the other.
 class Distances {
  public:
   Distances(const Triangles& to, JobSystem& jobs) : to_(to), tree_(to, jobs) {}
 
   Nearest from(Point place, uint32_t guess) const { return nearestOf(to_, tree_, place, guess); }
 
-  /// An upper bound for all points of the part: the distance changes by no more than a point moves.
+  /// Returns an upper bound of the distance for all points of a part: the distance changes by no more than a point
+  /// moves.
   double atMost(const Part& part, const Nearest& of_middle) const {
     const Point middle = middleOf(part);
     double reach = 0;
@@ -51,7 +53,8 @@ class Distances {
     return std::min(of_middle.distance + reach, atMost(part, of_middle.triangle));
   }
 
-  /// The same from a single triangle, any one: the distance to it is convex, and so is largest at a corner of the part.
+  /// Returns another upper bound, from any triangle of the other surface: the distance to it is convex, and so largest
+  /// at a corner of the part.
   double atMost(const Part& part, uint32_t triangle) const {
     const Triangle& t = to_.triangles[triangle];
     const Part corners{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
@@ -82,22 +85,23 @@ struct Found {
 struct Candidate {
   double at_most = 0;
   Part part;
-  uint32_t triangle = 0;  ///< the one nearest to its middle
+  uint32_t triangle = 0;  ///< the triangle nearest to the part's middle
 
   friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
 };
 
-/// A quarter of a candidate. If its bound is low enough, its middle is not searched.
+/// A quarter of a candidate. If its bound is low enough, the triangle nearest to its middle is not searched.
 struct Quarter {
   Candidate rest;
-  double distance = -1;  ///< of its middle
+  double distance = -1;  ///< distance of its middle; -1 if it was not searched
 };
 
-/// Splits the parts with the highest bounds, several at a time, until none is worth it; returns the highest bound.
+/// Splits the parts with the highest bounds, several at a time, until the bounds are within the
+/// tolerance; returns the highest bound.
 double refine(const Distances& distances, std::vector<Candidate> candidates, const HausdorffSettings& settings,
               JobSystem& jobs, Found& found) {
   std::priority_queue<Candidate> open({}, std::move(candidates));
-  double settled = found.at_least;  // the highest bound of the parts no longer open
+  double settled = found.at_least;  // the highest bound of the parts that will not be split any more
   uint64_t left = settings.refinements;
   std::vector<Candidate> cut;
   std::vector<std::array<Quarter, 4>> quarters(kRefinedTogether);

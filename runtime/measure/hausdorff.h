@@ -8,38 +8,40 @@
 namespace sgm::measure {
 
 struct HausdorffSettings {
-  /// Each triangle is cut into this number squared of equal parts, which are sampled at their middles. 1..64
+  /// Each triangle is divided into cuts^2 equal parts, which are sampled at their middles. 1..64
   uint32_t cuts = 2;
-  /// The search ends when the bounds of the farthest point are this close, in the mesh's unit. >= 0
+  /// The search for the farthest point ends when the bounds of its distance are this close, in the mesh's unit. >= 0
   double tolerance = 0;
-  /// At most this number of parts that may contain the farthest point are split into four; the bounds of the remaining
-  /// parts enter at_most.
+  /// The maximum number of parts that are split into four because they may contain the farthest point. The bounds of
+  /// the remaining parts enter at_most.
   uint64_t refinements = uint64_t{1} << 16;
 };
 
-/// From each point of one surface to the nearest point of the other.
+/// The distances from points of one surface to the nearest points of the other surface.
 struct OneSided {
-  uint64_t samples = 0;  ///< vertices of triangles, and middles of their parts
-  /// Bounds of the largest distance: one that was found, and one that no point exceeds, up to rounding.
+  uint64_t samples = 0;  ///< number of samples: vertices of triangles, and middles of their parts
+  /// Bounds of the largest distance: at_least was found at a point; at_most is not exceeded by any point, up to
+  /// rounding.
   double at_least = 0, at_most = 0;
-  double mean = 0, rms = 0;  ///< over the area, by the middles
+  double mean = 0, rms = 0;  ///< weighted by area, from the samples at the middles
   Point farthest;            ///< the point at distance at_least
 };
 
 struct Hausdorff {
-  OneSided there, back;  ///< from the first to the second, from the second to the first
+  OneSided there, back;  ///< from the first surface to the second, and from the second to the first
 
   double atLeast() const { return there.at_least > back.at_least ? there.at_least : back.at_least; }
   double atMost() const { return there.at_most > back.at_most ? there.at_most : back.at_most; }
 };
 
-/// Precondition: the coordinates are at most kFarthest. All 0 if `from` has no triangle. Pure; the same bits for any
-/// number of threads. Memory: that of a Bvh of `to`, and 12 bytes per part of `from`, or 100 if it may contain the
-/// farthest point. Errors: invalid_argument if `to` has no triangle and `from` has one, or for settings out of range.
+/// Measures the distances from points of `from` to `to`. Returns all 0 if `from` has no triangle. Precondition: the
+/// coordinates are at most kFarthest. Pure; the same bits for any number of threads. Memory: a Bvh of `to`, and 12
+/// bytes per part of `from`, or 100 if the part may contain the farthest point. Errors: invalid_argument if a setting
+/// is out of range, or if `to` has no triangle and `from` has one.
 Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const HausdorffSettings& settings,
                               JobSystem& jobs);
 
-/// Errors: those of distanceFrom in either direction.
+/// Calls distanceFrom in both directions. Errors: those of distanceFrom.
 Result<Hausdorff> hausdorff(const Triangles& first, const Triangles& second, const HausdorffSettings& settings,
                             JobSystem& jobs);
 

@@ -29,49 +29,49 @@ enum class HistogramMode {
 };
 
 std::string_view nameOf(HistogramMode mode);
-/// The mode of that name; nullopt if there is none.
+/// Returns the mode of that name; nullopt if no mode has it.
 std::optional<HistogramMode> modeNamed(std::string_view name);
 
 struct HistogramSettings {
   HistogramMode mode = HistogramMode::corrected;
-  /// R. With an odd number, flat edges are in the middle of a bin; with an even one, on the border of two. 1..4096
+  /// R, 1..4096. If it is odd, flat edges are in the middle of a bin; if it is even, on the border of two bins.
   uint32_t bins = 33;
   double length = 1;          ///< L of HistogramMode::curvature, in the mesh's unit; > 0 and finite
-  bool unique_edges = false;  ///< each edge once; otherwise once per triangle, as in the paper
+  bool unique_edges = false;  ///< true: each edge counts once; false: once per triangle, as in the paper
 };
 
 struct Histogram {
   HistogramSettings settings;
-  int32_t first_bin = 1;       ///< the number of shares[0], by equation 14: 1, or less in mode `printed`
-  std::vector<double> shares;  ///< of the counted edges; they add up to 1, or are all 0 if no edge was counted
-  uint64_t edges = 0;          ///< counted; those of triangles with a repeated corner are not
-  uint64_t left_out = 0;       ///< without length, or with an invalid normal
-  uint64_t below_first = 0;    ///< in bins numbered 0 or less, before the array described in the paper
-  /// Shares of edges with |d| at most kFlatAngle, and with d below and above it.
+  int32_t first_bin = 1;       ///< the number, by equation 14, of the bin of shares[0]: 1, or less in mode `printed`
+  std::vector<double> shares;  ///< share of the counted edges in each bin; their sum is 1, or 0 if no edge was counted
+  uint64_t edges = 0;          ///< number of counted edges; those of triangles with a repeated corner are not counted
+  uint64_t left_out = 0;       ///< edges excluded because they have no length, or a normal is invalid
+  uint64_t below_first = 0;    ///< edges in bins numbered 0 or less, which the paper's array does not have
+  /// Shares of the edges with |d| <= kFlatAngle (flat), d < -kFlatAngle (convex) and d > kFlatAngle (concave).
   double flat = 0, convex = 0, concave = 0;
 };
 
-/// The number of shares in a histogram of these settings: `bins`, or in mode `printed` the bins that equation 13
-/// reaches.
+/// Returns the number of shares in a histogram of these settings: `bins`, or in mode `printed` the number of bins that
+/// equation 13 can reach.
 size_t binsOf(const HistogramSettings& settings);
 
 inline constexpr double kFlatAngle = 1e-4;  ///< radians
 
-/// Errors: invalid_argument for settings out of range.
+/// Checks the settings. Errors: invalid_argument if a setting is out of range.
 Result<void> checkHistogram(const HistogramSettings& settings);
 
-/// normals: one per point, of any length above 0, outward. triangles: their corners index points and normals alike.
-/// edges: required if unique_edges is set; null otherwise. Errors: invalid_argument for settings out of range. The same
+/// Computes the histogram of a mesh. normals: one per point of the mesh, outward, of any length above 0. edges:
+/// required if unique_edges is set, otherwise null. Errors: invalid_argument if a setting is out of range. The same
 /// bits for any number of threads.
 Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
                               const HistogramSettings& settings, JobSystem& jobs);
 
-/// The histogram without borders, which classify.h uses: points with equal coordinates are welded, normals are
-/// smoothNormals(), and edges that touch a border are left out, because a region of a world is cut off there, and the
-/// missing surface would change the normal. Errors: those of histogramOf.
+/// Computes the histogram that classify.h uses, without the borders of the mesh. Points with equal coordinates are
+/// welded, and normals are smoothNormals(). Edges that touch a border are left out: a region of a world is cut off
+/// there, and the missing surface would change the normals. Errors: those of histogramOf.
 Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings& settings, JobSystem& jobs);
 
-/// At each point the sum of its triangles' cross products, normalised; zero if the sum is zero.
+/// Returns for each point the sum of its triangles' cross products, normalised; 0 if the sum is 0.
 LargeVector<Point> smoothNormals(const Triangles& mesh);
 
 }  // namespace sgm::measure

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
 constexpr size_t kSide = kChunkSamples;
-constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // besides a vertex's border planes
+// bits of MeasureScratch::planes above those of border planes: the vertex is excluded; it is a feature vertex
+constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;
 
 bool isWithin(const Vertex& v, int lo, int hi) {
   return std::min({v.x, v.y, v.z}) >= lo && std::max({v.x, v.y, v.z}) <= hi;
@@ -25,7 +26,8 @@ uint8_t planesOfEdge(const Vertex& v) {
                               (v.z == kEnd) << 5);
 }
 
-/// The border plane of the face that a face vertex belongs to, which the vertex may be off.
+/// Returns the border plane of the chunk that contains the face of a face vertex; the vertex itself may be off the
+/// plane.
 uint8_t planesOfFeature(const Vertex& v) {
   if ((v.kind & kFeatureOfCell) != 0) return 0;
   const int axis = v.kind >> 6 & 3, at = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -109,7 +111,7 @@ class BodyMeasurer {
     }
   }
 
-  /// The number of edges that start in a row of samples and whose ends differ.
+  /// Returns the number of edges that start in a row of samples and whose ends differ in sign.
   uint32_t crossedEdges(size_t row) const {
     const bool y_ends = row % kSide == kChunkCells, z_ends = row / kSide == kChunkCells;
     const uint64_t signs = signs_[row], cells = (uint64_t{1} << kChunkCells) - 1;
@@ -119,7 +121,7 @@ class BodyMeasurer {
   }
 
   bool isOnCrossed(const SampleEdge& edge) const {
-    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced one, on a corner
+    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced vertex, on a corner of the chunk
     const auto row = static_cast<size_t>(edge.y) + kSide * static_cast<size_t>(edge.z);
     const uint64_t from = signs_[row] >> edge.x;
     const uint64_t to = edge.axis == 0   ? from >> 1
@@ -136,14 +138,14 @@ class BodyMeasurer {
       ++topology_.compared;
     }
     for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
-    // Vertices on crossed edges are one per edge, or misplaced.
+    // Each crossed edge has one vertex; a second one on the same edge counts as misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
     scratch_.corners.resize(3 * size_t{part_.triangles});
-    // A local variable cannot alias the data that is read, so that sums stay in registers.
+    // Sums go to a local variable: it cannot alias the data that is read, so that the compiler holds it in registers.
     TermSums sums;
     uint32_t against = 0, flat = 0, degenerate = 0;
     uint32_t* kept = indices_.data();
@@ -185,7 +187,7 @@ class BodyMeasurer {
     count(Defect::degenerate) = degenerate;
   }
 
-  /// Joins feature vertices that a crease has split: those of equal position and kind, and so of equal key.
+  /// Joins feature vertices that splitCreases() has duplicated: they have equal position and kind, and so an equal key.
   void joinFeatures() {
     const size_t slots = std::bit_ceil(2 * features_);
     constexpr uint32_t kFree = UINT32_MAX;
@@ -200,7 +202,7 @@ class BodyMeasurer {
     for (uint32_t i = 0; i < first.size(); ++i) {
       first[i] = i;
       if ((planes_[i] & kIsFeature) == 0) continue;
-      // Fibonacci hashing: the product's upper bits are well mixed.
+      // Fibonacci hashing: the upper bits of the product are well mixed.
       size_t slot = static_cast<size_t>((word(i) * 0x9E3779B97F4A7C15u) >> 32) & (slots - 1);
       while (table[slot] != kFree && word(table[slot]) != word(i)) slot = (slot + 1) & (slots - 1);
       if (table[slot] == kFree) table[slot] = i;
@@ -214,7 +216,7 @@ class BodyMeasurer {
     size_t kept = 0;
     for (size_t at = 0; at < indices_.size(); at += 3) {
       const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      // They have one position, and are counted.
+      // Such a triangle has joined corners in one position, and was counted as degenerate.
       if (a == b || b == c || c == a) continue;
       indices_[kept++] = a;
       indices_[kept++] = b;

@@ -13,7 +13,7 @@
 
 namespace sgm::measure {
 
-/// A part's vertices, and its triangles, whose indices start at first_vertex.
+/// A part's vertices and triangles. Indices count from first_vertex.
 struct PartView {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;
@@ -25,10 +25,11 @@ PartView viewOf(const PackedMesh& mesh, size_t part);
 /// Memory that is reused for several chunks: about 80 bytes per triangle of the largest one. Not thread-safe.
 struct MeasureScratch {
   StarScratch stars;
-  std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and further marks of the measurer
+  /// by vertex: bit (1 << Face) for border planes; higher bits are marks of the measurer
+  std::pmr::vector<uint8_t> planes;
   std::pmr::vector<PackedDirection> directions;  ///< by vertex
   std::pmr::vector<uint32_t> indices;            ///< of triangles that are not excluded
-  std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that count as one
+  std::pmr::vector<uint32_t> first, table;       ///< hash table of feature vertices, to count copies as one vertex
   std::pmr::vector<PairCorner> corners;          ///< three per triangle with an area
   PairScratch pairs;
 
@@ -43,12 +44,13 @@ struct MeasureScratch {
         pairs(memory) {}
 };
 
-/// Measures the body into parts[0] and topology. signs: of its samples (ChunkSamples::signs), or empty. Precondition:
-/// fewer than 2^20 triangles, so that no sum can overflow. Takes about 35 ns per triangle. Throws std::bad_alloc.
+/// Measures the body into parts[0] and topology. signs: of its samples (ChunkSamples::signs); empty: vertices
+/// are not compared with samples. Precondition: fewer than 2^20 triangles, so that no sum can overflow. Takes about 35
+/// ns per triangle. Throws std::bad_alloc.
 void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,
                  ChunkMeasures& measures);
 
-/// Measures a seam: only the first two defects, degenerate triangles, area and flux.
+/// Measures a seam: counts the defects index, outside and degenerate (chunk_measures.h), and sums area and flux.
 PartMeasures measureSeam(const PartView& seam);
 
 }  // namespace sgm::measure

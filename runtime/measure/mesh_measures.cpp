@@ -14,7 +14,7 @@ bool measurable(Point p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Counts the triangles with a corner that cannot be measured, and returns the other triangles if there are any such.
+/// Counts the triangles with a corner that cannot be measured. If there are any, returns all others; otherwise nothing.
 LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint8_t> used(mesh.points.size(), mesh.memory);
   const auto good = [&](const Triangle& t) {
@@ -32,7 +32,7 @@ LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
   return kept;
 }
 
-/// Restores the numbers of triangles after finiteOf() has excluded some.
+/// Converts numbers of triangles in the result to numbers in `mesh`, after finiteOf() has excluded some triangles.
 void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint32_t> given(mesh.memory);
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -69,7 +69,7 @@ void countShapes(const Triangles& mesh, JobSystem& jobs, MeshMeasures& result) {
       const Triangle& t = mesh.triangles[i];
       const double quality = qualityOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
       counts[block].slivers += quality < kSliver;
-      // A triangle that is far from flat needs no exact test.
+      // isFlat() is exact and slow, so only triangles that are nearly flat are tested.
       counts[block].flat += quality < 1e-6 && !hasCornerTwice(t) && isFlat(mesh.points, t);
     }
   });
@@ -136,7 +136,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
   const uint64_t steps = settings.steps_a_triangle * (clean.triangles.size() + 1);
   std::optional<Edges> edges;
   std::optional<Error> failed;
-  // The three jobs write to disjoint data.
+  // The three jobs write to disjoint data, so they may run concurrently.
   const std::array<std::function<void()>, 3> works{
       [&] {
         if (!settings.self_intersections) return;

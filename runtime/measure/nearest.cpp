@@ -14,7 +14,7 @@ Point nearestOnEdge(Point a, Point b, Point to) {
 
 double squareTo(Point a, Point b) { return dot(b - a, b - a); }
 
-/// Squared distance to the box; infinite for an empty one.
+/// Returns the squared distance from a point to a box; infinite if the box is empty.
 double squareTo(const Bvh::Box& box, Point to) {
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -42,7 +42,8 @@ Point nearestOn(const std::array<Point, 3>& triangle, Point to) {
   const Point normal = cross(b - a, c - a);
   const double u = dot(cross(c - b, to - b), normal), v = dot(cross(a - c, to - c), normal),
                w = dot(cross(b - a, to - a), normal), all = u + v + w;
-  // A mean of the corners, not a projection: the normal of a sliver is mostly rounding.
+  // Uses a weighted mean of the corners instead of a projection along the normal: the normal of a sliver is mostly
+  // rounding error.
   if (u >= 0 && v >= 0 && w >= 0 && all > 0) offer(u / all * a + v / all * b + w / all * c);
   return best;
 }
@@ -56,7 +57,7 @@ Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t gue
     square = squareTo(place, to);
   };
   take(guess, nearestOn(cornersOf(mesh, guess), to));
-  // Each row of the tree leaves at most one node.
+  // Capacity: each row of the tree adds at most one waiting node.
   std::array<std::pair<double, size_t>, 34> waiting;
   waiting[0] = {squareTo(tree.box(1), to), 1};
   size_t count = 1;

@@ -7,7 +7,8 @@
 
 namespace sgm::measure {
 
-/// The nearest point of a triangle, which may have no area. The result lies in the triangle, up to rounding.
+/// Returns the point of a triangle that is nearest to `to`. The triangle may have no area. The result lies in the
+/// triangle, up to rounding.
 Point nearestOn(const std::array<Point, 3>& triangle, Point to);
 
 struct Nearest {
@@ -16,8 +17,9 @@ struct Nearest {
   uint32_t triangle = 0;
 };
 
-/// tree: of the same triangles, of which there is at least one. guess: any of them; the nearer it is, the sooner the
-/// search ends. It also decides which of several equally near points is found. Pure.
+/// Finds the nearest point of a mesh. tree: of the same triangles, of which there is at least one. guess: any triangle;
+/// the nearer it is, the sooner the search ends. It also decides which of several equally near points is returned.
+/// Pure.
 Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t guess = 0);
 
 }  // namespace sgm::measure

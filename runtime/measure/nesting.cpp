@@ -15,7 +15,7 @@ bool bounds(const Shell& shell) { return shell.closed() && shell.manifold; }
 /// True if a cut may have opened the shell, so that it has an inside within the mesh.
 bool boundsUpToCut(const Shell& shell) { return !shell.closed() && shell.manifold; }
 
-/// The height of a triangle that lies above or below a point along z.
+/// Returns the z at which a triangle crosses the vertical line through a point.
 double heightAt(const std::array<Point, 3>& t, Point at) {
   const Point normal = crossOf(t[0], t[1], t[2]);
   const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
@@ -23,16 +23,16 @@ double heightAt(const std::array<Point, 3>& t, Point at) {
   return height >= low ? std::min(height, high) : low;
 }
 
-/// The side of an open shell on which a point lies.
+/// Where a point lies relative to an open shell: unknown, on the side of the solid, or on the side of the void.
 enum class BesideCut : uint8_t { unknown, in_solid, in_open };
 
-/// Moves another axis to z. The orientation of triangles is unchanged.
+/// Permutes coordinates cyclically so that `axis` becomes z. The orientation of triangles does not change.
 Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]}; }
 
 constexpr int kColumns = 6;
 
-/// Tests the nearest open shell above a point. If there is none, or it only touches the line, tests below, then along
-/// the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
+/// Finds the nearest open shell above a point. If there is none, or it only touches the line, searches below, then
+/// along the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t most_steps) {
   for (int number = 0; number < kColumns; ++number) {
@@ -40,7 +40,8 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
     const int away = column.above ? 1 : -1;
     const Point place = turned(at, column.axis);
     double nearest = std::numeric_limits<double>::infinity();
-    int facing = 0;  // number of triangles there that face away from the point, minus those that face it
+    // number of triangles at the nearest crossing that face away from the point, minus those that face it
+    int facing = 0;
     const bool ended = tree.visitColumn(at, column, most_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
       if (shell == kNoShell || !boundsUpToCut(parts.shells[shell])) return;
@@ -63,7 +64,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
 
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
                            uint64_t most_steps) {
-  // On the way up to empty space, each triangle that faces up leaves a solid.
+  // In upward direction, empty space follows at the end, so each triangle that faces up is where a solid ends.
   int depth = 0;
   const bool ended = tree.visitColumn(at, {}, most_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
@@ -81,7 +82,7 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? most_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
-  // Without an open shell, all shells are in one space: not in a solid, if one of them faces outward.
+  // Without an open shell, all shells lie in the same space. If a shell faces outward, that space is void.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
                        std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);
@@ -94,7 +95,8 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
       const Point at = mesh.points[mesh.triangles[shell.first][0]];
       std::optional<int> depth = shells > 1 ? depthAt(mesh, tree, parts, static_cast<uint32_t>(s), at, share) : 0;
       if (is_cut && depth) {
-        // Corners of meshes on a grid often lie above others; the middle of a triangle does not.
+        // The first corner is not used, because corners of meshes on a grid often lie above others, which the middle of
+        // a triangle does not.
         const Triangle& corners = mesh.triangles[shell.first];
         const Point middle = (1.0 / 3) * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]]);
         const std::optional<BesideCut> beside = besideCut(mesh, tree, parts, middle, share);

@@ -19,7 +19,8 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   for (const Bvh::Pair& pair : tree.parts(kParts)) parts.push_back({Bvh::Walk(pair), {}, 0});
   std::mutex mutex;
   uint64_t done = 0;
-  // Steps that some parts leave of their shares go to the others in the next round, regardless of the speed of threads.
+  // Parts of the search that need fewer steps than their share leave the rest to the others in the next round. So the
+  // result does not depend on the speed of threads.
   uint64_t left = most_steps;
   for (;;) {
     std::vector<Part*> open;

@@ -8,7 +8,7 @@
 namespace sgm::measure {
 namespace {
 
-/// The corner of a half edge's triangle that lies at the vertex, which is one of the half edge's ends.
+/// Returns the corner, in the half edge's triangle, that lies at `vertex`, one of the half edge's two ends.
 uint32_t cornerAt(std::span<const Triangle> triangles, HalfEdge half, uint32_t vertex) {
   return beginOf(triangles, half) == vertex ? half : nextHalf(half);
 }
@@ -30,7 +30,7 @@ uint64_t objectsOf(const Triangles& mesh) {
 
 std::optional<uint64_t> Shell::genus() const {
   if (!manifold) return std::nullopt;
-  // Oriented: 2 - 2 genus - borders = V - E + F.
+  // For an oriented surface, V - E + F = 2 - 2 genus - borders.
   return static_cast<uint64_t>(2 - static_cast<int64_t>(borders) - euler()) / 2;
 }
 
@@ -50,7 +50,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
   result.objects = objectsOf(mesh);
   result.of_triangle = LargeVector<uint32_t>(triangles.size(), kNoShell, mesh.memory);
   LargeVector<uint32_t>& number = result.of_triangle;
-  // Triangles with a repeated corner have no edge, and stay isolated.
+  // Triangles with a repeated corner have no edges, and so are not connected to others here.
   const auto degenerate = [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   for (uint32_t i = 0; i < triangles.size(); ++i) {
     if (degenerate(triangles[i])) continue;
@@ -81,7 +81,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
       shell.manifold = false;
     }
   }
-  // Most meshes have no borders, and need no memory for them.
+  // Most meshes have no border; then nothing is allocated.
   const size_t border_fans = border_halves.empty() ? 0 : fans.size();
   UnionFind borders(border_fans, mesh.memory);
   for (const HalfEdge half : border_halves) borders.join(fans.rootOf(half), fans.rootOf(nextHalf(half)));

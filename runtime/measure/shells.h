@@ -10,26 +10,26 @@
 
 namespace sgm::measure {
 
-/// Triangles that are connected across edges.
+/// A shell: triangles that are connected across edges.
 struct Shell {
   uint64_t triangles = 0;
   uint64_t edges = 0;
   uint64_t vertices = 0;      ///< counted once per fan and per shell
-  uint64_t border_edges = 0;  ///< of one triangle
-  uint64_t borders = 0;       ///< closed lines of border edges
-  uint32_t first = 0;         ///< lowest triangle
-  /// Every edge has one triangle, or two that use it in opposite directions, and no two fans share a vertex, not even
-  /// fans of two shells.
+  uint64_t border_edges = 0;  ///< edges of one triangle
+  uint64_t borders = 0;       ///< closed loops of border edges
+  uint32_t first = 0;         ///< lowest triangle number of the shell
+  /// True if every edge has one triangle, or two that use it in opposite directions, and if no two fans share a vertex,
+  /// not even two fans of different shells.
   bool manifold = true;
   double area = 0;
-  double volume = 0;  ///< as AreaVolume::volume about the mesh's centre; meaningful only for closed shells
+  double volume = 0;  ///< volume as in AreaVolume, about the mesh's centre; meaningful only for closed shells
 
   bool closed() const { return border_edges == 0; }
-  /// V - E + F.
+  /// The Euler characteristic: vertices - edges + triangles.
   int64_t euler() const {
     return static_cast<int64_t>(vertices) - static_cast<int64_t>(edges) + static_cast<int64_t>(triangles);
   }
-  /// Number of handles: 0 for a ball or a disk, 1 for a torus. nullopt if it is not manifold.
+  /// The number of handles: 0 for a ball or a disk, 1 for a torus. nullopt if the shell is not manifold.
   std::optional<uint64_t> genus() const;
 };
 
@@ -38,17 +38,19 @@ struct Shells {
   /// "Independent objects", section 7.3 of the paper: groups of triangles connected through vertices. Two cubes that
   /// touch at a corner are one object and two shells.
   uint64_t objects = 0;
-  /// Non-manifold vertices, and a triangle at each: at most kMostExamples.
+  /// Non-manifold vertices, each with one of its triangles: at most kMostExamples.
   std::vector<std::pair<uint32_t, uint32_t>> pinched;
-  LargeVector<uint32_t> of_triangle;  ///< into shells; kNoShell for triangles with a repeated corner
+  /// index into shells of each triangle; kNoShell if the triangle has a repeated corner
+  LargeVector<uint32_t> of_triangle;
 };
 
 inline constexpr uint32_t kNoShell = 0xFFFFFFFFu;
 
-/// The maximum number of listed examples of a defect: more would not be more informative.
+/// The maximum number of examples that are listed for a defect. More would not help a reader.
 inline constexpr size_t kMostExamples = 16;
 
-/// edges: of these triangles. Triangles with a repeated corner belong to no shell, but connect objects.
+/// Finds the shells of a mesh. edges: of the same triangles. centre: see Shell::volume. Triangles with a repeated
+/// corner belong to no shell, but connect objects.
 Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre);
 
 }  // namespace sgm::measure

@@ -6,16 +6,17 @@
 
 namespace sgm::measure {
 
-/// Corners are common if they have the same index: equal points are merged before (weld_points.h), or else touch.
-/// Triangles without area neither fold nor cut.
+/// Tests two triangles. Their corners are common if they have the same index: equal points must have been merged before
+/// (weld_points.h), or they count as touching. Triangles without area neither fold nor cut.
 PairFault pairFault(std::span<const Point> points, Triangle a, Triangle b);
 inline bool meetWrongly(std::span<const Point> points, const Triangle& a, const Triangle& b) {
   return pairFault(points, a, b) != PairFault::none;
 }
 
-/// The same for positions: corners are common if their positions are equal.
+/// Same as above for positions: corners are common if their positions are equal.
 PairFault pairFault(std::array<Point, 3> a, std::array<Point, 3> b);
-/// True if an edge of one triangle has its ends on both sides of the other, and passes through its interior.
+/// True if an edge of one triangle has its ends on both sides of the other triangle's plane, and passes through its
+/// interior.
 bool pierce(const std::array<Point, 3>& a, const std::array<Point, 3>& b);
 
 inline bool hasCornerTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }

@@ -1,5 +1,5 @@
 #pragma once
-// Groups of connected elements.
+// Union-find: groups of connected elements.
 
 #include <cstdint>
 #include <numeric>

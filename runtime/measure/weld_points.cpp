@@ -23,13 +23,14 @@ uint64_t mixed(uint64_t h) {
 
 uint64_t hashOf(const Cell& cell) { return mixed(cell.x + mixed(cell.y + mixed(cell.z + 0x2545F4914F6CDD1Du))); }
 
-/// Heads of lists of kept points by cell: a hash table with open addressing, at most half full.
+/// A hash table with open addressing, at most half full, that maps a cell to the head of the list of its kept points.
 class Cells {
  public:
   Cells(size_t points, std::pmr::memory_resource* memory)
       : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone, memory) {}
 
-  /// The slot of the cell, or the empty one for it. cellOf: of a kept point.
+  /// Returns the slot of a cell, or the empty slot where it is to be inserted. cellOf: returns the cell of a kept
+  /// point.
   template <class CellOf>
   uint32_t& slot(const Cell& cell, CellOf&& cellOf) {
     size_t at = hashOf(cell) & (slots_.size() - 1);
@@ -46,12 +47,12 @@ Cell bitsOf(Point p) {
   return {std::bit_cast<uint64_t>(p.x + 0.0), std::bit_cast<uint64_t>(p.y + 0.0), std::bit_cast<uint64_t>(p.z + 0.0)};
 }
 
-/// The cell of a grid with that edge.
+/// Returns the cell that contains a point, in a grid with that edge.
 Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)}; }
 
 class Welder {
  public:
-  /// Memory reserved for all points costs nothing before it is used; growing would copy them.
+  /// Reserves memory for all points: unused pages cost nothing, whereas a growing array would be copied.
   Welder(size_t points, double tolerance, std::pmr::memory_resource* memory)
       : tolerance_(tolerance), cells_(points, memory), kept_(memory), next_(memory) {
     kept_.reserve(points);
@@ -77,7 +78,7 @@ class Welder {
     return cells_.slot(cell, [this](uint32_t kept) { return cellOf(kept_[kept]); });
   }
 
-  /// The kept point with the lowest number within the tolerance.
+  /// Returns the kept point with the lowest number within the tolerance of p; kNone if there is none.
   uint32_t near(Point p) {
     uint32_t best = kNone;
     const Point grid = gridOf(p, tolerance_);
@@ -92,13 +93,13 @@ class Welder {
   double tolerance_;
   Cells cells_;
   LargeVector<Point> kept_;
-  LargeVector<uint32_t> next_;  ///< of the same cell; only with a tolerance
+  LargeVector<uint32_t> next_;  ///< the next kept point of the same cell; only used with a tolerance
 };
 
 }  // namespace
 
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
-  // If the next representable number is farther away than the tolerance, only equal coordinates are near.
+  // If no representable number lies within the tolerance of the farthest point, only equal coordinates can be near.
   double farthest = 0;
   for (const Point& p : mesh.points) {
     for (const double v : {p.x, p.y, p.z})

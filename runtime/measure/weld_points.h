@@ -11,15 +11,15 @@ namespace sgm::measure {
 
 struct WeldedPoints {
   LargeVector<Point> points;
-  LargeVector<Triangle> triangles;  ///< as many as before, in their order
+  LargeVector<Triangle> triangles;  ///< the same triangles in the same order, with indices of welded points
   size_t merged = 0;                ///< points that were merged into others
 };
 
-/// tolerance 0: points with equal coordinates (0 and -0 are equal) are merged. Otherwise each point, in order, is
-/// merged into the first kept one at most that far away; the tolerance must be above 0 and finite. Equal coordinates
-/// are the right rule for generated files: this library's meshes have distinct vertices a 128th of a cell apart, which
-/// the usual millionth of the diagonal merges in a region of a kilometre. Precondition: the coordinates of points that
-/// triangles use are finite. Unused points are dropped.
+/// Merges points. tolerance 0: points with equal coordinates (0 and -0 are equal) are merged. tolerance above 0
+/// (finite): each point, in order, is merged into the first kept point at most that far away. Equal coordinates are the
+/// right rule for generated files: this library's meshes have distinct vertices a 128th of a cell apart, which the
+/// usual tolerance, a millionth of the diagonal, would merge in a region of a kilometre. Precondition: the coordinates
+/// of points that triangles use are finite. Unused points are dropped.
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance = 0);
 
 }  // namespace sgm::measure

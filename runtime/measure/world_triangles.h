@@ -8,7 +8,8 @@ namespace sgm::measure {
 
 inline asset::Point pointOf(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
-/// Metres from the mesh's origin, exact; points and triangles in the mesh's order. Without materials.
+/// Converts positions to metres from the mesh's origin, exactly; points and triangles keep their order. Drops
+/// materials.
 asset::TriangleMesh trianglesOf(const WorldMesh& mesh);
 
 }  // namespace sgm::measure
