@@ -8,10 +8,10 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kSamePlane = 1e-12;  ///< by how much the cosine of two normals may be below 1
+constexpr double kSamePlane = 1e-12;  ///< two normals are the same if their cosine is at least 1 minus this value
 constexpr size_t kMostCandidates = 24;
 
-/// A piece of a face.
+/// A part of a face, within a cell that is not completely divided yet.
 struct Fragment {
   Loop loop;
   uint32_t plane = 0;
@@ -24,8 +24,8 @@ struct OpenCell {
   std::vector<Fragment> fragments;
 };
 
-/// The crossing of a ray and a triangle: +1 if it leaves the solid, -1 if it enters, 0 if it misses; nullopt if it
-/// passes too close to an edge to decide.
+/// Intersects a ray with a triangle. Returns 1 if the ray leaves the solid there, -1 if it enters, 0 if it misses;
+/// nullopt if it passes too close to an edge to decide.
 std::optional<int> crossing(Point from, Point along, Point a, Point b, Point c) {
   const Point e1 = b - a, e2 = c - a, normal = cross(e1, e2), to = a - from;
   const double facing = dot(along, normal), size = length(normal);
@@ -40,9 +40,9 @@ std::optional<int> crossing(Point from, Point along, Point a, Point b, Point c) 
   return facing > 0 ? 1 : -1;
 }
 
-/// The winding number of the surface around a point that does not lie on it; nullopt if no ray can decide.
+/// Returns the winding number of the surface around a point that does not lie on it; nullopt if no ray can decide it.
 std::optional<int> windingAt(const Polyhedron& solid, Point p) {
-  // Any directions work that are not along edges or faces, as the axes often are.
+  // Directions that are not parallel to edges or faces decide best; the axes often are parallel.
   constexpr Point kRays[] = {{0.3713906763541037, 0.7427813527082074, 0.5570860145311556},
                              {-0.6123724356957945, 0.3535533905932738, 0.7071067811865475},
                              {0.8137334712067349, -0.4650, 0.34874291623145787},
@@ -123,15 +123,17 @@ class CellCutter {
   void close(OpenCell cell) {
     BspCell leaf{std::move(cell.body), std::move(cell.sides), {}, 0, false};
     leaf.middle = leaf.body.middle();
-    // A cell for which no ray can decide is as thin as the tolerance.
+    // If no ray can decide, the cell is as thin as the tolerance, and counts as void.
     leaf.winding = windingAt(solid_, leaf.middle).value_or(0);
     leaf.solid = leaf.winding > 0;
     out_.cells.push_back(std::move(leaf));
   }
 
-  /// The plane that cuts the fewest other fragments; among several, the one with the largest area.
+  /// Returns the plane that cuts the fewest other face fragments of the cell; among equals, the one with the largest
+  /// area.
   uint32_t splitter(const OpenCell& cell) const {
-    std::vector<std::pair<double, uint32_t>> candidates;  // with their negated area
+    // pairs of negated area and plane, so that sorting puts the largest area first
+    std::vector<std::pair<double, uint32_t>> candidates;
     for (const Fragment& f : cell.fragments) {
       const auto known =
           std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.second == f.plane; });
@@ -175,7 +177,7 @@ class CellCutter {
       for (const Fragment& f : cell.fragments) {
         if (f.plane == number) continue;
         Fragment rest{clippedLoop(f.loop, side, out_.tolerance), f.plane, 0};
-        // A fragment with only an edge in the plane is not part of it.
+        // A fragment that has only an edge in the plane does not lie in it.
         bool inside = false;
         for (const Point& p : rest.loop) inside = inside || side.distance(p) < -out_.tolerance;
         if (rest.loop.size() < 3 || !inside) continue;

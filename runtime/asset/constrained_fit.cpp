@@ -9,17 +9,17 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kShortest = 0.01;  ///< of an edge's own length
-constexpr double kParallel = 1e-4;  ///< smaller determinants of normals do not determine a corner
-constexpr double kPlaceWeight =
-    1e-4;  ///< weight of corners' targets relative to edge lengths: places parts without constraints
+constexpr double kShortest = 0.01;  ///< the shortest allowed edge, relative to its original length
+constexpr double kParallel = 1e-4;  ///< if the determinant of three normals is smaller, they do not determine a corner
+/// Weight of corners' targets relative to that of edge lengths: positions the parts that no constraint determines.
+constexpr double kPlaceWeight = 1e-4;
 
-/// A corner as a function of the moves of its faces along their normals.
+/// A corner's position as a function of the moves of its faces along their normals.
 struct Corner {
-  std::vector<uint32_t> faces;   ///< all that meet in it
-  std::array<uint32_t, 3> by{};  ///< three of them that determine its position
-  std::array<Point, 3> moves{};  ///< its move per unit move of each of these
-  bool sharp = false;            ///< there are three such faces
+  std::vector<uint32_t> faces;   ///< all faces that meet in the corner
+  std::array<uint32_t, 3> by{};  ///< three of these faces that determine the corner's position
+  std::array<Point, 3> moves{};  ///< the corner's move per unit move of each of the three faces
+  bool sharp = false;            ///< true if there are three such faces
 };
 
 class FaceMover {
@@ -38,7 +38,8 @@ class FaceMover {
   }
 
  private:
-  /// The maps themselves if they keep every face's normal: without slanted faces they always do.
+  /// Applies the maps to all points. The result keeps every face's normal if no face is slanted; nullopt if a normal
+  /// would change.
   std::optional<Polyhedron> byMaps() const {
     Polyhedron out = solid_;
     out.points = wanted_;
@@ -46,7 +47,7 @@ class FaceMover {
     for (size_t t = 0; t < out.triangles.size(); ++t)
       for (const uint32_t corner : out.triangles[t]) {
         const uint32_t f = out.face_of[t];
-        // A corner lies in its plane up to the tolerance of the file: the map must not move it farther off.
+        // A corner lies in its plane only up to the tolerance of the file: the map must not move it farther off.
         const double was = solid_.faces[f].plane.distance(solid_.points[corner]);
         const double offset = dot(out.faces[f].plane.normal, out.points[corner]) - was;
         if (known[f] && std::fabs(out.faces[f].plane.offset - offset) > 4 * tolerance_) return std::nullopt;
@@ -90,7 +91,7 @@ class FaceMover {
         }
   }
 
-  /// The move of a corner in a direction.
+  /// Returns the move of a corner in a direction, as a linear form of the faces' moves.
   LinearForm moveOf(uint32_t corner, Point direction, double times = 1) const {
     LinearForm form;
     for (size_t m = 0; m < 3; ++m)
@@ -98,7 +99,7 @@ class FaceMover {
     return form;
   }
 
-  /// Edges between two faces, from sharp corner to sharp corner.
+  /// Finds the edges between two faces; each leads from one sharp corner to another.
   void findEdges() {
     using Half = std::pair<std::pair<uint32_t, uint32_t>, uint32_t>;
     std::vector<Half> halves;
@@ -106,7 +107,7 @@ class FaceMover {
       for (size_t k = 0; k < 3; ++k)
         halves.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, solid_.face_of[t]});
     std::sort(halves.begin(), halves.end());
-    // next[a]: where the border of a face continues from a corner that is not sharp.
+    // next[(corner, face)]: the corner that follows on the face's border, if the first corner is not sharp.
     std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;  // (corner, face), corner
     for (const Half& half : halves) {
       const auto& [ends, face] = half;
@@ -128,7 +129,7 @@ class FaceMover {
         if (on == next.end() || on->first != std::pair{b, face}) break;
         b = on->second;
       }
-      // Each edge once: it is on the borders of two faces, in opposite directions.
+      // An edge lies on the borders of two faces, in opposite directions; it is added only once.
       if (corners_[b].sharp && a < b && dot(normalised(solid_.points[b] - solid_.points[a]), along) > 0.999)
         edges_.emplace_back(a, b);
     }
@@ -193,7 +194,7 @@ class FaceMover {
     return out;
   }
 
-  /// Moves a point of an edge or a face, not a corner, into their planes, anywhere along them.
+  /// Moves a point of an edge or a face (not a corner) into the planes of these faces; it may move along them.
   static Point onto(const std::vector<uint32_t>& faces, const Polyhedron& out, Point p) {
     Point first;
     for (const uint32_t f : faces) {
@@ -212,7 +213,7 @@ class FaceMover {
   const Polyhedron& solid_;
   const std::array<AxisMap, 3>& maps_;
   double edge_, tolerance_;
-  std::vector<Point> wanted_;  ///< by point
+  std::vector<Point> wanted_;  ///< target position of each point
   std::vector<Corner> corners_;
   std::vector<std::pair<uint32_t, uint32_t>> edges_;
 };

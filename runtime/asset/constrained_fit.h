@@ -12,27 +12,28 @@
 
 namespace sgm::asset {
 
-/// The wanted target of each coordinate along an axis: piecewise linear between its knots.
+/// Maps coordinates along an axis to their desired values: piecewise linear between its knots.
 struct AxisMap {
   struct Knot {
     double from = 0, to = 0;
   };
-  std::vector<Knot> knots;  ///< at least two, `from` ascending
-  /// For each interval between knots: true if all of it must map exactly. Otherwise only the two ends of the axis must.
+  std::vector<Knot> knots;  ///< at least two; `from` ascends
+  /// For each interval between two knots: true if every point in it must map exactly. If no interval is stiff, only the
+  /// two ends of the axis must.
   std::vector<bool> stiff;
 
   double operator()(double at) const;
   bool isStiff(double at, double tolerance) const;
-  /// True if a point that moved from `from` to `to` stays in its interval between knots.
+  /// True if a point that moved from `from` to `to` is still in its interval between knots, up to the tolerance.
   bool keeps(double from, double to, double tolerance) const;
-  /// True if the map ascends everywhere, and nowhere almost flat.
+  /// True if the map ascends everywhere, with no part that is almost flat.
   bool rises() const;
 };
 
-/// Fits the polyhedron, whose box begins at the origin, to the maps as well as its angles allow: minimises the sum of
-/// the squared differences between its edges' lengths and those that the maps give, each weighted by the edge's own
-/// length. Returns nullopt if that is impossible: constraints contradict each other, an edge would be shorter than a
-/// hundredth of its length, or a vertex would leave its interval between knots.
+/// Fits the polyhedron, whose box begins at the origin, to the maps as well as its angles allow. Minimises the sum of
+/// squared differences between the lengths of its edges and the lengths that the maps give, each weighted by the edge's
+/// original length. Returns nullopt if there is no solution: constraints contradict each other, an edge would be
+/// shorter than a hundredth of its original length, or a vertex would leave its interval between knots.
 std::optional<Polyhedron> fitConstrained(const Polyhedron& solid, const std::array<AxisMap, 3>& maps);
 
 }  // namespace sgm::asset

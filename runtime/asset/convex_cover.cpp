@@ -18,7 +18,7 @@ namespace sgm::asset {
 
 namespace {
 
-/// Points where the same cells meet, strictly between corners.
+/// A set of points, strictly between corners of cells, that all touch the same cells.
 struct Feature {
   Loop corners;
   Point middle;
@@ -26,7 +26,7 @@ struct Feature {
 
 struct GrownPiece {
   std::vector<Side> sides;
-  std::vector<uint32_t> covers;  ///< features
+  std::vector<uint32_t> covers;  ///< indices of the features that the piece covers
 };
 
 class CoverFinder {
@@ -58,7 +58,7 @@ class CoverFinder {
   double tolerance() const { return cells_.tolerance; }
   size_t planeCount() const { return cells_.planes.size(); }
 
-  /// Determines which void cells lie entirely on one side of which planes, and the boxes of cells.
+  /// Finds, for each plane, the void cells that lie entirely on one side of it; and the bounding box of each cell.
   void relateCells() {
     for (uint32_t c = 0; c < cells_.cells.size(); ++c) {
       const BspCell& cell = cells_.cells[c];
@@ -81,19 +81,19 @@ class CoverFinder {
       }
   }
 
-  /// The void cells that a piece on this side excludes.
+  /// Returns the void cells that a piece with this side excludes.
   const std::vector<uint32_t>& leftOut(Side side) const { return outside_[2 * side.plane + (side.before ? 1 : 0)]; }
 
-  /// Removes sides without which no void cell would be included.
+  /// Removes sides that are not needed to exclude a void cell.
   std::vector<Side> grown(std::vector<Side> sides) const {
     std::vector<uint32_t> count(void_.size(), 0);
     for (const Side side : sides)
       for (const uint32_t v : leftOut(side)) ++count[v];
-    // If only two sides together exclude a cell, none may be removed: that is rare, and a smaller piece is also
+    // If a cell is excluded only by two sides together, no side is removed: that is rare, and a smaller piece is also
     // correct.
     if (std::find(count.begin(), count.end(), 0u) != count.end()) return sides;
-    // The sides that exclude the most, and of these the ones cut last, lie farthest inside: without them, others
-    // farther outside may suffice.
+    // Removal starts with the sides that exclude the most and, among these, were cut last. They lie farthest inside:
+    // without them, sides farther outside may suffice.
     std::reverse(sides.begin(), sides.end());
     std::stable_sort(sides.begin(), sides.end(), [&](Side a, Side b) { return leftOut(a).size() > leftOut(b).size(); });
     std::vector<Side> kept;
@@ -117,7 +117,8 @@ class CoverFinder {
     return true;
   }
 
-  /// Adds a feature to the list, and a piece for it if none covers it; sides: the initial sides of that piece.
+  /// Adds a feature to the list and, if no piece covers it, a piece for it. sides: the sides of that piece before it
+  /// grows.
   void addFeature(Feature feature, std::vector<Side> sides) {
     features_.push_back(std::move(feature));
     for (const GrownPiece& piece : pieces_)
@@ -138,7 +139,7 @@ class CoverFinder {
     }
   }
 
-  /// The sides of the meeting cells whose planes do not pass through `at`.
+  /// Returns the sides of the meeting cells, except those whose planes pass through `at`.
   std::vector<Side> sidesAt(const std::vector<uint32_t>& meeting, Point at) const {
     std::vector<Side> sides;
     for (const uint32_t c : meeting)
@@ -155,7 +156,7 @@ class CoverFinder {
     return true;
   }
 
-  /// Finds the faces that two solid cells share.
+  /// Finds the faces that two solid cells share (portals).
   void findPortals() {
     struct FacetOf {
       uint32_t cell;
@@ -187,7 +188,7 @@ class CoverFinder {
         }
   }
 
-  /// Finds the edges of those faces, cut at the corners of others, and the corners.
+  /// Finds the edges of the portals, cut at the corners of other portals, and the corners.
   void findEdges() {
     std::vector<Point> corners;
     for (const Loop& loop : portals_) corners.insert(corners.end(), loop.begin(), loop.end());
@@ -226,7 +227,7 @@ class CoverFinder {
     }
   }
 
-  /// Adds a feature where more than two cells may meet, unless one of them is void.
+  /// Adds a feature where more than two cells may meet, unless one of these cells is void.
   void meetingPoint(Feature feature) {
     for (const GrownPiece& piece : pieces_)
       if (covers(piece.sides, feature)) {
@@ -248,7 +249,7 @@ class CoverFinder {
     if (!meeting.empty()) addFeature(std::move(feature), sidesAt(meeting, middle));
   }
 
-  /// Later pieces were added for smaller features: they are dropped first.
+  /// Removes redundant pieces. Later pieces were added for smaller features, so they are removed first.
   void dropSuperfluous() {
     std::vector<uint32_t> count(features_.size(), 0);
     for (GrownPiece& piece : pieces_)
@@ -259,7 +260,7 @@ class CoverFinder {
         }
     for (size_t i = pieces_.size(); i-- > 0;) {
       const std::vector<uint32_t>& covers = pieces_[i].covers;
-      // A piece that covers nothing by this measure is thin, but was needed for some feature.
+      // A piece that covers no listed feature is thin, but was added for some feature, so it is kept.
       if (covers.empty() || !std::all_of(covers.begin(), covers.end(), [&](uint32_t f) { return count[f] > 1; }))
         continue;
       for (const uint32_t f : covers) --count[f];
@@ -280,9 +281,10 @@ class CoverFinder {
     return piece;
   }
 
-  /// The material of most of the polyhedron's face there.
+  /// Returns the material of the polyhedron's faces in the plane of a side, by area.
   uint32_t materialOf(Side side, const std::vector<Side>& sides) const {
-    std::map<uint32_t, std::pair<double, double>> areas;  // within the piece, and in the whole plane
+    // areas of each material: within the piece, and in the whole plane
+    std::map<uint32_t, std::pair<double, double>> areas;
     for (const uint32_t t : triangles_[2 * side.plane + (side.before ? 1 : 0)]) {
       const uint32_t face = solid_.face_of[t];
       const auto& corners = solid_.triangles[t];
@@ -306,10 +308,12 @@ class CoverFinder {
   const Polyhedron& solid_;
   const BspCells& cells_;
   const CoverLimits& limits_;
-  std::vector<std::pair<Point, Point>> boxes_;    ///< of the cells
-  std::vector<uint32_t> void_;                    ///< cells
-  std::vector<std::vector<uint32_t>> outside_;    ///< for each side of each plane, into void_
-  std::vector<std::vector<uint32_t>> triangles_;  ///< in each plane, facing one way and the other
+  std::vector<std::pair<Point, Point>> boxes_;  ///< bounding box of each cell
+  std::vector<uint32_t> void_;                  ///< indices of the void cells
+  /// for each side of each plane: indices into void_ of the cells on that side
+  std::vector<std::vector<uint32_t>> outside_;
+  /// for each plane and direction: the triangles in the plane that face that way
+  std::vector<std::vector<uint32_t>> triangles_;
   std::vector<Feature> features_;
   std::vector<Loop> portals_;
   std::vector<GrownPiece> pieces_;

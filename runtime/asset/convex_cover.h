@@ -1,6 +1,7 @@
 #pragma once
-// Covers a polyhedron by overlapping convex pieces: every point inside it lies strictly inside one of them. If convex
-// parts only touched, samples in their common face would be void, since a field is solid below zero.
+// Covers a polyhedron by overlapping convex pieces: every point inside it lies strictly inside one of them. The pieces
+// must overlap, because a field is solid only below 0: samples in a common face of two pieces that merely touch would
+// be 0, and so void.
 
 #include <cstdint>
 #include <vector>
@@ -11,11 +12,12 @@
 
 namespace sgm::asset {
 
-/// A side of a piece: the plane of a face of the polyhedron, with the piece behind it.
+/// A side of a piece: the plane of one of the polyhedron's faces. The piece lies behind it.
 struct PieceSide {
   Plane plane;
-  uint32_t number = 0;  ///< of the plane and its side: the same in all pieces
-  /// Of most of the face there: if two materials share a plane, the piece has the one of larger area.
+  uint32_t number = 0;  ///< identifies the plane and its direction: the same number in all pieces
+  /// The material of the polyhedron's face in that plane. If faces with two materials share the plane, the material of
+  /// the larger area within the piece.
   uint32_t material = kNoMaterial;
 };
 
@@ -25,8 +27,8 @@ struct CoverLimits {
   size_t cells = kMostCells, pieces = 4096, features = 65536;
 };
 
-/// Returns pieces of maximal size, none of them redundant. Errors: limit (too intricate); bad_input if the polyhedron
-/// intersects itself, so that its inside is out.
+/// Returns pieces of maximal size, none of them redundant. Errors: limit if the polyhedron is too intricate; bad_input
+/// if it intersects itself so that its inside faces out.
 Result<std::vector<ConvexPiece>> coverWithPieces(const Polyhedron& solid, const CoverLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -20,7 +20,8 @@ class Repeater {
     double from = -kEnd, moved = 0;
     for (const Stretch& zone : zones) {
       part(from, zone.from, moved);
-      // Triangles in a plane between two parts belong to the beginning or end of the zone, not between copies.
+      // Triangles in a plane between two parts belong to the beginning or the end of the zone; inside the zone they
+      // would be repeated.
       faceAt(zone.from, moved);
       for (size_t i = 0; i < count; ++i) {
         part(zone.from, zone.to, moved + static_cast<double>(i) * (zone.to - zone.from));
@@ -100,7 +101,7 @@ class Repeater {
   Polyhedron out_;
   std::vector<Point> points_;
   std::vector<std::array<uint32_t, 3>> triangles_;
-  std::vector<uint32_t> faces_;  ///< of each triangle, into out_.faces
+  std::vector<uint32_t> faces_;  ///< index into out_.faces of each triangle
   std::map<std::pair<uint32_t, double>, uint32_t> copies_;
 };
 

@@ -21,10 +21,10 @@ Error refused(std::string message) { return {Code::bad_input, std::move(message)
 
 std::string along(int axis) { return std::string(" along ") + kAxes[axis]; }
 
-/// The changes along one axis.
+/// The zones along one axis.
 struct AxisPlan {
-  std::vector<Stretch> stretches, repeats;  ///< from the low end, in order
-  double length = 0;                        ///< of the asset
+  std::vector<Stretch> stretches, repeats;  ///< sorted from the low end
+  double length = 0;                        ///< length of the asset along the axis
 
   static double sum(const std::vector<Stretch>& zones) {
     double total = 0;
@@ -34,7 +34,7 @@ struct AxisPlan {
 
   size_t leastCopies() const { return stretches.empty() || length - sum(repeats) <= 0 ? 1 : 0; }
 
-  /// The number of copies that comes nearest to a size.
+  /// Returns the number of copies whose total length comes nearest to a size.
   size_t copiesFor(double size) const {
     if (repeats.empty()) return 1;
     const double fixed = length - sum(repeats), one = sum(repeats);
@@ -43,7 +43,7 @@ struct AxisPlan {
     return static_cast<size_t>(std::clamp(nearest, least, kMostCopies));
   }
 
-  /// The plan without the repeating zones.
+  /// Returns the plan without its repeating zones, for zero copies.
   AxisPlan without() const {
     AxisPlan out;
     out.length = length - sum(repeats);
@@ -56,7 +56,8 @@ struct AxisPlan {
     return out;
   }
 
-  /// The map of the asset with single zones, so that the result with all copies has the size.
+  /// Returns the map that the asset with each repeating zone once must follow, so that the result with all copies has
+  /// the size.
   AxisMap map(double size, size_t copies) const {
     const std::vector<Stretch>& free = stretches.empty() ? repeats : stretches;
     const double count = static_cast<double>(copies);
@@ -86,7 +87,7 @@ struct AxisPlan {
 class Fitter {
  public:
   Fitter(const Polyhedron& asset, std::span<const FitZone> zones) : asset_(asset), zones_(zones) {
-    // Measured from the low end, like the zones.
+    // From here on, positions are measured from the asset's low end, as zones are.
     for (Point& p : asset_.points) p = p - asset.low;
     for (Face& face : asset_.faces) face.plane.offset -= dot(face.plane.normal, asset.low);
     asset_.findBox();
@@ -131,7 +132,7 @@ class Fitter {
       for (const FitZone& zone : zones_) {
         if (zone.axis != axis) continue;
         Stretch part{zone.from, zone.to};
-        // A zone that ends at the asset's end, as written, ends there exactly.
+        // A zone that ends at the asset's end up to the millimetre, as zones are written, ends there exactly.
         if (std::fabs(part.to - plan.length) <= 1e-3) part.to = plan.length;
         const std::string name = "the zone " + metresText(zone.from) + "m.." + metresText(zone.to) + "m" + along(axis);
         if (!(part.from >= 0 && part.to <= plan.length && part.to - part.from >= 1e-3))
@@ -165,13 +166,14 @@ class Fitter {
     return out;
   }
 
-  /// If the nearest count leaves too little for the rest, one fewer may work.
+  /// Returns the counts with one copy less along an axis: the nearest count may leave too little length for the rest.
   Copies oneFewer(Copies copies, size_t axis) const {
     if (!plans_[axis].repeats.empty() && copies[axis] > plans_[axis].leastCopies()) --copies[axis];
     return copies;
   }
 
-  /// The asset with single zones, so that all copies together have the size; nullopt if that is impossible.
+  /// Returns the asset with each repeating zone once, fitted so that all copies together have the size; nullopt if that
+  /// is impossible.
   Result<std::optional<Polyhedron>> fitted(Point size, const Copies& copies) const {
     std::array<AxisMap, 3> maps;
     Polyhedron taken;

@@ -10,13 +10,15 @@
 
 namespace sgm::asset {
 
+/// An interval of an axis that may change its length. The rest of the asset is stiff.
 struct FitZone {
   int axis = 0;
-  bool repeats = false;     ///< otherwise it stretches
-  double from = 0, to = 0;  ///< metres from the low end of the asset's box
+  bool repeats = false;     ///< true: the zone is repeated; false: it stretches
+  double from = 0, to = 0;  ///< metres from the low end of the asset's bounding box
 };
 
-/// Returns the asset with its angles kept and its box of the given size, in metres, centred on the origin.
+/// Resizes an asset. The result keeps the asset's angles, and its bounding box has the given size, in metres, centred
+/// on the origin.
 ///
 /// Along an axis without zones the whole asset stretches evenly. With zones, the parts outside them are stiff, and the
 /// stretching zones share the change in proportion to their lengths. All repeating zones of an axis get the same number

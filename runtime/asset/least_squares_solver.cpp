@@ -7,11 +7,12 @@ namespace sgm::asset {
 
 namespace {
 
-/// For coefficients of about 1: if the remainder of a demand after elimination by others is this small, it is the
-/// rounding of a file's floats, and does not determine an unknown.
+/// For coefficients of about 1: a hard constraint whose remainder after elimination by earlier ones is this small
+/// consists of the rounding of a file's floats, and does not determine an unknown.
 constexpr double kNothing = 1e-5;
 
-/// Solves a symmetric, positive system in place by Cholesky decomposition. Undetermined directions stay 0.
+/// Solves a symmetric, positive definite system in place by Cholesky decomposition. Unknowns that it does not determine
+/// become 0.
 void solvePositive(std::vector<double>& a, std::vector<double>& b) {
   const size_t n = b.size();
   double largest = 0;
@@ -84,7 +85,7 @@ std::vector<double> LeastSquares::solve() const {
   std::vector<size_t> free;
   for (size_t i = 0; i < count_; ++i)
     if (!bound[i]) free.push_back(i);
-  // x = start + basis * y, where y are the free unknowns.
+  // The solutions of the hard constraints are x = start + basis * y, where y are the free unknowns.
   const size_t n = free.size();
   std::vector<double> start(count_, 0), basis(count_ * n, 0);
   for (size_t k = 0; k < n; ++k) basis[free[k] * n + k] = 1;

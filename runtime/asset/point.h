@@ -21,13 +21,13 @@ struct Point {
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
-/// Zero stays zero.
+/// Returns a vector of length 1 with the same direction; 0 for the vector 0.
 inline Point normalised(Point a) {
   const double size = length(a);
   return size > 0 ? (1.0 / size) * a : Point{};
 }
 
-/// The solid lies behind the plane, where the distance is negative.
+/// A plane with a direction: the solid lies behind it, where the signed distance is negative.
 struct Plane {
   Point normal;
   double offset = 0;

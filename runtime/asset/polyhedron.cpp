@@ -10,10 +10,11 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kThinnest = 1e-3;  ///< metres
-constexpr double kAlike = 0.99;     ///< least cosine between triangles of one face; corner distances decide the rest
+constexpr double kThinnest = 1e-3;  ///< metres: the least extent of an asset
+/// triangles of one face have at least this cosine between their normals; the distances of corners decide the rest
+constexpr double kAlike = 0.99;
 
-/// A normal that is perpendicular or parallel to an axis up to the rounding of a file's floats becomes exactly so.
+/// Makes a normal that is perpendicular or parallel to an axis up to the rounding of a file's floats exactly so.
 Point straightened(Point normal) {
   constexpr double kRounding = 4e-6;
   for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +91,7 @@ class FaceFinder {
 
   Polyhedron& solid_;
   const std::vector<uint32_t>& materials_;
-  std::vector<Point> crosses_;  ///< by triangle; the length is twice its area
+  std::vector<Point> crosses_;  ///< one per triangle: the cross product of two sides, whose length is twice the area
   std::vector<EdgeOf> edges_;
 };
 
@@ -122,7 +123,7 @@ Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
                      std::to_string(kMostTriangles),
                  0, 0};
   Polyhedron solid;
-  // The box of the points that triangles use; other points are ignored.
+  // Only points that triangles use determine the box.
   for (const auto& t : mesh.triangles)
     for (const uint32_t corner : t) solid.points.push_back(mesh.points[corner]);
   solid.findBox();

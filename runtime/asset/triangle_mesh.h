@@ -14,33 +14,35 @@ namespace sgm::asset {
 
 inline constexpr uint32_t kNoMaterial = 0xFFFFFFFFu;
 
-/// The attributes of triangle corners, in one of two forms: one value per point, or, if corners that share a point
-/// differ (a crease, a seam of a chart), separate values that the corners index. The points stay those of the file, and
-/// so does the topology.
+/// An attribute of triangle corners, in one of two forms: one value per point; or, if corners that share a point have
+/// different values (at a crease or a seam of texture charts), separate values, which corners refer to by index. In
+/// both forms the points and the topology stay those of the file.
 template <class Value>
 struct CornerValues {
-  std::vector<Value> values;  ///< empty: the file has none
-  /// For each triangle, indices into values. Empty: values[p] belongs to points[p].
+  std::vector<Value> values;  ///< empty if the file has no such attribute
+  /// For each triangle, three indices into values. If empty, values[p] belongs to points[p].
   std::vector<std::array<uint32_t, 3>> corners;
 
   bool empty() const { return values.empty(); }
 };
 
-using Normal = std::array<float, 3>;              ///< of length one, or zero if the file gives none
-using TextureCoordinates = std::array<float, 2>;  ///< the second grows upward
+using Normal = std::array<float, 3>;              ///< of length 1, or 0 if the file gives none
+using TextureCoordinates = std::array<float, 2>;  ///< the second coordinate grows upward
 
 struct TriangleMesh {
   std::vector<Point> points;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<uint32_t> materials;                 ///< one per triangle, into material_names, or kNoMaterial
+  std::vector<uint32_t> materials;                 ///< one per triangle: index into material_names, or kNoMaterial
   std::vector<std::string> material_names;
   CornerValues<Normal> normals;
   CornerValues<TextureCoordinates> coordinates;
-  Point origin;                    ///< position of the points' origin in their world if known; metres
-  bool in_metres = false;          ///< true if the file's format defines the unit
-  std::vector<std::string> notes;  ///< sentences about parts of the file left out, or read despite errors
+  /// position in metres of the points' origin in the world from which the mesh was exported; 0 if unknown
+  Point origin;
+  bool in_metres = false;  ///< true if the file's format defines the unit
+  /// sentences for the user about parts of the file that were left out, or read despite errors
+  std::vector<std::string> notes;
 
-  /// The value of corner k of a triangle; the mesh must have some.
+  /// Returns the normal at corner k (0..2) of a triangle. Precondition: the mesh has normals.
   const Normal& normalAt(size_t triangle, size_t k) const { return at(normals, triangle, k); }
   const TextureCoordinates& coordinatesAt(size_t triangle, size_t k) const { return at(coordinates, triangle, k); }
 
@@ -51,7 +53,7 @@ struct TriangleMesh {
   }
 };
 
-/// Normalises a direction from a file; zero if it is too long to be measured.
+/// Normalises a direction from a file; 0 if its length overflows.
 inline Normal unitNormal(double x, double y, double z) {
   const double size = length({x, y, z});
   if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return {};

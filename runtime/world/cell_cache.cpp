@@ -6,14 +6,15 @@ namespace sgm {
 
 namespace {
 
-/// Above 1 / kIdleShare of its limit, the cache drops cells without a use during kIdle insertions: so memory does not
-/// grow up to the limit while a viewer crosses new ground.
+/// Above 1 / kIdleShare of its limit, the cache also evicts cells that were not used during the last kIdle insertions.
+/// So memory does not grow up to the limit while a viewer crosses new ground.
 constexpr size_t kIdleShare = 4;
 constexpr uint64_t kIdle = 1024;
 
 size_t bytesOf(const GrammarChunk& c) {
-  constexpr size_t kBookkeeping = 256;  // for the cache's own entry, the owner count and the heap
-  constexpr size_t kIndexed = 64;       // a group's share of the index
+  // estimated bytes of the cache's entry, the reference count and the heap's overhead
+  constexpr size_t kBookkeeping = 256;
+  constexpr size_t kIndexed = 64;  // estimated bytes per group in the index
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
   return kBookkeeping + sizeof(DerivedCell) + of(c.shapes) + of(c.children) + of(c.exprs) + of(c.noises) +
          of(c.points) + of(c.blocks) + of(c.voxels) + of(c.groups) + c.groups.size() * kIndexed + of(c.anchors);
@@ -61,7 +62,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
         hits_.fetch_add(1, std::memory_order_relaxed);
         return use(found->second);
       }
-      // Layers only ask downwards, so the thread that derives this cell never waits for this one.
+      // No deadlock: layers request only cells of lower layers, so the thread that derives this cell never waits for
+      // one that this thread derives.
       derived_.wait(lock);
     }
     ++stats_.misses;
@@ -81,8 +83,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     }
     auto cell = std::make_shared<const DerivedCell>(std::move(*chunk), memory_);
     std::lock_guard lock(mutex_);
-    // Before the new cell has a place: otherwise second chances of all others could evict it. The cell goes in however
-    // large it is, since the caller holds it anyway.
+    // Evicts before the new cell is inserted: otherwise second chances of all others could evict it. The cell is
+    // inserted however large it is, since the caller owns it anyway.
     makeRoom(cell->bytes);
     by_use_.push_front(key);
     Entry& entry = entries_[key];
@@ -118,8 +120,8 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   for (const auto& [used, key, cell] : taken) {
     if (stats_.bytes + cell->bytes > byte_limit_) break;
     if (entries_.count(key) != 0) continue;
-    // Insert the cell whole or not at all: threads would wait for an entry without one. Its use, 0, is before all
-    // others.
+    // Inserts the cell completely or not at all: threads would wait for an entry without a cell. Its time of use is 0,
+    // before all others.
     by_use_.push_back(key);
     try {
       Entry& entry = entries_.try_emplace(key).first->second;
@@ -143,7 +145,7 @@ void CellCache::makeRoom(size_t bytes) {
     const bool is_full = stats_.bytes + bytes > byte_limit_;
     if (!is_full && !isIdle(entry.listed_as)) return;
     if (entry.used != entry.listed_as && !isIdle(entry.used)) {
-      // A second chance: the entry was used since it got its place.
+      // Second chance: the entry was used since it got its place, so it moves to the front.
       entry.listed_as = entry.used;
       by_use_.splice(by_use_.begin(), by_use_, entry.listed);
       continue;

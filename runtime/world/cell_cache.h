@@ -1,6 +1,6 @@
 #pragma once
-// A cache of derived cells with least-recently-used eviction and a byte limit. A derived cell is a pure function of its
-// key, so an evicted cell costs only time.
+// A cache of derived cells with a limit in bytes; it evicts the least recently used ones. A derived cell is a pure
+// function of its key, so an evicted cell can be derived again and costs only time.
 
 #include <atomic>
 #include <condition_variable>
@@ -18,7 +18,7 @@
 
 namespace sgm {
 
-/// A grammar chunk and the index over its groups. Immutable.
+/// The shapes of a derived cell, and the index over their groups. Immutable.
 struct DerivedCell {
   GrammarChunk chunk;
   GroupIndex index;
@@ -31,12 +31,14 @@ struct DerivedCell {
 struct CellKey {
   uint32_t layer = 0;
   Int3 cell;
-  int32_t cell_edge = 0;  ///< the cell's content for levels whose cells have this edge or a larger one, units; 0: all
+  /// in units: the cell was derived for levels with cells of this edge or larger ones, without finer detail; 0: with
+  /// all detail
+  int32_t cell_edge = 0;
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 
-/// Finished cells that one piece of work has found. Finding a cell here again writes no memory that threads share (the
-/// cache would change the owner count). Not thread-safe.
+/// Cells that one task has already found. Looking up a cell here, instead of in the cache, writes no memory that
+/// threads share (a shared pointer from the cache changes its reference count). Not thread-safe.
 using CellsAtHand = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
 
 struct CellCacheStats {
@@ -44,50 +46,53 @@ struct CellCacheStats {
   size_t bytes = 0, cells = 0;
 };
 
-/// Thread-safe. If several threads ask for a cell at once, one of them derives it and the others wait.
+/// Thread-safe. If several threads request a missing cell concurrently, one of them derives it and the others wait.
 class CellCache {
  public:
   using Derive = std::function<Result<GrammarChunk>()>;
 
   CellCache(size_t byte_limit, std::pmr::memory_resource* memory) : byte_limit_(byte_limit), memory_(memory) {}
 
-  /// derive runs without any lock held, and may ask for cells of lower layers. A failed cell is not kept.
+  /// Returns the cell of a key; calls derive if it is missing. derive runs without locks, and may request cells of
+  /// lower layers. If derive fails, its error is returned and nothing is cached.
   Result<std::shared_ptr<const DerivedCell>> get(const CellKey& key, const Derive& derive);
 
-  /// Looks up finished cells: found[i] is the cell of keys[i], null if it is missing or unfinished.
+  /// Looks up cells without deriving: found[i] becomes the cell of keys[i]; null if it is missing or unfinished.
   void find(std::span<const CellKey> keys, std::vector<std::shared_ptr<const DerivedCell>>& found);
 
-  /// Takes over finished cells of another cache that are missing here, most recently used first, as far as there is
-  /// room. take must not call back.
+  /// Copies finished cells of another cache that are missing here and that `take` accepts, most recently used first,
+  /// while the limit allows. take must not call this cache.
   void adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take);
 
   CellCacheStats stats() const;
 
  private:
   struct Entry {
-    std::shared_ptr<const DerivedCell> cell;  ///< null while it is being derived
-    std::atomic<uint64_t> used{0};            ///< clock_ at the latest use
+    std::shared_ptr<const DerivedCell> cell;  ///< null while a thread is deriving it
+    std::atomic<uint64_t> used{0};            ///< value of clock_ at the latest use
     std::list<CellKey>::iterator listed;
-    uint64_t listed_as = 0;  ///< the value of `used` when the entry got its place in the list
+    uint64_t listed_as = 0;  ///< value of `used` when the entry was put at its place in by_use_
   };
-  /// The caller holds the lock, shared or exclusive.
+  /// Marks an entry as used, and returns its cell. Precondition: the caller holds the lock, shared or exclusive.
   std::shared_ptr<const DerivedCell> use(Entry& entry);
-  /// Evicts cells until this many more bytes fit the limit, or no cell is left.
+  /// Evicts cells until `bytes` more bytes fit into the limit, or no cell is left.
   void makeRoom(size_t bytes);
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Many threads find cells concurrently, so a hit only notes the time. An entry that was used since it got its place
-  // in the list moves to the front, instead of being evicted, when it comes last (second chance).
+  // Many threads find cells concurrently, so a hit only stores the time. When an entry reaches the end of the list, it
+  // is evicted only if it was not used since it got its place; otherwise it moves to the front (second chance
+  // algorithm).
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
-  std::list<CellKey> by_use_;  ///< finished cells only, roughly by use, latest first
-  // The number of inserted cells. Eviction happens only at an insertion, so uses between two insertions need no order,
-  // and repeated hits write nothing. Adopted cells have 0, which is before all uses.
+  std::list<CellKey> by_use_;  ///< finished cells only; roughly by latest use, the most recent first
+  // The number of cells inserted so far. Eviction happens only at insertions, so uses between two insertions need no
+  // order among each other, and repeated hits write nothing. Cells that adopt() copied have 0, which is before all
+  // uses.
   std::atomic<uint64_t> clock_{1};
   std::atomic<uint64_t> hits_{0};
-  CellCacheStats stats_;  ///< without the hits
+  CellCacheStats stats_;  ///< without the number of hits, which is counted separately
 };
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Identifies a chunk by its level and its place among the chunks of that level.
+// Identifies a chunk by its level and its position among the chunks of that level.
 
 #include "base/fixed.h"
 #include "base/hash.h"
@@ -15,7 +15,7 @@ struct ChunkKey {
   friend auto operator<=>(const ChunkKey&, const ChunkKey&) = default;
 };
 
-/// For unordered containers; no result may depend on their order.
+/// A hash function for unordered containers. No result may depend on the order of such a container.
 struct ChunkKeyHash {
   size_t operator()(const ChunkKey& key) const {
     const auto bits = [](int v) { return uint64_t{static_cast<uint32_t>(v)}; };
@@ -24,21 +24,22 @@ struct ChunkKeyHash {
   }
 };
 
-/// The chunk one level coarser that contains this one.
+/// Returns the chunk one level coarser that contains this chunk.
 inline ChunkKey parentOf(const ChunkKey& key) { return {key.level + 1, {key.at.x >> 1, key.at.y >> 1, key.at.z >> 1}}; }
 
-/// One of the eight chunks one level finer: bits 0, 1, 2 of `index` select the upper half in x, y, z.
+/// Returns one of the eight chunks one level finer within this chunk: bits 0, 1, 2 of `index` select the upper half in
+/// x, y, z.
 inline ChunkKey childOf(const ChunkKey& key, int index) {
   return {key.level - 1,
           {2 * key.at.x + (index & 1), 2 * key.at.y + (index >> 1 & 1), 2 * key.at.z + (index >> 2 & 1)}};
 }
 
-/// The chunk of the same level that lies (dx, dy, dz) chunks away.
+/// Returns the chunk of the same level that lies (dx, dy, dz) chunks away.
 inline ChunkKey neighbourOf(const ChunkKey& key, int dx, int dy, int dz) {
   return {key.level, {key.at.x + dx, key.at.y + dy, key.at.z + dz}};
 }
 
-/// Whether `inner` lies in `outer` or equals it.
+/// True if `inner` lies in `outer` or equals it.
 inline bool holds(const ChunkKey& outer, const ChunkKey& inner) {
   const int down = outer.level - inner.level;
   return down >= 0 && Int3{inner.at.x >> down, inner.at.y >> down, inner.at.z >> down} == outer.at;

@@ -1,5 +1,5 @@
 #pragma once
-// An order of the chunks of a box.
+// Numbers the chunks of a box in an order that is good for meshing layer by layer.
 
 #include <algorithm>
 #include <array>
@@ -9,18 +9,18 @@
 
 namespace sgm {
 
-/// Counts along the shortest axis first and along the longest one last, so that layers are as small as possible. Axes
-/// of equal length keep the order x, y, z. A chunk's number grows with each of its coordinates.
+/// Numbers chunks along the shortest axis first and along the longest one last, so that layers have as few chunks as
+/// possible. Axes of equal length keep the order x, y, z. A chunk's number grows with each of its coordinates.
 class ChunkOrder {
  public:
-  /// counts: chunks on each axis, above 0.
+  /// counts: number of chunks along each axis, above 0.
   explicit ChunkOrder(Int3 counts) : counts_(counts) {
     std::stable_sort(axes_.begin(), axes_.end(), [&](int a, int b) { return counts[a] < counts[b]; });
   }
 
   Int3 counts() const { return counts_; }
   uint64_t size() const { return along(0) * along(1) * along(2); }
-  /// The chunk's coordinates, counted from the lowest chunk.
+  /// Returns the coordinates of the chunk with this number, counted from the lowest chunk.
   Int3 at(uint64_t number) const {
     Int3 chunk;
     for (const int axis : axes_) {
@@ -34,7 +34,7 @@ class ChunkOrder {
     return place(chunk, 0) + along(0) * (place(chunk, 1) + along(1) * place(chunk, 2));
   }
 
-  /// The difference between the numbers of neighbours along this axis.
+  /// Returns the difference between the numbers of two neighbours along this axis.
   uint64_t stride(int axis) const { return axis == axes_[0] ? 1 : axis == axes_[1] ? along(0) : along(0) * along(1); }
 
  private:
@@ -42,7 +42,7 @@ class ChunkOrder {
   uint64_t place(Int3 chunk, size_t i) const { return static_cast<uint64_t>(chunk[axes_[i]]); }
 
   Int3 counts_;
-  std::array<int, 3> axes_{0, 1, 2};  ///< shortest first
+  std::array<int, 3> axes_{0, 1, 2};  ///< the axes, shortest first
 };
 
 }  // namespace sgm

@@ -24,7 +24,7 @@ Int3 getPlace(ByteReader& in) {
   return p;
 }
 
-// false if a byte is not a valid value.
+// Decodes a brush. Returns false if a byte is not a valid value.
 bool get(ByteReader& in, Brush& brush) {
   const auto shape = in.get<uint8_t>(), cut = in.get<uint8_t>();
   if (shape > static_cast<uint8_t>(Brush::Shape::capsule) || cut > 1) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// The operations of a world's edit log, and their encoding.
+// The operations of a world's edit log, and their binary encoding.
 
 #include <compare>
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace sgm {
 
-/// Identifies an operation across all worlds: its author, and its number among that author's operations, from 1. Zero
-/// is no operation.
+/// Identifies an operation across all worlds: its author, and its number among that author's operations, from 1. Number
+/// 0 means no operation.
 struct EditId {
   uint64_t author = 0, number = 0;
   friend auto operator<=>(const EditId&, const EditId&) = default;
 };
 
-/// Later operations lie above earlier ones. The time is a Lamport clock: one more than any time that the author knew.
+/// The order of operations: later ones lie above earlier ones. The time is a Lamport clock: one more than any time that
+/// the author knew.
 struct EditOrder {
   uint64_t time = 0;
   EditId id;
@@ -26,29 +27,33 @@ struct EditOrder {
 
 struct EditOperation {
   enum class Kind : uint8_t {
-    brush,  ///< lays a brush
-    undo,   ///< hides the brush that `target` laid
+    brush,  ///< adds a brush
+    undo,   ///< hides the brush that `target` added
     redo,   ///< shows that brush again
   };
   Kind kind = Kind::brush;
   EditOrder order;
-  EditId target;  ///< of an undo or a redo
-  Brush brush;    ///< of a brush
+  EditId target;  ///< the operation that an undo or a redo refers to
+  Brush brush;    ///< the brush that a brush operation adds
 };
 
-inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;  ///< upper limit of times and of numbers; both begin at 1
+/// upper limit of times and of operation numbers; both start at 1
+inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;
 
-/// Errors: invalid_argument or range if no log could have made the operation.
+/// Checks an operation from outside. Errors: invalid_argument or range if no edit log could have created it.
 Result<void> checkEdit(const EditOperation& operation);
 
-/// Appends the brush's bytes. Equal brushes give equal bytes, whatever their unused members hold.
+/// Appends the encoded brush to `bytes`. Equal brushes give equal bytes, even if members that their shape does not use
+/// differ.
 void encodeBrush(const Brush& brush, std::vector<std::byte>& bytes);
 
-/// Appends the operation's bytes. Equal operations give equal bytes, whatever their unused members hold.
+/// Appends the encoded operation. Equal operations give equal bytes, even if members that their kind does not use
+/// differ.
 void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);
-/// Reads the next operation. bad_input: the bytes end, or no log could have made the operation.
+/// Decodes the next operation. Error: bad_input if the bytes end too early, or if no edit log could have created the
+/// operation.
 Result<EditOperation> decodeEdit(ByteReader& bytes);
 
-inline constexpr size_t kLeastEditBytes = 41, kMostEditBytes = 75;  ///< of one operation
+inline constexpr size_t kLeastEditBytes = 41, kMostEditBytes = 75;  ///< encoded size of one operation
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The brushes that are visible at one moment, searchable by place. Snapshots share their unchanged parts.
+// The brushes that are visible at one moment, searchable by position. Snapshots share their unchanged parts.
 
 #include <memory>
 #include <memory_resource>
@@ -9,23 +9,25 @@
 
 namespace sgm {
 
-/// Immutable, cheap to copy and usable by any thread. with() and without() copy the path from the root of an octree to
-/// one node, about twenty nodes, whatever the number of brushes. The memory must be thread-safe and outlive all
-/// snapshots made from this one.
+/// Immutable, cheap to copy, and usable by any thread. with() and without() copy only the path from the root of an
+/// octree to one node, about twenty nodes, regardless of the number of brushes. The memory resource must be thread-safe
+/// and outlive all snapshots derived from this one.
 class EditSnapshot {
  public:
   explicit EditSnapshot(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : memory_(memory) {}
 
-  /// Appends, in order, the brushes that are visible at cells of this edge (brushShows) and whose bounds meet the box.
+  /// Appends the brushes whose bounds meet the box and that are visible at cells of this edge in units (brushShows), in
+  /// order.
   void query(const IntBox& box, int32_t cell, std::pmr::vector<Brush>& brushes) const;
 
   size_t brushes() const;
-  /// A box around everything that the brushes change.
+  /// Returns a box around everything that the brushes change.
   IntBox bounds() const;
 
-  /// Precondition: the brush was checked, and is absent (with) or present (without). Snapshots made under the same
-  /// batch, a number other than 0, may share even changed nodes, which makes a series of changes cheap. Only the last
-  /// of them is valid, and no earlier one may have been handed out. Use each number for one batch only.
+  /// Returns a snapshot with one brush more. Precondition: the brush was checked and is absent (for without():
+  /// present). A series of changes is cheap if all use the same batch number, not 0: then these snapshots may share
+  /// even changed nodes, so that only the last one is valid, and earlier ones must not have been passed on. Use each
+  /// number for one series only.
   EditSnapshot with(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
   EditSnapshot without(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
 

@@ -52,7 +52,7 @@ void EditLog::makeRoom(size_t more) {
   if (known_.capacity() - known_.size() < more) known_.reserve(std::max(known_.size() + more, 2 * known_.size()));
 }
 
-// Precondition: there is room. If memory runs out, the operation stays unknown and nothing changes.
+// Precondition: the checks for limits have passed. If memory runs out, the operation stays unknown and nothing changes.
 IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
   const EditId id = operation.order.id;
   const uint64_t own = checksum(bytesOf(operation));
@@ -91,7 +91,8 @@ Result<EditLog::Edited> EditLog::make(EditOperation operation) {
     return Error{Code::limit,
                  "the world cannot hold more edits than the " + std::to_string(known_.size()) + " that it has"};
   }
-  // A received time may already be the largest one: then all later operations share it, and their numbers order them.
+  // The time of a received operation may already be the largest possible. Then all later operations get that time, and
+  // their ids order them.
   operation.order = {std::min(latest_ + 1, kMostEditTime), {settings_.author, number_ + 1}};
   if (Result<void> good = checkEdit(operation); !good) return good.error();
   makeRoom(1);
@@ -137,7 +138,7 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
     return Error{Code::limit, "the world would have " + std::to_string(known_.size() + fresh.size()) +
                                   " edits, but it holds at most " + std::to_string(settings_.most_operations)};
   }
-  // Undos and redos first, latest first: so no brush appears or disappears more than once.
+  // Undos and redos come first, the latest before earlier ones, so that no brush appears or disappears more than once.
   std::vector<const EditOperation*> order;
   for (const auto& [id, operation] : fresh) order.push_back(operation);
   std::sort(order.begin(), order.end(), [](const EditOperation* a, const EditOperation* b) {
@@ -163,7 +164,7 @@ Result<std::vector<IntBox>> EditLog::import(std::span<const std::byte> bytes) {
   if (in.get<uint32_t>() != kExportVersion) return bad("they have another version");
   if (tail.get<uint64_t>() != checksum(content)) return bad("their checksum differs");
   const auto count = in.get<uint64_t>();
-  // Check the count before allocating.
+  // The count is checked before memory is allocated for it.
   if (count > in.left() / kLeastEditBytes) return bad("they are truncated");
   std::vector<EditOperation> operations;
   operations.reserve(static_cast<size_t>(count));
@@ -201,7 +202,7 @@ IntBox editReach(const IntBox& changed, int32_t cell) { return changed.grown(inf
 
 std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations) {
   std::map<EditId, const EditOperation*> sights;
-  std::map<uint64_t, uint64_t> last;  // number, by author
+  std::map<uint64_t, uint64_t> last;  // the last operation number of each author
   for (const EditOperation& operation : operations) {
     const EditId id = operation.order.id;
     last[id.author] = std::max(last[id.author], id.number);

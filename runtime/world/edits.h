@@ -1,10 +1,10 @@
 #pragma once
 // The log of all edits of a world. Worlds that have exchanged their operations, in any order and any number of times,
-// have equal sets of operations, and so equal hashes and equal fields.
+// have equal sets of operations, and therefore equal hashes and equal fields.
 //
-// The set only grows. A brush is visible unless its latest undo or redo, by order, is an undo. So an undo may arrive
-// before its brush, and worlds that undo and redo concurrently agree on the result. An undo or redo of an unknown brush
-// has no effect.
+// Operations are never removed. A brush is visible unless its latest undo or redo, by EditOrder, is an undo. So an undo
+// may arrive before its brush, and worlds that undo and redo concurrently agree on the result. An undo or redo of an
+// unknown brush has no effect.
 
 #include <map>
 #include <memory>
@@ -17,55 +17,60 @@
 namespace sgm {
 
 struct EditSettings {
-  /// The author of the operations made here, unique to this log. Never reuse a number after operations may have been
-  /// lost (for example with a journal's last second): draw it at random for each log.
+  /// The author of the operations created by this log; no other log may use the same number. Draw it at random for each
+  /// log: a number must not be used again after operations may have been lost (such as those of a journal's last
+  /// second).
   uint64_t author = 1;
-  /// The largest material and tag of brushes laid here. Imported brushes may have any: another grammar's, for instance.
+  /// The largest material and tag of brushes added here. Imported brushes may have larger ones, for example of another
+  /// grammar.
   uint16_t most_material = 0xFFFF, most_tag = 0xFFFF;
   size_t most_operations = size_t{1} << 20;
 };
 
-/// Thread-compatible; its snapshots may be used by any thread. The memory must be thread-safe and outlive the log and
-/// its snapshots.
+/// Not thread-safe, but its snapshots may be used by any thread. The memory resource must be thread-safe and outlive
+/// the log and its snapshots.
 class EditLog {
  public:
   struct Edited {
     EditId id;
-    IntBox box;  ///< the changed region; empty if nothing changes
+    IntBox box;  ///< the region that changes; empty if nothing changes
   };
 
   explicit EditLog(EditSettings settings, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
-  /// Not copied: two copies would give the same numbers to different operations.
+  /// Not copyable: two copies would give the same ids to different operations.
   EditLog(EditLog&&) = default;
   EditLog& operator=(EditLog&&) = default;
 
-  /// Sets the largest material and tag of brushes laid from now on (see EditSettings). Existing brushes stay.
+  /// Sets the largest material and tag of brushes that are added from now on (see EditSettings). Existing brushes are
+  /// kept.
   void setLabels(uint16_t most_material, uint16_t most_tag) {
     settings_.most_material = most_material;
     settings_.most_tag = most_tag;
   }
 
-  /// Lays a brush on top of all known ones. Errors: those of checkBrush; invalid_argument (material or tag too large),
+  /// Adds a brush on top of all known ones. Errors: those of checkBrush; invalid_argument (material or tag too large);
   /// limit.
   Result<Edited> add(const Brush& brush);
-  /// Undoes an operation: hides a brush, shows it again (if `id` is an undo), or hides it again (if `id` is a redo).
-  /// Errors: invalid_argument (the operation or its brush is unknown), limit.
+  /// Undoes an operation: hides the brush if `id` added it; shows it again if `id` is an undo; hides it again if `id`
+  /// is a redo. Errors: invalid_argument (the operation or its brush is unknown); limit.
   Result<Edited> undo(EditId id);
 
-  /// Adds the operations that are not yet known; all or none, unless memory runs out. Returns what changes: a box for
-  /// each brush that appears or disappears. Errors: bad_input (no log could have made an operation, or it is known with
-  /// other content), limit.
+  /// Adds the operations that are not yet known: all of them or, after an error, none, unless memory runs out. Returns
+  /// the regions that change: a box for each brush that appears or disappears. Errors: bad_input (no edit log could
+  /// have created an operation, or it is known with other content); limit.
   Result<std::vector<IntBox>> merge(std::span<const EditOperation> operations);
-  /// merge() of the result of exportBytes(). bad_input also for any other bytes.
+  /// Decodes the result of exportBytes(), and merges it. Errors: those of merge; bad_input if the bytes are anything
+  /// else.
   Result<std::vector<IntBox>> import(std::span<const std::byte> bytes);
 
-  /// How many operations are known. Operations that arrive later come after them in operations() and exportBytes().
+  /// Returns the number of known operations. New operations are appended in operations() and exportBytes().
   uint64_t size() const { return known_.size(); }
-  /// The operations in order of arrival, without the first `since`. Valid until the next one arrives.
+  /// Returns the known operations in order of arrival, without the first `since`. Valid until the next operation
+  /// arrives.
   std::span<const EditOperation> operations(uint64_t since = 0) const;
   std::vector<std::byte> exportBytes(uint64_t since = 0) const;
 
-  /// A hash of the set of operations.
+  /// Returns a hash of the set of operations, independent of their order of arrival.
   uint64_t hash() const;
   std::shared_ptr<const EditSnapshot> snapshot() const;
 
@@ -84,22 +89,23 @@ class EditLog {
 
   EditSettings settings_;
   std::pmr::vector<EditOperation> known_;
-  std::pmr::map<EditId, size_t> places_;  ///< indices into known_
-  std::pmr::map<EditId, Sight> sights_;   ///< by brush, known or not
+  std::pmr::map<EditId, size_t> places_;  ///< index in known_ of each operation
+  std::pmr::map<EditId, Sight> sights_;   ///< by the brush's id, whether the brush itself is known or not
   EditSnapshot shown_;
-  uint64_t latest_ = 0;  ///< time
-  uint64_t number_ = 0;  ///< the largest number of our own operations
-  uint64_t sum_ = 0;     ///< sum of the operations' checksums
-  uint64_t batch_ = 0;   ///< number of the last batch
+  uint64_t latest_ = 0;  ///< the largest known time
+  uint64_t number_ = 0;  ///< the largest number among the operations of this log's author
+  uint64_t sum_ = 0;     ///< sum of the checksums of all operations
+  uint64_t batch_ = 0;   ///< number of the last batch (EditSnapshot::with)
 };
 
-/// The region whose chunks with cells of this edge (units) must be meshed again after a change: those whose closed box
-/// meets it. Includes what their seams read of the next coarser level.
+/// Returns the region whose chunks must be meshed again after a change, for a level with cells of this edge (units):
+/// the chunks whose closed box meets the region. Includes what the seams of these chunks read of the next coarser
+/// level.
 IntBox editReach(const IntBox& changed, int32_t cell);
 
-/// A subset of operations that shows the same brushes. It holds the visible brushes; each brush's latest undo or redo,
-/// so that a brush that arrives again is hidden again; and each author's last operation, so that numbering continues. A
-/// redo of an omitted brush shows it once it has arrived again.
+/// Returns a subset of operations that shows the same brushes. It contains the visible brushes; the latest undo or redo
+/// of each brush, so that a hidden brush stays hidden if it arrives again; and the last operation of each author, so
+/// that numbering continues. A redo of a brush that was left out takes effect when the brush arrives again.
 std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations);
 
 }  // namespace sgm

@@ -11,7 +11,7 @@ namespace sgm {
 
 uint64_t countChunks(const IntBox& region, int64_t cell) {
   const int64_t edge = kChunkCells * cell;
-  // The counts of three axes may overflow together; each alone is below 2^28.
+  // The product of three counts may overflow an integer; each count is below 2^28.
   long double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t first = floorDiv(region.lo[axis], edge), last = floorDiv(int64_t{region.hi[axis]} - 1, edge);
@@ -23,7 +23,7 @@ uint64_t countChunks(const IntBox& region, int64_t cell) {
 
 std::optional<double> fittingCell(std::span<const IntBox> regions, int level, int32_t cell, uint64_t max_chunks) {
   constexpr std::array kRound{10, 12, 15, 20, 25, 30, 40, 50, 60, 80};
-  constexpr int64_t kThousandths = 1'000'000;  // 1 km
+  constexpr int64_t kThousandths = 1'000'000;  // 1 km, in millimetres
   const auto fits = [&](int64_t units) {
     uint64_t chunks = 0;
     return std::all_of(regions.begin(), regions.end(), [&](const IntBox& region) {
@@ -33,7 +33,7 @@ std::optional<double> fittingCell(std::span<const IntBox> regions, int level, in
   };
   for (int64_t power = 1; power <= kThousandths; power *= 10) {
     for (const int round : kRound) {
-      const int64_t tenths = round * power;  // of a millimetre
+      const int64_t tenths = round * power;  // the edge in tenths of a millimetre
       const int64_t units = (tenths * kUnitsPerMetre + 5000) / 10'000;
       if (tenths > 10 * kThousandths || units < cell) continue;
       if (fits(units)) return static_cast<double>(tenths) / 10'000;

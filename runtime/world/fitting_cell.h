@@ -1,5 +1,5 @@
 #pragma once
-// Finds the cell edge at which a region has few enough chunks.
+// Finds the cell edge at which a region has few enough chunks to be meshed.
 
 #include <optional>
 #include <span>
@@ -9,19 +9,20 @@
 
 namespace sgm {
 
-/// The number of chunks of 32 cells that meet the box lo <= p < hi; 2^63 - 1 if there are more. Precondition: the box
-/// is not empty, cell is positive.
+/// Returns the number of chunks of 32 cells that meet the box lo <= p < hi; 2^63 - 1 if there are more. cell: edge in
+/// units. Precondition: the box is not empty, and cell is positive.
 uint64_t countChunks(const IntBox& region, int64_t cell);
 
-/// The upper limit for chunks of one region, whatever the caller allows: a chunk takes half a kilobyte and more, before
-/// any mesh.
+/// The maximum number of chunks of one region, regardless of the caller's limit: a chunk takes at least half a kilobyte
+/// even before it is meshed.
 inline constexpr uint64_t kMostRegionChunks = uint64_t{1} << 24;
 
-/// The smallest round edge (1, 1.2, 1.5, 2 and so on, times a power of ten) in metres, not below `cell` (units), at
-/// which the boxes together meet at most max_chunks chunks of a level; nullopt if none up to 1 km does.
+/// Returns the smallest round cell edge in metres (1, 1.2, 1.5, 2 and so on, times a power of ten), not below `cell`
+/// (units), at which the boxes together meet at most max_chunks chunks of a level; nullopt if no edge up to 1 km is
+/// large enough.
 std::optional<double> fittingCell(std::span<const IntBox> regions, int level, int32_t cell, uint64_t max_chunks);
 
-/// " (cells of 2 m fit)", for an error message that advises larger cells; empty if none fit.
+/// Returns a part of an error message that advises larger cells, such as " (cells of 2 m fit)"; empty if none fit.
 std::string fittingCellText(std::span<const IntBox> regions, int level, int32_t cell, uint64_t max_chunks);
 
 }  // namespace sgm

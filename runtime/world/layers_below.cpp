@@ -42,13 +42,13 @@ std::optional<int32_t> LayersBelow::probe(uint32_t layer, Int3 start, std::array
   const Int3 end = probePoint(from, direction, length);
   IntBox box{{std::min(from.x, end.x), std::min(from.y, end.y), std::min(from.z, end.z)},
              {std::max(from.x, end.x), std::max(from.y, end.y), std::max(from.z, end.z)}};
-  box = box.grown(1);  // for the rounding of points between the ends
+  box = box.grown(1);  // grown for the rounding of points between the two ends
   const FieldProgram* field = program(layer, box);
   if (!field) return std::nullopt;
   prune(field->view(), box, prune_scratch_, pruned_);
   if (pruned_.solid() || pruned_.empty()) return std::nullopt;
 
-  // The same answer as LowerLayers::probe, but all coarse samples are taken together.
+  // Gives the same answer as LowerLayers::probe, but evaluates all coarse samples in one call.
   auto sample = [&](size_t count) {
     q_.resize(count);
     bestKernels().samples(pruned_.view(), {x_.data(), y_.data(), z_.data(), count}, scratch_, q_.data());

@@ -1,5 +1,6 @@
 #pragma once
-// The layers below a cell, as its derivation sees them: programs compiled once for the cell's surroundings.
+// Gives the derivation of a cell access to the layers below it, by field programs that are compiled once for the cell's
+// surroundings.
 
 #include <exception>
 #include <map>
@@ -11,7 +12,7 @@
 
 namespace sgm {
 
-/// Lives for one derivation, on its thread. The caller must check error() after the derivation.
+/// Used for one derivation, on its thread. The caller must check error() after the derivation.
 class LayersBelow final : public LowerLayers {
  public:
   LayersBelow(const WorldField& world, const IntBox& around);
@@ -22,18 +23,19 @@ class LayersBelow final : public LowerLayers {
   BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const override;
 
   const std::optional<Error>& error() const { return error_; }
-  /// The parameters that the queried layers have read (GrammarChunk::parameters).
+  /// Returns the mask of parameters that the queried layers have read (GrammarChunk::parameters).
   uint64_t parameters() const { return parameters_; }
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
-  /// Applies the settings' shift, which derivation does not know.
+  /// Adds the shift of the world's settings, which derivation does not know about.
   Int3 shifted(Int3 p) const;
 
   const WorldField& world_;
   IntBox around_;
   mutable std::map<uint32_t, std::shared_ptr<const FieldProgram>> programs_;
-  mutable std::shared_ptr<const FieldProgram> elsewhere_;  ///< for a box outside of `around_`
+  /// the program for the last queried box outside of `around_`
+  mutable std::shared_ptr<const FieldProgram> elsewhere_;
   mutable EvalScratch scratch_;
   mutable PruneScratch prune_scratch_;
   mutable PrunedProgram pruned_, piece_;

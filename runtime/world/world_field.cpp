@@ -15,10 +15,10 @@ constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t
 
 IntBox moved(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
 
-/// lo <= p < hi.
+/// True if lo <= p < hi on each axis.
 bool holds(const IntBox& box, Int3 p) { return box.contains(p) && p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z; }
 
-/// For each layer: whether its cells may derive the rule.
+/// Returns for each layer whether its cells may derive the rule.
 std::vector<bool> layersDeriving(const Program& program, uint32_t rule) {
   std::vector<bool> found;
   for (const Layer& layer : program.layers) {
@@ -74,7 +74,8 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
   const ProfileScope scope(profiler(), zone::kDerive);
-  // Probes start in the cell and end within its reach; queries stay within it too.
+  // Probes start in the cell and end within its reach, and queries stay within its reach, so this box contains all of
+  // them.
   const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);
@@ -106,7 +107,7 @@ Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_ed
     return derived;
   });
   if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
-  // Cells of coarse levels would report the same again.
+  // Cells that were derived for coarse levels would report the same notes again.
   if (chunk && settings_.on_notes && !chunk->notes.empty() && cell_edge <= settings_.finest_cell)
     settings_.on_notes(*chunk);
   return chunk;
@@ -126,13 +127,13 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
 }
 
 CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
-  // A cell kept for a level also serves the next one. It is never made of a cell kept for finer levels: a chunk's
-  // content must not depend on the state of the cache.
+  // A cell that was derived for one level also serves the next coarser one. It is never made from a cell for finer
+  // levels: the content of a chunk must not depend on the state of the cache.
   constexpr int kLevelsTogether = 2;
   int32_t kept = settings_.finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // The finest level does not show all of a cell either: at cells of 50 cm, houses have no glazing bars. Layers above
-  // see these finer parts, too, and so ask for the whole cell.
+  // Even the finest level may not show all of a cell: with cells of 50 cm, houses have no glazing bars. But layers
+  // above see these finer parts, too, and so request the whole cell.
   const Layer& info = settings_.program->layers[layer];
   if (!info.by_level || cell_edge < settings_.finest_cell || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
@@ -178,7 +179,7 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by
                                    const std::function<Result<void>(const CellKey&)>& visit) const {
   const Program& program = *settings_.program;
   const Layer& info = program.layers[layer];
-  // A grammar without layers has one cell.
+  // In a grammar without layers, everything is one cell.
   if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
   const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
                                   saturate(-int64_t{settings_.shift.z})});
@@ -194,7 +195,7 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by
       if (home.hi[axis] < span.lo || home.lo[axis] > span.hi) return {};
       continue;
     }
-    // Cells that would lie partly outside of the world derive nothing.
+    // Cells that would lie partly outside of the world are not derived.
     const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
                   world_last = floorDiv(INT32_MAX, edge) - 1;
     first[a] = std::max(-floorDiv(span.hi - home.lo[axis], edge), world_first);
@@ -319,7 +320,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
                                                                      uint64_t* parameters) const {
-  // A cell of one unit: full detail, independent of the cells with which the world is meshed.
+  // A cell edge of one unit requests full detail, regardless of the cells with which the world is meshed.
   CellsAtHand at_hand;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
@@ -357,7 +358,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAt
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
   };
-  // Anchors never lie outside of their cell.
+  // Anchors always lie inside their own cell.
   const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, at_hand);
   if (!visited) return visited.error();
   return found;

@@ -13,30 +13,30 @@ namespace sgm::asset {
 
 enum class Clipped {
   done,
-  crossed,     ///< the polygon crosses itself or has no area: no triangulation is right
-  over_limit,  ///< it needs more steps than are left
+  crossed,     ///< the polygon crosses itself or has no area, so no triangulation is correct
+  over_limit,  ///< the polygon needs more steps than are left of kMostSteps
 };
 
-/// Cuts one polygon after another and keeps its memory. An ear is clipped if no other corner lies in it; a k-d tree
-/// over the remaining corners finds such corners. A blocked ear waits until the corner that blocks it is gone: n log n
-/// steps for typical polygons.
+/// Triangulates one polygon after another, and reuses its memory. An ear is clipped if no other corner of the polygon
+/// lies in it; a k-d tree over the remaining corners finds such corners. A blocked ear is tested again when the corner
+/// that blocks it is gone: n log n steps for typical polygons.
 class EarClipping {
  public:
-  /// The number of tree boxes that all polygons together may visit: some seconds.
+  /// The maximum number of boxes of k-d trees that are visited for all polygons together; they take some seconds.
   static constexpr uint64_t kMostSteps = uint64_t{1} << 29;
 
   explicit EarClipping(uint64_t most_steps = kMostSteps) : most_steps_(most_steps) {}
 
-  /// Replaces `out` by the triangles, two fewer than there are corners, as indices of corners; by the fan of corner 0
-  /// if that is right. The plane is that of Newell's normal. Requires at least four corners.
+  /// Replaces `out` by the triangles, two fewer than there are corners, as indices of corners. Uses the fan around
+  /// corner 0 if it is correct. Projects along Newell's normal. Requires at least four corners.
   Clipped run(std::span<const Point> corners, std::vector<std::array<uint32_t, 3>>& out);
 
  private:
   struct Box {
     double low[2], high[2];
   };
-  /// Triangles accepted as ears. strict: with area, and no other corner inside or on the new side; touching: corners
-  /// may lie on that side; flat: without area.
+  /// Which triangles are clipped as ears. strict: with area, and without another corner inside or on the new side;
+  /// touching: other corners may lie on the new side; flat: triangles without area.
   enum class Rule { strict, touching, flat };
   struct Waiting {
     uint32_t corner, next;
@@ -49,7 +49,7 @@ class EarClipping {
   void buildTree(uint32_t* first, uint32_t* last, size_t node, size_t leaves, int axis);
   void mergeBoxes(size_t node);
   void removeFromTree(uint32_t corner);
-  /// A corner that prevents a, b, c from being an ear; kNone if there is none.
+  /// Returns a corner that prevents the triangle a, b, c from being an ear; kNone if there is none.
   uint32_t blocker(uint32_t a, uint32_t b, uint32_t c, Rule rule);
   bool blocks(uint32_t corner, const std::array<uint32_t, 3>& ear, Rule rule) const;
   bool isApart(const Box& box, const std::array<uint32_t, 3>& ear) const;
@@ -57,10 +57,11 @@ class EarClipping {
   void wake(uint32_t corner);
   bool clip(Rule rule, std::vector<std::array<uint32_t, 3>>& out);
 
-  std::vector<Point> points_;  ///< only two of their coordinates are used
+  std::vector<Point> points_;  ///< two of the three coordinates are used
   int drop_ = 2, sign_ = 1, u_ = 0, v_ = 1;
   std::vector<uint32_t> next_, previous_, queue_, waiting_first_;
-  std::vector<uint32_t> order_, place_, corner_in_;  ///< place_: the tree's node of each corner; corner_in_: of leaves
+  /// place_: the tree node of each corner; corner_in_: the corner in each leaf
+  std::vector<uint32_t> order_, place_, corner_in_;
   std::vector<Waiting> waiting_;
   std::vector<bool> queued_, gone_;
   std::vector<Box> boxes_;

@@ -1,6 +1,6 @@
 #pragma once
-// The numbers of a glTF file, as its accessors describe them. Every claim of the file is checked against the bytes
-// present.
+// Reads the numbers of a glTF file as its accessors describe them. Every offset and count in the file is checked
+// against the bytes that are present.
 
 #include <algorithm>
 #include <array>
@@ -17,32 +17,33 @@
 
 namespace sgm::asset {
 
-/// The points that a primitive's triangles index.
+/// Where a primitive's points are in the mesh that is being built.
 struct GlbCorners {
-  size_t points = 0;      ///< of the primitive
-  uint32_t first = 0;     ///< index of the first of them in the mesh
-  bool mirrored = false;  ///< reverses the orientation of the triangles
+  size_t points = 0;      ///< number of the primitive's points
+  uint32_t first = 0;     ///< index, in the mesh, of the primitive's first point
+  bool mirrored = false;  ///< true: the transform mirrors the primitive, so its triangles must be reversed
 };
 
 class GlbAccessors {
  public:
-  /// quantized: positions, normals and coordinates may be whole numbers (KHR_mesh_quantization).
+  /// quantized: positions, normals and coordinates may be integers (KHR_mesh_quantization).
   GlbAccessors(const JsonValue& root, const GlbContainer& file, bool quantized);
 
   size_t size() const { return accessors_.size(); }
   size_t bytes() const { return buffers_.bytes(); }
-  /// The number of elements that accessor a declares, but at most the number of bytes; 0 if a is not an accessor.
+  /// Returns the number of elements that accessor a declares, clamped to the number of bytes in the file; 0 if a is not
+  /// an accessor.
   size_t countAtMost(size_t a) const {
     return a < accessors_.size() ? std::min(accessors_[a].count.value_or(0), bytes()) : 0;
   }
   std::optional<size_t> countOf(size_t a) const { return accessors_[a].count; }
-  /// True if accessor a, which must exist, has no bytes: all its numbers are 0.
+  /// True if accessor a, which must exist, refers to no bytes: all its numbers are 0 then.
   bool isZero(size_t a) const { return !accessors_[a].view && !accessors_[a].sparse; }
 
-  // Each function appends the content of accessor a, which must exist, to `out`, whose state is unspecified after an
-  // error. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  // Each of the following functions appends the content of accessor a, which must exist, to `out`. After an error, the
+  // content of `out` is unspecified. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
 
-  /// Three numbers per element; the total is at most the limit.
+  /// Three numbers per element. `out` must not exceed the limit on points afterwards.
   Result<void> points(size_t a, const MeshLimits& limits, std::vector<Point>& out) const;
   /// Three numbers per element, exactly `count` elements, such as a morph target's differences.
   Result<void> vectors(size_t a, size_t count, std::vector<Point>& out) const;
@@ -59,7 +60,7 @@ class GlbAccessors {
   /// Unsigned integers of one, two or four bytes, each an index of a point of a primitive; at most three times the
   /// number of triangles that the limits allow.
   Result<void> indices(size_t a, size_t points, const MeshLimits& limits, std::vector<uint32_t>& out) const;
-  /// The same as triangles; the total is at most the limit.
+  /// Same as indices, for the three corners of each triangle. `out` must not exceed the limit on triangles afterwards.
   Result<void> triangles(size_t a, const GlbCorners& corners, const MeshLimits& limits,
                          std::vector<std::array<uint32_t, 3>>& out) const;
 

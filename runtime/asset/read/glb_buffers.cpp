@@ -10,9 +10,9 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr size_t kNoOffset = SIZE_MAX;  ///< an offset that is not a whole number: beyond every end
+constexpr size_t kNoOffset = SIZE_MAX;  ///< stands for an offset that is not an integer: lies beyond every end
 
-/// Standard base64 (RFC 4648), with or without padding. nullopt if a character is invalid.
+/// Decodes standard base64 (RFC 4648), with or without padding. nullopt if a character is invalid.
 std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<int, 256> values;
@@ -35,7 +35,8 @@ std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   return out;
 }
 
-/// Some programs write 0 for contiguous elements, which a missing stride means.
+/// Returns the stride of a view. A stride of 0 counts as missing, which means contiguous elements: some programs write
+/// it so.
 std::optional<size_t> strideIn(const JsonValue& view) {
   if (view.find("byteStride") == nullptr) return std::nullopt;
   const size_t stride = view.count("byteStride").value_or(kNoOffset);

@@ -25,25 +25,26 @@ class GlbBuffers {
   };
 
   size_t viewCount() const { return views_.size(); }
-  /// Bytes of all buffers.
+  /// Returns the total size of all buffers in bytes.
   size_t bytes() const { return bytes_; }
-  /// The bytes of a view, which must exist. Error: bad_input if its bytes are missing.
+  /// Returns the bytes of a buffer view, which must exist. Error: bad_input if its bytes are missing.
   Result<View> view(size_t number) const;
-  /// "byte 12", or "byte 12 of buffer 1" if the buffer is not stored in the file as it is.
+  /// Returns the place of a byte for a message: "byte 12", or "byte 12 of buffer 1" if the buffer is not stored in the
+  /// file unchanged.
   std::string placeOf(size_t buffer, const std::byte* at) const;
 
  private:
-  /// The values as declared by the file.
+  /// A buffer view as the file declares it, unchecked.
   struct Said {
     std::optional<size_t> buffer;
     size_t offset = 0, length = 0;
     std::optional<size_t> stride;
-    std::string compression;  ///< the extension that compresses it
+    std::string compression;  ///< name of the extension that compresses the view; empty: not compressed
   };
   struct Buffer {
     std::span<const std::byte> bytes;
     std::optional<size_t> file_at;
-    std::string problem;  ///< the reason why there are no bytes
+    std::string problem;  ///< the reason why the buffer has no bytes; empty if it has
   };
 
   void addBuffer(const JsonValue& value, size_t number, const GlbContainer& file);

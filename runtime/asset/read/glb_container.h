@@ -16,14 +16,14 @@ struct GlbContainer {
   std::span<const std::byte> binary;
   bool has_binary = false, is_text = false;
   size_t binary_at = 0;            ///< offset of the binary part in the file
-  std::vector<std::string> notes;  ///< about parts that violate the format
+  std::vector<std::string> notes;  ///< problems of parts that violate the format, for the user
 };
 
-/// Opens binary glTF 2.0, or glTF as JSON text. Accepts chunks with unpadded lengths, with a note, and ignores bytes
-/// after the end. Error: bad_input, with the byte in the message.
+/// Splits a file of binary glTF 2.0, or of glTF as JSON text. Accepts chunks whose length is not padded, with a note,
+/// and ignores bytes after the end. Error: bad_input, with the byte in the message.
 Result<GlbContainer> openGlb(std::span<const std::byte> bytes);
 
-/// True if a text begins as glTF in JSON does: as an object with the member `asset`.
+/// True if a text begins like glTF in JSON: as an object with the member `asset`.
 bool beginsAsGltf(std::string_view text);
 
 }  // namespace sgm::asset

@@ -1,5 +1,5 @@
 #pragma once
-// The part of a glTF file's materials that a mesh needs: names, and texture coordinates.
+// Reads the part of a glTF file's materials that a mesh needs: their names, and which texture coordinates they use.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-/// The transform of a texture on its coordinates (KHR_texture_transform).
+/// A texture's transform of its coordinates (KHR_texture_transform).
 struct GlbTextureTransform {
   std::array<double, 2> offset{0, 0}, scale{1, 1};
   double cosine = 1, sine = 0;
@@ -23,11 +23,12 @@ struct GlbTextureTransform {
 
 struct GlbMaterial {
   std::string name;
-  size_t coordinates = 0;  ///< set TEXCOORD_n of its first texture: the base colour's, if there is one
+  /// n of the TEXCOORD_n that its first texture uses; that is the base colour's, if the material has one
+  size_t coordinates = 0;
   std::optional<GlbTextureTransform> transform;
 };
 
-/// Error: bad_input, with the JSON pointer in the message.
+/// Reads all materials of a file. Error: bad_input, with the JSON pointer in the message.
 Result<std::vector<GlbMaterial>> readGlbMaterials(const JsonValue& root);
 
 }  // namespace sgm::asset

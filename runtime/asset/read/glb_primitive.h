@@ -18,12 +18,12 @@
 
 namespace sgm::asset {
 
-/// An instance of a mesh in a node.
+/// A use of a mesh by a node of the scene.
 struct GlbShown {
   size_t mesh = 0;
-  GlbTransform place;  ///< unless it has a skin
+  GlbTransform place;  ///< the node's transform; ignored if the mesh has a skin
   std::optional<size_t> skin;
-  std::vector<double> weights;  ///< of morph targets; missing ones are 0
+  std::vector<double> weights;  ///< weights of morph targets; missing weights are 0
 };
 
 class GlbMeshes {
@@ -32,17 +32,17 @@ class GlbMeshes {
             const MeshLimits& limits);
 
   size_t size() const { return meshes_.size(); }
-  /// The default weights of a mesh.
+  /// Returns the default weights of a mesh's morph targets.
   const std::vector<double>& weightsOf(size_t mesh) const { return meshes_[mesh].weights; }
-  /// Adds a mesh's triangles. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  /// Adds the triangles of a used mesh. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
   Result<void> show(const GlbShown& shown);
-  /// Returns everything that was shown. Call once. Error: bad_input if there is no triangle.
+  /// Returns all triangles that show() has added. Call once. Error: bad_input if there is no triangle.
   Result<TriangleMesh> finish();
 
   TriangleMesh& mesh() { return mesh_; }
 
  private:
-  /// A primitive as declared by the file: indices of accessors.
+  /// The attributes that the file declares for a primitive, as indices of accessors.
   struct Attributes {
     size_t position, normal, coordinates;
   };
@@ -58,7 +58,7 @@ class GlbMeshes {
     std::vector<Primitive> primitives;
     std::vector<double> weights;
   };
-  /// The primitive that is being read.
+  /// The primitive that is being read, for messages.
   struct Here {
     size_t mesh, number;
     const Primitive& primitive;

@@ -30,7 +30,7 @@ Result<void> GlbScene::show() {
   return {};
 }
 
-/// Pushes the scene's nodes on the stack, the first one last.
+/// Pushes the nodes of the scene on the stack. The first node is pushed last, so that it is visited first.
 Result<void> GlbScene::openRoots() {
   const auto scenes = root_.list("scenes");
   std::vector<size_t> first;
@@ -107,7 +107,7 @@ Result<void> GlbScene::showMesh(size_t node, const GlbTransform& place) {
   return {};
 }
 
-/// The transform of each instance, relative to its node.
+/// Returns the transforms of a node's instances, relative to the node.
 Result<std::vector<GlbTransform>> GlbScene::instances(const JsonValue& attributes, size_t node) const {
   const std::string pointer = nodePointer(node) + "/extensions/EXT_mesh_gpu_instancing/attributes";
   std::optional<size_t> count;

@@ -1,5 +1,5 @@
 #pragma once
-// The scene of a glTF file: the meshes that its nodes show, and their transforms.
+// Walks the scene of a glTF file: finds the meshes that its nodes use, and their transforms.
 
 #include <cstddef>
 #include <span>
@@ -16,21 +16,22 @@
 
 namespace sgm::asset {
 
-/// Walks the nodes of the default scene, of the first scene, or all nodes if the file has no scene, and shows their
-/// meshes. Respects KHR_node_visibility and EXT_mesh_gpu_instancing.
+/// Walks the nodes of the default scene, else of the first scene, else all nodes if the file has no scene, and passes
+/// their meshes to GlbMeshes. Respects KHR_node_visibility and EXT_mesh_gpu_instancing.
 class GlbScene {
  public:
   GlbScene(const JsonValue& root, const GlbAccessors& accessors, GlbMeshes& meshes, const MeshLimits& limits)
       : root_(root), nodes_(root.list("nodes")), accessors_(accessors), meshes_(meshes), limits_(limits) {}
 
-  /// Call once. Notes go into the mesh. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  /// Call once. Notes are added to the mesh. Errors: bad_input, with the JSON pointer or the byte in the message;
+  /// limit.
   Result<void> show();
 
  private:
   struct Open {
     size_t node;
     GlbTransform place;
-    size_t parent;  ///< index of a node; the number of nodes stands for the scene
+    size_t parent;  ///< index of the parent node; the number of nodes stands for the scene itself
   };
 
   Result<void> openRoots();

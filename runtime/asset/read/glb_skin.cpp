@@ -27,7 +27,7 @@ GlbSkins::GlbSkins(const JsonValue& root, const GlbAccessors& accessors)
 }
 
 Result<GlbTransform> GlbSkins::nodeInWorld(size_t node) {
-  // Goes down from the nearest ancestor with a known transform.
+  // Computes transforms downwards from the nearest ancestor whose transform is known.
   std::vector<size_t> above;
   for (size_t at = node; at < nodes_.size() && !in_world_[at]; at = parents_[at]) {
     if (above.size() > nodes_.size())
@@ -103,7 +103,8 @@ Result<std::vector<GlbTransform>> GlbSkins::pose(size_t skin, const GlbBinding& 
     constexpr double kRounding = 0.01;
     if (!(std::fabs(sums[i] - 1) <= kRounding)) unbalanced_.add([&] { return skinPointer(skin) + " of its JSON"; });
     if (sums[i] == 1) continue;
-    // Weights are rounded; a point without weights follows the first joint.
+    // The sum is divided by the total of weights, because they are rounded. A point without weights follows the first
+    // joint.
     const GlbTransform sum = out[i];
     out[i] = sums[i] > 0 ? kUnmoved : joints[0];
     if (sums[i] > 0) addTo(out[i], 1 / sums[i], sum);

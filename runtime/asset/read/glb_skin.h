@@ -1,5 +1,5 @@
 #pragma once
-// Skins of a glTF file: the rest pose of a mesh's points by the joints of the skeleton.
+// Applies the skins of a glTF file: the joints of a skeleton in its rest pose move a mesh's points.
 
 #include <cstddef>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace sgm::asset {
 
-/// The indices of the accessors that bind a primitive's points: equally many of JOINTS_n and WEIGHTS_n.
+/// The accessors that bind a primitive's points to joints: equally many JOINTS_n and WEIGHTS_n.
 struct GlbBinding {
   std::vector<size_t> joints, weights;
 };
@@ -25,8 +25,9 @@ class GlbSkins {
 
   size_t size() const { return skins_.size(); }
 
-  /// The transform of each point of a primitive from its mesh to the world, by its weighted joints. The node that shows
-  /// the mesh has no effect (glTF 2.0, section 3.7.3.3). Errors: bad_input; limit.
+  /// Returns for each point of a primitive the transform from its mesh to the world, as the weighted mean of its
+  /// joints' transforms. The transform of the node that uses the mesh has no effect (glTF 2.0, section 3.7.3.3).
+  /// Errors: bad_input; limit.
   Result<std::vector<GlbTransform>> pose(size_t skin, const GlbBinding& binding, size_t points);
 
   /// Adds notes about weights that do not sum to one.
@@ -39,8 +40,9 @@ class GlbSkins {
   std::span<const JsonValue> nodes_, skins_;
   const GlbAccessors& accessors_;
   std::vector<size_t> parents_;
-  std::vector<std::optional<GlbTransform>> in_world_;  ///< of nodes
-  std::vector<std::vector<GlbTransform>> joints_;      ///< of skins already read: from the mesh to the world
+  std::vector<std::optional<GlbTransform>> in_world_;  ///< transform of each node to the world, once computed
+  /// for each skin that was read: transforms from the mesh to the world, by joint
+  std::vector<std::vector<GlbTransform>> joints_;
   NotedPlaces unbalanced_;
 };
 

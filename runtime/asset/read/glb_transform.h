@@ -12,7 +12,7 @@
 
 namespace sgm::asset {
 
-/// p -> columns * p + origin.
+/// The affine transform p -> columns * p + origin.
 struct GlbTransform {
   std::array<Point, 3> columns{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
   Point origin;
@@ -24,8 +24,8 @@ struct GlbTransform {
   }
   bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
   bool rests() const { return columns == GlbTransform{}.columns && origin == Point{}; }
-  /// The matrix for normals, up to a factor: the inverse transpose, computed as the cofactors with the determinant's
-  /// sign. Zero if the transform flattens everything to a line.
+  /// Returns the matrix that transforms normals, up to a factor: the inverse transpose, computed as the cofactors with
+  /// the sign of the determinant. 0 if the transform flattens everything to a line.
   std::array<Point, 3> forNormals() const {
     const double sign = mirrors() ? -1 : 1;
     return {sign * cross(columns[1], columns[2]), sign * cross(columns[2], columns[0]),
@@ -33,15 +33,15 @@ struct GlbTransform {
   }
 };
 
-/// From a translation, a rotation as a quaternion of any length but 0 (x, y, z, w), and a scale.
+/// Makes a transform of a translation, a rotation as a quaternion x y z w of any length except 0, and a scale.
 GlbTransform glbTransformOf(Point translation, const std::array<double, 4>& rotation, Point scale);
-/// From a matrix, column by column; nullopt if it is not affine.
+/// Makes a transform of a matrix given column by column; nullopt if the matrix is not affine.
 std::optional<GlbTransform> glbTransformOf(const std::array<double, 16>& matrix);
-/// Of node `number`, from its matrix or from its translation, rotation and scale. Error: bad_input.
+/// Reads the transform of node `number`, from its matrix or from its translation, rotation and scale. Error: bad_input.
 Result<GlbTransform> glbTransformOf(const JsonValue& node, size_t number);
 
-/// Reads a member with as many numbers as `out` has; false if the member is anything else. If it is missing, `out`
-/// stays unchanged.
+/// Reads an array member with as many numbers as `out` has. Returns false if the member is anything else. If it is
+/// missing, `out` stays unchanged, and the result is true.
 template <size_t N>
 bool readNumbers(const JsonValue& of, std::string_view name, std::array<double, N>& out) {
   if (of.find(name) == nullptr) return true;

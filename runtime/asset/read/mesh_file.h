@@ -1,5 +1,5 @@
 #pragma once
-// Reads mesh files from outside, of any supported format.
+// Reads mesh files of any supported format.
 
 #include <cstddef>
 #include <optional>
@@ -13,13 +13,13 @@ namespace sgm::asset {
 
 enum class MeshFileKind { glb, obj, ply, stl };
 
-/// The kind by the extension of a path, in any case; .gltf is read as .glb. Error: invalid_argument, with the supported
-/// extensions.
+/// Returns the kind by the extension of a path, in upper or lower case; .gltf counts as .glb. Error: invalid_argument,
+/// which lists the supported extensions.
 Result<MeshFileKind> meshFileKind(std::string_view path);
-/// The kind by the first bytes of a file, or by its size; nullopt if the format is unknown.
+/// Returns the kind by the first bytes or the size of a file; nullopt if the format is unknown.
 std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes);
 
-/// The remedy for a file that its reader rejects.
+/// Returns the advice that follows a problem in a file of this kind.
 std::string_view meshFileAdvice(MeshFileKind kind);
 
 /// Reads the triangles of a file by the reader of its kind. The bytes determine the kind if they are unambiguous.
@@ -29,7 +29,7 @@ std::string_view meshFileAdvice(MeshFileKind kind);
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
                               const MeshLimits& limits = {});
 
-/// The same, with messages that state only the problem; `kind` is set to the kind of the bytes.
+/// Same as above, with messages that state only the problem. `kind` is set to the kind that the bytes show.
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits = {});
 

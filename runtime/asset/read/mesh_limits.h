@@ -1,5 +1,5 @@
 #pragma once
-// Limits on files from outside, and errors that state the problem and its place in the file.
+// Limits on the content of files, and errors that state the problem and its place in the file.
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,15 @@
 
 namespace sgm::asset {
 
-/// Besides these, a reader takes at most a small multiple of the file's size in memory.
+/// The limits. Apart from data under these limits, a reader uses at most a small multiple of the file's size in memory.
 struct MeshLimits {
-  size_t points = 1u << 22;  ///< of a GLB file: of all primitives, once for each node that shows them
+  size_t points = 1u << 22;  ///< of a GLB file: of all primitives, counted once for each node that uses them
   size_t triangles = 1u << 22;
   double farthest = 1e6;         ///< metres from the origin, along each axis
   size_t json_bytes = 1u << 20;  ///< of a GLB file
   size_t nodes = 1u << 16;       ///< of a GLB file
 
-  /// Point indices have 32 bits, and the largest one means none.
+  /// Point indices have 32 bits, and the largest index is reserved for "none".
   size_t mostPoints() const { return std::min<size_t>(points, 0xFFFFFFFEu); }
   bool isPlace(double x, double y, double z) const {
     return std::fabs(x) <= farthest && std::fabs(y) <= farthest && std::fabs(z) <= farthest;
@@ -32,7 +32,7 @@ inline std::string noPlaceWithin(const MeshLimits& limits) {
   return "that is not a number from -" + farthest + " to " + farthest;
 }
 
-/// True if an attribute can store the number.
+/// True if a float, the type of attributes, can store the number.
 inline bool isFloat(double value) { return std::fabs(value) <= double{std::numeric_limits<float>::max()}; }
 
 inline Error wrongAtByte(std::string_view what, size_t byte) {
@@ -41,17 +41,17 @@ inline Error wrongAtByte(std::string_view what, size_t byte) {
 inline Error wrongAtLine(std::string_view what, size_t line) {
   return {Code::bad_input, std::string(what) + ", at line " + std::to_string(line), static_cast<int>(line), 0};
 }
-/// pointer: a JSON pointer (RFC 6901).
+/// pointer: the place in the JSON text, as a JSON pointer (RFC 6901).
 inline Error wrongInJson(std::string_view what, std::string_view pointer) {
   return {Code::bad_input, std::string(what) + ", at " + std::string(pointer) + " of its JSON", 0, 0};
 }
-/// The pointer in a message of wrongInJson(), with any text around it; empty if there is none.
+/// Returns the JSON pointer in a message of wrongInJson(), which may have other text around it; empty if there is none.
 inline std::string_view pointerIn(std::string_view message) {
   const size_t end = message.find(" of its JSON");
   const size_t begin = message.substr(0, end).rfind(", at /");
   return begin == message.npos || end == message.npos ? std::string_view() : message.substr(begin + 5, end - begin - 5);
 }
-/// "it has more than 4 points"
+/// Makes a message such as "it has more than 4 points".
 inline Error overLimit(size_t most, std::string_view of_what) {
   return {Code::limit, "it has more than " + std::to_string(most) + " " + std::string(of_what), 0, 0};
 }

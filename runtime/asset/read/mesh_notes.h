@@ -1,5 +1,5 @@
 #pragma once
-// Notes of a reader: each reports a part of a file that it left out, or how it read a part that violates the format.
+// Notes of a reader: sentences about parts of a file that it left out, or that violate the format and how it read them.
 
 #include <cstddef>
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace sgm::asset {
 
-/// Counts occurrences of one kind and keeps the place of the first one.
+/// Counts the occurrences of one kind of problem, and stores the place of the first one.
 struct NotedPlaces {
   size_t count = 0;
   std::string first;  ///< such as "line 12"
 
-  /// place is called for the first occurrence only.
+  /// place: a function that returns the place as text. It is called for the first occurrence only.
   template <class Place>
   void add(const Place& place) {
     if (count++ == 0) first = place();
   }
 };
 
-/// "1 line", "3 lines"
+/// Returns a number with its noun: "1 line", "3 lines".
 inline std::string counted(size_t count, std::string_view one, std::string_view several) {
   return std::to_string(count).append(" ").append(count == 1 ? one : several);
 }
 
-/// Appends "3 lines are left out, the first at line 9: behind" if the places have any; `one` and `several` are noun and
-/// verb.
+/// Appends a note such as "3 lines are left out, the first at line 9: behind", if `places` has any. one, several: noun
+/// and verb in singular and plural.
 inline void addNote(std::vector<std::string>& notes, const NotedPlaces& places, std::string_view one,
                     std::string_view several, std::string_view behind = {}) {
   if (places.count == 0) return;

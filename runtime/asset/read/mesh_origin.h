@@ -1,5 +1,5 @@
 #pragma once
-// The origin of the positions in a file exported by this library.
+// Reads the origin of the positions from a file that this library exported.
 
 #include <cstddef>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace sgm::asset {
 
-/// In metres, as mesh/export/export.h writes it into every format: exports keep their positions near 0, where floats
-/// are precise. {0, 0, 0} for any other file. Reads only the file's first megabyte.
+/// Returns the origin in metres, which mesh/export/export.h writes into every format: exported positions are relative
+/// to it, because floats are precise near 0. {0, 0, 0} for any other file. Reads only the file's first megabyte.
 Point originOf(std::span<const std::byte> bytes);
 
 }  // namespace sgm::asset

@@ -19,15 +19,15 @@ using Corners = std::array<uint32_t, 3>;
 
 constexpr uint32_t kNoValue = 0xFFFFFFFFu;
 
-/// Keywords of lines without triangles, which can be ignored.
+/// Keywords of lines that contain no triangles and are ignored without a note.
 constexpr std::string_view kIdleWords[] = {
     "g",   "o",     "s",     "mg",         "mtllib",    "maplib", "usemap", "bevel", "c_interp", "d_interp", "lod",
     "vp",  "step",  "bmat",  "deg",        "cstype",    "parm",   "trim",   "hole",  "scrv",     "sp",       "end",
     "con", "ctech", "stech", "shadow_obj", "trace_obj", "bsp",    "bzp",    "cdc",   "cdp",      "res"};
 constexpr std::string_view kCurveWords[] = {"curv", "curv2", "surf"};
 
-/// Stores values per point instead of per corner, if all corners of each point have the same value; zero if there is
-/// none.
+/// If all corners of each point have the same value, converts to one value per point; corners and points without a
+/// value get 0.
 template <class Value>
 void settleByPoint(CornerValues<Value>& of, const std::vector<Corners>& triangles, size_t points) {
   if (of.corners.empty()) {
@@ -82,8 +82,8 @@ class ObjReader {
   }
 
  private:
-  /// The highest index that faces have used so far, and its place: the element may come later. Also the invalid
-  /// indices.
+  /// The highest index that faces have used so far, and its line: the element may be defined later. Also records
+  /// invalid indices.
   struct Reach {
     size_t number = 0, line = 0;
     NotedPlaces never;
@@ -146,7 +146,7 @@ class ObjReader {
            !(word[0] >= '0' && word[0] <= '9');
   }
 
-  /// Reads at least `least` and at most `most` numbers of the line.
+  /// Reads at least `least` and at most `most` numbers of the line. Returns false after an error.
   bool numbers(double* out, size_t least, size_t most, std::string_view keyword) {
     for (size_t i = 0; i < most; ++i) {
       const std::string_view word = text_.word();
@@ -197,7 +197,7 @@ class ObjReader {
   }
 
   bool face() {
-    // The common case: a triangle.
+    // Most faces are triangles, which need no list of corners.
     std::array<Corner, 3> first;
     std::string_view word;
     const auto more = [&] {
@@ -227,7 +227,8 @@ class ObjReader {
     return bool(cut);
   }
 
-  /// `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; the part after a slash may be empty.
+  /// Parses a corner: `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; the part after a
+  /// slash may be empty.
   [[gnu::always_inline]] bool corner(std::string_view word, Corner& out) {
     out = {};
     const char *at = word.data(), *const end = at + word.size();
@@ -245,10 +246,11 @@ class ObjReader {
     return fail(shown(word) + " is not a corner of a face");
   }
 
-  /// An index from 1, or from -1 backwards from the `there` elements so far. Returns false if there are no digits; out
-  /// is kNoValue if the index is invalid.
+  /// Parses an index, which counts from 1, or backwards from -1 among the `there` elements so far. Returns false if
+  /// there are no digits. Sets out to kNoValue if the index is invalid.
   [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
-    // Parsed by hand, because half of a file is such numbers. Numbers too long for 32 bits end up as too large.
+    // Parsed by hand, because half of a file consists of such numbers. A number that exceeds 32 bits counts as too
+    // large an index.
     const bool backwards = at < end && *at == '-';
     if (backwards) ++at;
     const char* const digits = at;
@@ -282,7 +284,7 @@ class ObjReader {
     return true;
   }
 
-  /// The list stays empty until the first face with such values.
+  /// Appends the corners of a triangle. The list stays empty until the first face that has such values.
   [[gnu::always_inline]] void addCorners(std::vector<Corners>& list, const Corners& corners) {
     constexpr Corners kNoCorners{kNoValue, kNoValue, kNoValue};
     if (list.empty() && corners == kNoCorners) return;
@@ -290,7 +292,7 @@ class ObjReader {
     list.push_back(corners);
   }
 
-  /// Corners with indices of values that the file lacks get none.
+  /// Corners that refer to values which the file lacks get no value.
   template <class Value>
   void dropMissing(CornerValues<Value>& of, const Reach& reach, std::string_view what) {
     const size_t there = of.values.size();

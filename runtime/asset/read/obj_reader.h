@@ -1,5 +1,6 @@
 #pragma once
-// Reads triangles from Wavefront OBJ. The file is untrusted: all its values are checked, and its demands are limited.
+// Reads triangles from Wavefront OBJ. The file is untrusted: all values in it are checked, and memory and time are
+// limited.
 
 #include <cstddef>
 #include <span>
@@ -9,8 +10,8 @@
 
 namespace sgm::asset {
 
-/// The file's faces, cut into triangles, with the names that `usemtl` gives; the points are those of `v`, in their
-/// order, even if no face uses them. Objects, groups and `mtllib` files are ignored. Notes report lines, points and
+/// Returns the file's faces, cut into triangles, with the material names of `usemtl`. The points are those of `v`
+/// lines, in their
 /// curves that are left out, polygons that cross themselves, and corners that refer to missing normals or texture
 /// coordinates. Errors: bad_input, with the line in the message and in Error::line; limit.
 Result<TriangleMesh> readObj(std::span<const std::byte> bytes, const MeshLimits& limits = {});

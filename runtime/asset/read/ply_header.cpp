@@ -98,8 +98,8 @@ class PlyHeaderReader {
     return {};
   }
 
-  /// The offset after the header's last line, which ends as its first one does: a binary number may begin with a line
-  /// end.
+  /// Returns the offset behind the header's last line, whose line end has the same form as that of the first line: the
+  /// byte that follows may be a line end that belongs to a binary number.
   size_t numbersBegin(size_t at) const {
     const std::string_view end = file_.substr(at, 2);
     if (end == "\r\n" && file_.find('\n') == file_.find('\r') + 1) return at + 2;

@@ -23,26 +23,26 @@ constexpr size_t sizeOf(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type{};
-  std::optional<PlyType> count;  ///< type of a list's length; nullopt: a single number
+  std::optional<PlyType> count;  ///< type of the length of a list; nullopt: the property is a single number
 };
 
 struct PlyElement {
   std::string name;
-  size_t count = 0;  ///< as the file declares, unchecked
+  size_t count = 0;  ///< number of elements that the file declares, unchecked
   std::vector<PlyProperty> properties;
 
-  /// The index of a property; the number of properties if it is missing.
+  /// Returns the index of a property; the number of properties if the element does not have it.
   size_t find(std::string_view property) const;
 };
 
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  size_t bytes = 0;  ///< offset of the first number
+  size_t bytes = 0;  ///< offset of the first number after the header
   size_t lines = 0;
 };
 
-/// Errors: bad_input, with the line in the message.
+/// Reads the header. Errors: bad_input, with the line in the message.
 Result<PlyHeader> readPlyHeader(std::string_view file);
 
 }  // namespace sgm::asset

@@ -113,7 +113,7 @@ class PlyBodyReader {
     if (!strips && named("face") == header_.elements.end())
       return Error{Code::bad_input, "it has no element `face`", 0, 0};
     vertex_count_ = std::min(vertices->count, limits_.mostPoints());
-    size_t due = 0;  // elements up to the last one that has points or triangles
+    size_t due = 0;  // number of elements up to the last one that has points or triangles; later ones are not read
     for (size_t i = 0; i < header_.elements.size(); ++i)
       if (isRead(header_.elements[i])) due = i + 1;
     size_t next = 0;
@@ -142,7 +142,7 @@ class PlyBodyReader {
                            " at most");
     if (element.name == "vertex") return vertices(element);
     if (isRead(element)) return faces(element);
-    // Elements without properties take no bytes, however many there are.
+    // Elements without properties take no bytes, so their number may be arbitrarily large.
     for (size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       values_.beginRecord();
       for (const PlyProperty& p : element.properties)
@@ -158,7 +158,8 @@ class PlyBodyReader {
                          shown(element.name) + ", counted from 0" + perhapsVertices(element));
   }
 
-  /// For a text, after the vertices: an invalid line may be another vertex.
+  /// Returns a hint for errors after the vertices of a text: an invalid line may be a vertex that the header does not
+  /// count.
   std::string perhapsVertices(const PlyElement& element) const {
     if (element.name == "vertex" || !values_.hasSpareLines()) return {};
     return ": the file has more lines than the header declares, perhaps more vertices";
@@ -179,7 +180,7 @@ class PlyBodyReader {
   }
 
   static constexpr size_t kNowhere = 8;
-  /// The target of each property: x y z, nx ny nz, u v, or none.
+  /// Returns for each property the index of the value that it sets: x y z, nx ny nz, u v, or none.
   std::vector<size_t> roles(const PlyElement& element) {
     std::vector<size_t> out(element.properties.size(), kNowhere);
     const auto give = [&](std::initializer_list<std::string_view> names, size_t first) {
@@ -251,7 +252,7 @@ class PlyBodyReader {
     return {};
   }
 
-  /// In a list of strips, -1 ends a strip.
+  /// Reads a list of corners, which is a face or, with `strips`, triangle strips that are separated by -1.
   Result<void> face(const PlyElement& element, size_t i, const PlyProperty& list, bool strips) {
     double length = 0;
     if (!takeLength(list, length)) return endsWithin(element, i);
@@ -287,7 +288,7 @@ class PlyBodyReader {
     return corners_.size() == 3 ? Result<void>() : cutter_.add(corners_.size(), values_.place());
   }
 
-  /// Every other triangle of a strip is reversed; those that only connect strips have a repeated corner.
+  /// Adds the triangles of a strip: every other one is reversed; those with a repeated corner only connect strips.
   Result<void> strip() {
     size_t begin = 0;
     for (size_t k = 0; k < corners_.size(); ++k) {

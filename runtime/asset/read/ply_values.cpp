@@ -20,7 +20,7 @@ bool PlyTextValues::hasSpareLines() const {
   return all.lines > all.records;
 }
 
-/// Counts the lines when a line first has more or fewer values than its record.
+/// Decides, when a line first has more or fewer values than its record, whether lines are records: counts the lines.
 void PlyTextValues::findLayout() {
   if (layout_ != Layout::unknown) return;
   const auto [records, lines] = counts();

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers in the body of a PLY text file, one after another.
+// Reads the numbers in the body of a PLY text file, one after another.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +16,8 @@
 
 namespace sgm::asset {
 
-/// The numbers of a text. A line is a record, as most programs write it, and undeclared values on it are skipped. If
-/// there are fewer lines than records, line ends have no meaning.
+/// The numbers of a PLY text. Usually each line is one record (one element); then undeclared values at the end of a
+/// line are skipped. If the text has fewer lines than records, line ends have no meaning.
 class PlyTextValues {
  public:
   static constexpr std::string_view kUnit = "line";
@@ -44,19 +44,19 @@ class PlyTextValues {
     out = value.value_or(0);
     return value.has_value();
   }
-  /// False if the line continues and the meaning of its values is ambiguous.
+  /// Ends a record. Returns false if the line has more values, and their meaning is ambiguous.
   bool endRecord() { return text_.isLineDone() || passSurplus(); }
-  /// An upper bound of the number of records: each number takes a digit and a blank.
+  /// Returns an upper bound of the number of records: each number takes at least a digit and a blank.
   size_t most(const PlyElement& element) const { return (text_.bytesLeft() + 1) / (2 * element.properties.size()); }
   const std::string& problem() const { return problem_; }
   Error wrong(std::string_view what) const { return wrongAtLine(what, header_.lines + text_.line()); }
-  /// The line on which the record began.
+  /// The number of the line on which the current record began.
   size_t place() const { return place_; }
-  /// True if only the total number of values shows that they match the header.
+  /// True if the total number of values must be counted to know whether they match the header.
   bool mustReadAll() const { return layout_ == Layout::words; }
   /// True if the file has more lines than the header declares records.
   bool hasSpareLines() const;
-  /// Adds notes. whole: all elements have been read. Error: bad_input if ambiguous values are left.
+  /// Adds notes at the end. whole: all elements were read. Error: bad_input if ambiguous values are left.
   Result<void> end(bool whole, std::vector<std::string>& notes);
 
  private:
@@ -74,7 +74,7 @@ class PlyTextValues {
   const TextReader all_;
   const PlyHeader& header_;
   Layout layout_ = Layout::unknown;
-  bool line_a_record_ = false;  ///< there are as many lines as records
+  bool line_a_record_ = false;  ///< true if there are as many lines as records, so that each line is one
   bool begun_ = false, wrapped_ = false;
   size_t place_ = 0;
   std::string problem_;

@@ -1,5 +1,6 @@
 #pragma once
-// Triangulates again the polygons of a file whose fan, as added by the reader, is wrong.
+// Corrects the triangulation of a file's polygons: a reader adds each polygon as a fan, which is wrong for some of
+// them.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace sgm::asset {
 
-/// Merges consecutive equal corners, unless fewer than three would be left.
+/// Merges consecutive equal corners of a polygon, unless fewer than three would be left.
 template <class Corner, class Same>
 void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   size_t different = corners.empty() || same(corners.front(), corners.back()) ? 0 : 1;
@@ -25,21 +26,24 @@ void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   if (same(corners.front(), corners.back())) corners.pop_back();
 }
 
-/// The triangles keep their place and number in the mesh; the corners of normals and texture coordinates follow.
+/// Replaces wrong fans. The triangles keep their positions in the mesh's list; the corners of normals and texture
+/// coordinates are changed accordingly.
 class PolygonCutter {
  public:
-  /// unit: of places, such as "line".
+  /// unit: the unit of places in messages, such as "line".
   PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t most_steps = EarClipping::kMostSteps)
       : mesh_(mesh), unit_(unit), clipping_(most_steps) {}
 
-  /// The mesh's last triangles must be the fan of a polygon with this many corners, at least four. A polygon with
-  /// points not read yet is kept for finish(). Error: limit if the polygons are too intricate.
+  /// Checks the polygon that was read last. The mesh's last triangles must be its fan; it has `corners` corners, at
+  /// least four. A polygon with points that are not read yet is stored for finish(). Error: limit if the polygons are
+  /// too intricate.
   Result<void> add(size_t corners, size_t place) {
     const size_t first = mesh_.triangles.size() - (corners - 2);
     if (corners == 4 && isPlainQuad(first)) return {};
     return addOther(first, corners, place);
   }
-  /// Cuts the kept polygons, and notes those that cross themselves. Call once, after all points have been read.
+  /// Checks the stored polygons, and adds a note about polygons that cross themselves. Call once, after all points were
+  /// read.
   Result<void> finish();
 
  private:
@@ -47,7 +51,7 @@ class PolygonCutter {
     size_t first, corners, place;
   };
 
-  /// True if the two triangles of a quadrangle face the same way, the common case, which this makes cheap.
+  /// True if the two triangles of a quadrangle face the same way. This cheap test settles the most common polygons.
   bool isPlainQuad(size_t first) const {
     const auto& [a, b, c] = mesh_.triangles[first];
     const uint32_t d = mesh_.triangles[first + 1][2];

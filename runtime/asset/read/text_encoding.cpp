@@ -10,13 +10,15 @@ namespace sgm::asset {
 
 namespace {
 
-/// The width of a unit in bytes, and its byte order; width 1: unchanged bytes after `mark` bytes.
+/// The width of a code unit in bytes, and its byte order. Width 1: the bytes after the mark (`mark` bytes) stay
+/// unchanged.
 struct Encoding {
   size_t width = 1, mark = 0;
   bool big_endian = false;
 };
 
-/// Without a mark: ASCII letters, blanks and line ends have zero bytes beside them, always at the same positions.
+/// Recognises UTF-16 and UTF-32 without a mark: ASCII letters, blanks and line ends have zero bytes beside them, always
+/// at the same positions.
 Encoding encodingWithoutMark(std::string_view text) {
   constexpr size_t kLooked = 64, kLeast = 8;
   const std::string_view start = text.substr(0, std::min(text.size() / 4 * 4, kLooked));

@@ -1,5 +1,5 @@
 #pragma once
-// The text of a file in any encoding.
+// Converts the text of a file from any Unicode encoding.
 
 #include <cstddef>
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace sgm::asset {
 
-/// The bytes of a text file in UTF-8: a byte order mark is dropped, and UTF-16 and UTF-32 of either byte order are
-/// converted, without a mark if the zero bytes of ASCII letters reveal them. Other bytes stay unchanged. Borrows from
-/// `bytes` or from itself.
+/// The content of a text file in UTF-8. A byte order mark is dropped. UTF-16 and UTF-32 of either byte order are
+/// converted; without a mark, they are recognised by the zero bytes in ASCII letters. Other bytes stay unchanged. The
+/// text refers to `bytes` or to this object, which must outlive it.
 class DecodedText {
  public:
   explicit DecodedText(std::span<const std::byte> bytes);

@@ -1,5 +1,5 @@
 #pragma once
-// Words and numbers of a text from outside, line by line. Lines end in \n, \r\n or \r; the locale has no effect.
+// Reads words and numbers of an untrusted text, line by line. Lines end in \n, \r\n or \r; the locale has no effect.
 
 #include <cstddef>
 #include <optional>
@@ -10,11 +10,11 @@ namespace sgm::asset {
 
 class TextReader {
  public:
-  /// continued: a line that ends in a backslash continues on the next one.
+  /// continued: a backslash at the end of a line joins it with the next line.
   explicit TextReader(std::string_view text, bool continued = false)
       : first_(text.data()), at_(first_), end_(first_ + text.size()), continued_(continued) {}
 
-  /// The next word of the line; empty at its end.
+  /// Returns the next word of the line; empty at the end of the line.
   std::string_view word() {
     skipBlanks();
     const char* const from = at_;
@@ -23,14 +23,14 @@ class TextReader {
     return {from, static_cast<size_t>(at_ - from)};
   }
 
-  /// The next word of this line or of a later one; empty at the text's end.
+  /// Returns the next word of this or a later line; empty at the end of the text.
   std::string_view wordOfAnyLine() {
     std::string_view next = word();
     while (next.empty() && nextLine()) next = word();
     return next;
   }
 
-  /// The rest of the line, without blanks around it.
+  /// Returns the rest of the line, without blanks at its ends.
   std::string_view rest();
 
   /// True if the line has no more words.
@@ -39,12 +39,12 @@ class TextReader {
     return at_ == end_ || isLineEnd(*at_);
   }
 
-  /// Moves to the beginning of the next line; false if there is none. plain: ignores a backslash at the end of the
-  /// line.
+  /// Moves to the beginning of the next line; returns false if there is none. plain: ignores a backslash at the end of
+  /// the line.
   bool nextLine(bool plain = false);
 
-  size_t line() const { return line_; }                              ///< from 1
-  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< of the next character
+  size_t line() const { return line_; }                              ///< number of the current line, from 1
+  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< offset of the next character
   size_t bytesLeft() const { return static_cast<size_t>(end_ - at_); }
 
  private:
@@ -72,14 +72,14 @@ class TextReader {
   size_t line_ = 1;
 };
 
-/// A decimal number, with or without a sign and an exponent; also "nan" and "inf". Infinite if it is too large for a
-/// double; nullopt if the word is not a number.
+/// Parses a decimal number with optional sign and exponent; also "nan" and "inf". Infinite if the number is too large
+/// for a double; nullopt if the word is not a number.
 std::optional<double> numberIn(std::string_view word);
 
-/// A word of a file for a message: in quotes, cut off if it is long, without control characters for a terminal.
+/// Returns a word of a file for a message: in quotes, shortened if it is long, and without control characters.
 std::string shown(std::string_view word);
 
-/// A name from a file: invalid UTF-8 and control characters become '?'.
+/// Returns a name from a file, with '?' for invalid UTF-8 and control characters.
 std::string cleanName(std::string_view name);
 
 }  // namespace sgm::asset
