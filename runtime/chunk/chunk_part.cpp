@@ -99,7 +99,7 @@ ChunkPartInputs::ChunkPartInputs(const WorldField& world, const ChunkRequest& re
   const ChunkGrid grid = *chunkGrid(world, request.key);
   const auto around = [&](int level) { return world.brushes(sampledBox(grid, level, request.sharp), level, edits); };
   brushes_ = around(grid.level);
-  // No brush reaches beyond the drawn world.
+  // The field beyond the drawn world has no brushes, so the seams of an outermost chunk read none.
   if (request.seams != 0 && !request.outermost) coarser_ = around(grid.level + 1);
 }
 
@@ -112,7 +112,7 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   out.put(request_.key.level);
   for (int axis = 0; axis < 3; ++axis) out.put(request_.key.at[axis]);
   out.put(part);
-  // Without `coarser`: it decides only the keys of vertices, which are not stored.
+  // ChunkRequest::coarser is left out: it decides only the keys of vertices, which are not stored.
   for (const bool asked :
        {body && request_.signs, body && request_.anchors, !body && request_.outermost, request_.sharp}) {
     out.put(static_cast<uint8_t>(asked));

@@ -1,8 +1,8 @@
 #pragma once
-// The parts of a chunk with their own entries in the disk cache: its body and each of its seams.
+// The parts of a chunk that have entries of their own in the disk cache: its body and each of its seams.
 //
-// Each part is a function of the world, the chunk and the brushes around it alone. The seams of a request depend on the
-// viewer's path, which is another one next time: so seams are stored separately.
+// Each part depends only on the world, the chunk and the brushes around it. Which seams a request wants depends on the
+// viewer's path, which differs from run to run; therefore seams are stored separately.
 //
 // The key of an entry contains everything that it depends on: kMeshingVersion, the codec's version (chunk_codec.h), the
 // meaning of the grammar's files (with imports from the standard library), its assets, the parameters' values, the
@@ -18,41 +18,43 @@
 
 namespace sgm {
 
-/// The version of everything between a grammar's meaning and a chunk's vertices, indices, anchors and voids. Raise it
-/// with every change of the library that changes one of these, including seams; golden hashes show such changes.
+/// The version of all code between a grammar's meaning and a chunk's vertices, indices, anchors and voids. Raise it
+/// with every change of the library that changes one of these, including seams; changed golden hashes indicate such a
+/// change.
 inline constexpr uint32_t kMeshingVersion = 10;
 
 inline constexpr int kChunkParts = 7;  ///< 0 is the body, 1 + Face a seam
 
-/// Whether the request asks for the part.
+/// True if the request wants the part. part: 0 is the body, 1 + Face a seam.
 bool asksFor(const ChunkRequest& request, int part);
 
-/// The inputs of all baked parts of a world, for BakedParts::worldOf: equal inputs give equal parts. nullopt if the
-/// world has no identity.
+/// Returns the inputs that all baked parts of a world have in common, for BakedParts::worldOf: equal inputs give equal
+/// parts. nullopt if the world has no identity (WorldField::identity). sharp: with sharp features.
 std::optional<std::vector<std::byte>> bakedWorldInputs(const WorldField& world, bool sharp);
 
-/// The inputs of a request's parts. Immutable.
+/// Everything that the parts of a request depend on. Immutable.
 class ChunkPartInputs {
  public:
-  /// nullopt if the world has no identity. Precondition: the chunk lies in the world (chunkGrid).
+  /// Returns the inputs of a request; nullopt if the world has no identity. Precondition: the chunk lies in the world
+  /// (chunkGrid).
   static std::optional<ChunkPartInputs> of(const WorldField& world, const ChunkRequest& request,
                                            const EditSnapshot* edits);
 
-  /// Equal bytes mean equal parts; for DiskCache::keyOf.
+  /// Returns the inputs of a part as bytes, for DiskCache::keyOf. Equal bytes mean equal parts.
   std::vector<std::byte> bytes(int part) const;
 
-  /// Whether a baked part can serve the request: no brush is visible there, a seam leads to the next level's chunks,
-  /// and the request wants no anchors or voids of coarser bodies.
+  /// True if a baked part can serve the request: no brush is visible there, a seam leads to chunks of the next level
+  /// (and not to virtual neighbours), and the request wants no anchors or voids of coarser bodies.
   bool isAsBaked(int part) const;
-  /// The inputs of the baked part, which has everything that a streamed world may ask for.
+  /// Returns the inputs of the corresponding baked part, which contains everything that a streamed world may request.
   ChunkPartInputs asBaked() const;
 
   const ChunkRequest& request() const { return request_; }
   const IntBox& box() const { return box_; }
-  /// Whether the number is a material (or tag) of the grammar or of a brush.
+  /// True if the number is a valid material (isTag: tag) of the grammar or of a brush.
   bool isMaterial(uint16_t number) const;
   bool isTag(uint16_t number) const;
-  /// Whether the number is a kind or name of anchors.
+  /// True if the number is a valid kind or name of anchors.
   bool isName(uint16_t number) const { return number < program_->names.size(); }
 
  private:
@@ -64,20 +66,20 @@ class ChunkPartInputs {
   IntBox box_;
   std::shared_ptr<const Program> program_;
   std::vector<std::byte> identity_;
-  std::pmr::vector<Brush> brushes_, coarser_;  ///< visible at the chunk's level; visible at the next level, if seams
-                                               ///< read it
+  /// brushes_: visible at the chunk's level; coarser_: visible at the next coarser level, if a seam reads it
+  std::pmr::vector<Brush> brushes_, coarser_;
 };
 
-/// A part, without the keys of its vertices.
+/// A decoded part; the keys of its vertices are not stored.
 struct ChunkPart {
   MeshPart mesh;
-  std::vector<Anchor> anchors;  ///< of a body, if requested
-  VoidComponents voids;         ///< of a body, if signs were requested
+  std::vector<Anchor> anchors;  ///< anchors of a body, if requested
+  VoidComponents voids;         ///< voids of a body, if signs were requested
 
   explicit ChunkPart(std::pmr::memory_resource* memory) : mesh(memory), voids(memory) {}
 };
 
-/// The parts found for a chunk, by part number, and their inputs.
+/// The parts of a chunk that were found in the cache, by part number, and their inputs.
 struct FoundParts {
   std::array<std::optional<ChunkPart>, kChunkParts> parts;
   ChunkPartInputs inputs;
@@ -86,11 +88,11 @@ struct FoundParts {
 std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std::span<const Anchor> anchors,
                                             std::span<const VoidComponent> voids, std::pmr::memory_resource* memory);
 
-/// Whether the bytes were already verified by a hash over all of them.
+/// Says whether a hash over all bytes was verified before decoding (whole), or not (unknown).
 enum class BytesAre { unknown, whole };
 
-/// Accepts any bytes. nullopt if meshing cannot have given them: all numbers are checked, and the mesh is compared with
-/// its stored hash, unless the bytes are `whole`. Throws std::bad_alloc.
+/// Decodes bytes from an untrusted file. nullopt if meshing cannot have produced them: all numbers are checked and,
+/// unless the bytes are `whole`, the mesh is compared with its stored hash. Throws std::bad_alloc.
 std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int part, const ChunkPartInputs& inputs,
                                          std::pmr::memory_resource* memory, BytesAre are = BytesAre::unknown);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A finished chunk: its meshes, and the other content that an engine requests. Immutable, shared between the world, its
-// frames and the engine.
+// A finished chunk: its meshes, and the other content that an engine requested. Immutable; the world, its frames and
+// the engine share it.
 
 #include <array>
 #include <memory>
@@ -15,37 +15,38 @@
 
 namespace sgm {
 
-/// A run of anchors with the same kind and name: an engine draws them as instances of one object.
+/// A range of anchors with the same kind and name. An engine draws them as instances of one object.
 struct InstanceBatch {
   uint16_t kind = 0, name = 0;
   uint32_t first = 0, count = 0;
   friend bool operator==(const InstanceBatch&, const InstanceBatch&) = default;
 };
 
-/// Row-major, 3 rows of 4: from an anchor's own axes to the chunk's, in metres from the chunk's origin.
+/// An affine transform from an anchor's own axes to the chunk's, in metres from the chunk's origin: 3 rows of 4
+/// numbers, row by row.
 using InstanceTransform = std::array<float, 12>;
 
 struct ChunkSurface {
   ChunkKey key;
   ChunkGrid grid;
   PackedMesh mesh;
-  uint8_t seams = 0;                          ///< made seams, with or without triangles, bit (1 << Face)
-  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< of all vertices, units; all 0 if there are none
+  uint8_t seams = 0;                          ///< seams that were made, even if without triangles: bit (1 << Face)
+  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< bounding box of all vertices, in units; all 0 if there are none
   std::pmr::vector<uint16_t> tags;            ///< the tags of vertices, ascending, without 0
-  std::vector<Anchor> anchors;                ///< if requested; by kind, name and key
-  std::vector<InstanceTransform> transforms;  ///< of the anchors
-  std::vector<InstanceBatch> batches;         ///< of the anchors
-  std::pmr::vector<MorphOffset> morphs;       ///< one for each vertex, if requested; else empty
-  Unwrapped texture;                          ///< of the whole mesh, if requested; else empty
-  DeviceParts on_device;                      ///< if requested: non-empty parts that are also on the device
-  ContentHash hash;                           ///< of body and seams, and their placement
-  /// Of body and seams, if requested.
+  std::vector<Anchor> anchors;                ///< the chunk's anchors, if requested; sorted by kind, name and key
+  std::vector<InstanceTransform> transforms;  ///< one for each anchor
+  std::vector<InstanceBatch> batches;         ///< the anchors, grouped by kind and name
+  std::pmr::vector<MorphOffset> morphs;       ///< one for each vertex, if requested; otherwise empty
+  Unwrapped texture;                          ///< texture of the whole mesh, if requested; otherwise empty
+  DeviceParts on_device;                      ///< if requested: the non-empty parts that are also on the device
+  ContentHash hash;                           ///< of the body and the seams, including their positions
+  /// Measures of the body and the seams, if requested.
   std::optional<measure::ChunkMeasures> measures;
 
   explicit ChunkSurface(std::pmr::memory_resource* memory)
       : mesh(memory), tags(memory), morphs(memory), texture(memory) {}
 
-  /// Whether there is nothing to draw and nothing to place.
+  /// True if there is nothing to draw and no instance to place.
   bool empty() const { return mesh.indices.empty() && anchors.empty(); }
   size_t bytes() const {
     return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor) +
@@ -54,16 +55,17 @@ struct ChunkSurface {
   }
 };
 
-/// Whether both have the same meshes, anchors, offsets and texture. `seams` may differ: a made seam can be empty.
+/// True if both surfaces have the same meshes, anchors, morph offsets and texture. `seams` may differ, since a seam
+/// that was made can be empty.
 inline bool sameContent(const ChunkSurface& a, const ChunkSurface& b) {
   return a.hash == b.hash && a.anchors == b.anchors && a.morphs == b.morphs && a.texture == b.texture;
 }
 
-/// The body and the existing seams.
+/// Returns the body and the seams that exist.
 MeshParts partsOf(const ChunkMesh& mesh);
 
-/// The surface for a request. Parts that were not requested are taken from `before`, an earlier surface of the same
-/// chunk (or null). Throws std::bad_alloc.
+/// Makes the surface for a request. Parts that were not requested are copied from `before`, an earlier surface of the
+/// same chunk (or null). Throws std::bad_alloc.
 ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const ChunkSurface* before,
                        std::pmr::memory_resource* memory);
 

@@ -11,10 +11,10 @@
 
 namespace sgm {
 
-/// Leads from a vertex towards the coarser level's surface, in 1/256 of the chunk's cell edge.
+/// The vector from a vertex towards the coarser level's surface, in 1/256 of the chunk's cell edge.
 using MorphOffset = std::array<int16_t, 3>;
 
-/// The longest offset on an axis: two cells of the coarser level.
+/// The largest component of an offset: two cells of the coarser level.
 inline constexpr int kMostMorph = 4 * kSubcell;
 
 /// Returns one offset for each vertex: a Newton step on the field of the next coarser level. It is a pure function of

@@ -11,16 +11,17 @@ namespace sgm {
 
 namespace {
 
-// Threads wait for each other at the end of a batch, and chunks take different times. Large enough that this matters
-// little, small enough that the programs of a batch take little memory. A device may want more.
+// The number of chunks in a batch. Threads wait for each other at the end of a batch, because chunks take different
+// times: it is large enough that this matters little, and small enough that the programs of a batch take little memory.
+// A device may require larger batches.
 constexpr size_t kBatchChunks = 256;
-// The most chunks that one thread prepares in a row: successive requests mostly use the same cells.
+// The maximum number of chunks that a thread prepares in a row: successive requests mostly use the same cells.
 constexpr size_t kPreparedTogether = 16;
-// The most cells that one thread holds between chunks, beside the cache.
+// The maximum number of cells that a thread holds between chunks, in addition to those in the cache.
 constexpr size_t kMostAtHand = 1024;
 
-/// Whether one thread holds too many cells between chunks: more than kMostAtHand, or than its share of the cache's
-/// bytes.
+/// True if a thread should release the cells it holds between chunks: they are more than kMostAtHand, or more than the
+/// thread's share of the cache's bytes.
 bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
   if (cells.size() > kMostAtHand) return true;
   size_t bytes = 0;
@@ -28,7 +29,7 @@ bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
   return bytes > byte_limit;
 }
 
-/// Prepares the backend's job for a chunk, and the chunk's content that needs no meshing.
+/// Prepares the backend's job for a chunk, and the content of the chunk that needs no meshing (such as anchors).
 Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
                      CellsAtHand& at_hand, ChunkJob& job, PlacedChunk& chunk) {
   const Result<ChunkGrid> grid = chunkGrid(world, request.key);
@@ -62,7 +63,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   return {};
 }
 
-/// The programs for sampling sharp chunks after the backend has taken their jobs; empty for other chunks.
+/// The programs for sharpening a chunk after the backend has consumed its job; empty if the chunk is not sharp.
 struct SampledPrograms {
   std::shared_ptr<const FieldProgram> field, coarse;
 };
@@ -76,20 +77,20 @@ Programs programsOf(std::span<const ChunkRequest> requests, std::span<const Chun
   return programs;
 }
 
-/// Counts chunks over all batches, and asks after each whether to continue.
+/// Counts finished chunks over all batches, and calls the progress function after each.
 class Counter {
  public:
   Counter(const Progress& progress, uint64_t total) : progress_(progress), total_(total) {}
 
-  /// Any thread.
+  /// Counts one chunk. Called by any thread.
   bool one() {
     const std::lock_guard lock(mutex_);
     ++done_;
-    // After the last one there is nothing left to stop.
+    // After the last chunk there is nothing left to cancel.
     if (!stopped_ && !progress_(done_, total_) && done_ < total_) stopped_ = true;
     return !stopped_;
   }
-  /// Any thread.
+  /// True if the work was cancelled. Called by any thread.
   bool stopped() const {
     const std::lock_guard lock(mutex_);
     return stopped_;
@@ -157,7 +158,8 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
         if (tooMany(at_hand, at_hand_limit)) at_hand.clear();
         const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
-        // Of several errors report the first request's, whichever thread was faster.
+        // Of several errors, the one of the first request is reported, so that the result does not depend on the
+        // threads' speed.
         std::lock_guard lock(mutex);
         if (error && error_at <= i) continue;
         error = prepared.error();
@@ -166,7 +168,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     });
     if (error) return *error;
     const Programs programs = programsOf(batch, chunk_jobs);
-    // A sharp batch counts its chunks only after sharpening.
+    // The chunks of a sharp batch are counted after sharpening, not after meshing.
     const bool sharp =
         std::any_of(batch.begin(), batch.end(), [](const ChunkRequest& request) { return request.sharp; });
 

@@ -1,5 +1,5 @@
 #pragma once
-// Many chunks of a world: derived and compiled on the job system, meshed by the backend.
+// Meshes many chunks of a world: the job system derives and compiles them, the backend meshes them.
 
 #include <functional>
 #include <span>
@@ -15,18 +15,20 @@ namespace sgm {
 
 struct ChunkRequest {
   ChunkKey key;
-  uint8_t seams = 0;          ///< bit (1 << Face)
-  Neighbourhood coarser = 0;  ///< of the surrounding blocks; decides the fans in seam keys (mesh/fans.h)
-  bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
-  bool keys = true;           ///< false: parts may lack the keys that welding and checks need
-  bool anchors = false;       ///< also give the anchors in the chunk
-  bool body = true;           ///< false: only the seams, of a chunk whose body exists already
-  bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)
-  bool prompt = false;        ///< do not wait for a device to be ready (ChunkJob::prompt)
-  bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
-  bool sharp = false;         ///< with sharp features (sharpen_chunk.h)
-  bool sums_only = false;     ///< compute the sums over the mesh instead of the mesh (ChunkJob::sums_only); not for
-                              ///< sharp chunks
+  uint8_t seams = 0;  ///< the seams that are wanted: bit (1 << Face)
+  /// the coarser blocks around the chunk; they decide the fans in the keys of seams (mesh/fans.h)
+  Neighbourhood coarser = 0;
+  bool signs = false;     ///< also return the signs of the samples (ChunkMesh::signs)
+  bool keys = true;       ///< true: return the vertex keys that welding and checks need; false: keys may be missing
+  bool anchors = false;   ///< also return the anchors in the chunk
+  bool body = true;       ///< true: mesh the body; false: only the seams, because the body exists already
+  bool resident = false;  ///< also keep the parts on the backend's device (ChunkJob::resident)
+  bool prompt = false;    ///< do not wait until a device is ready (ChunkJob::prompt)
+  /// seams lead to virtual neighbours, whose field is the domain's own state everywhere (octree.h)
+  bool outermost = false;
+  bool sharp = false;  ///< with sharp features (sharpen_chunk.h)
+  /// compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks
+  bool sums_only = false;
 
   friend bool operator==(const ChunkRequest&, const ChunkRequest&) = default;
 };
@@ -36,10 +38,12 @@ struct PlacedChunk {
   ChunkKey key;
   ChunkGrid grid;
   ChunkMesh mesh;
-  std::vector<Anchor> anchors;  ///< if requested; the chunk includes its low faces, but not its high ones
+  /// if requested: anchors in the chunk, including those in its low faces, but not in its high faces
+  std::vector<Anchor> anchors;
 };
 
-/// Appends the body and the seams that have triangles to a vector of PlacedPart, for welding, checking and hashing.
+/// Appends the body and the seams that have triangles to `parts`, a vector of PlacedPart, for welding, checks and
+/// hashes.
 template <class Parts>
 void appendParts(const PlacedChunk& chunk, Parts& parts) {
   if (!chunk.mesh.body.indices.empty()) parts.push_back({&chunk.mesh.body, chunk.grid, 0});
@@ -51,30 +55,32 @@ void appendParts(const PlacedChunk& chunk, Parts& parts) {
 }
 
 /// Called after every chunk; returning false cancels the work, except after the last chunk. Calls come from any thread,
-/// but not concurrently, and `done` rises by one each time.
+/// but never concurrently, and `done` increases by one each time.
 using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 
-/// The grid of a chunk. Errors: invalid_argument (no such level), range (not wholly inside the world).
+/// Returns the grid of a chunk. Errors: invalid_argument (the level does not exist); range (the chunk is not wholly
+/// inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
-/// The closed box of the chunk, lo <= p <= hi. Precondition: chunkGrid gave the grid.
+/// Returns the closed box of the chunk, lo <= p <= hi. Precondition: chunkGrid returned the grid.
 IntBox chunkBox(const ChunkGrid& grid);
 
-/// The region in which the field of a level affects the chunk. level: the chunk's own, or the next, which seams read.
+/// Returns the region in which the field of a level affects the chunk. level: the chunk's own, or the next coarser one,
+/// which seams read.
 IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
 
-/// Returns one chunk for each request, in order, in the world's memory. edits: laid on the world, or null. Errors:
-/// those of chunkGrid, derivation and compilation, out_of_memory, cancelled.
+/// Meshes one chunk for each request, and returns them in order, in the world's memory. edits: brushes on top of the
+/// world, or null. Errors: those of chunkGrid, derivation and compilation; out_of_memory; cancelled.
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
                                                  std::span<const ChunkRequest> requests, const Progress& progress = {},
                                                  const EditSnapshot* edits = nullptr);
 
-/// The voids of a meshed chunk. Precondition: its signs were requested.
+/// Returns the voids of a meshed chunk. Precondition: its signs were requested.
 VoidComponents voidsOf(const ChunkMesh& mesh);
 
-/// All chunks of a level that meet the box lo <= p < hi, in order z, y, x, in the world's memory.
-/// invalid_argument: no such level, or an empty box. range: a chunk leaves the world. limit: more than max_chunks, or
-/// 2^24.
+/// Returns all chunks of a level that meet the box lo <= p < hi, in order z, y, x, in the world's memory. Errors:
+/// invalid_argument (the level does not exist, or the box is empty); range (a chunk leaves the world); limit (more than
+/// max_chunks chunks, or 2^24).
 Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
                                                   uint64_t max_chunks);
 

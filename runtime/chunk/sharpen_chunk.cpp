@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBrickCells = 8;
 
-/// Samples a program around a chunk, brick by brick, each with the program pruned to it.
+/// Samples a program around a chunk. Points are grouped by bricks (small boxes), each with the program pruned to it.
 class BrickSampler {
  public:
   BrickSampler(const FieldProgram& program, const Int3& origin, int32_t cell, std::pmr::memory_resource* memory)
@@ -54,7 +54,7 @@ class BrickSampler {
   }
 
  private:
-  /// Bricks on an axis: those of a chunk, and one more on each side.
+  /// Number of bricks on an axis: those of a chunk, and one more on each side.
   static constexpr int32_t kBricks = kChunkCells / kBrickCells + 2;
   static constexpr uint32_t kElsewhere = kBricks * kBricks * kBricks;
 
@@ -117,7 +117,7 @@ class BrickSampler {
     }
   }
 
-  /// As the kernels quantise a sample (quantise() of shaders/common/real.h).
+  /// Quantises a sample as the kernels do (quantise() of shaders/common/real.h).
   int32_t quantised(float value) const {
     const float q = value * program_.q_scale;
     return static_cast<int32_t>(std::floor(std::clamp(q + 0.5f, -float{kMaxQ}, float{kMaxQ})));
@@ -125,13 +125,15 @@ class BrickSampler {
 
   const FieldProgram& program_;
   const Int3 origin_;
-  const int64_t edge_;  ///< of a brick, units
+  const int64_t edge_;  ///< edge of a brick, in units
   PruneScratch pruning_;
   EvalScratch scratch_;
-  std::pmr::vector<std::optional<PrunedProgram>> bricks_;  ///< by number; empty until one is asked for
-  std::pmr::vector<uint32_t> brick_of_;                    ///< by point
-  std::pmr::vector<uint32_t> order_;                       ///< of the points, by brick
-  std::pmr::vector<int32_t> x_, y_, z_;                    ///< of the points of one brick, as input of the kernels
+  /// program of each brick; nullopt until a point in the brick is sampled
+  std::pmr::vector<std::optional<PrunedProgram>> bricks_;
+  std::pmr::vector<uint32_t> brick_of_;  ///< the brick of each point
+  std::pmr::vector<uint32_t> order_;     ///< indices of the points, sorted by brick
+  /// coordinates of the points of one brick, as the kernels read them
+  std::pmr::vector<int32_t> x_, y_, z_;
   std::pmr::vector<float> value_, gradient_;
   std::pmr::vector<int16_t> normal_;
 };

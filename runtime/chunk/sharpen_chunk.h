@@ -5,9 +5,9 @@
 
 namespace sgm {
 
-/// Sharpens the body and the existing seams (mesh/sharpen.h), and splits the body's creases. Releases the parts on a
-/// device, since they differ from the result. field, coarse: as the job's, for everything that the step samples
-/// (sampledBox in mesh_chunks.h). Throws std::bad_alloc.
+/// Sharpens the body and the existing seams (mesh/sharpen.h), and splits the creases of the body. Releases the parts on
+/// a device, because they differ from the result. field, coarse: programs as in the chunk's job, compiled for the
+/// region that sharpening samples (sampledBox in mesh_chunks.h). Throws std::bad_alloc.
 void sharpenChunk(const ChunkGrid& grid, const FieldProgram& field, const FieldProgram* coarse, ChunkMesh& mesh,
                   std::pmr::memory_resource* memory);
 

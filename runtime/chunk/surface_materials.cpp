@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// The point and the places around it, in this order.
+/// Returns the point itself, followed by the places around it.
 std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const TexturePoint& normal, double radius) {
   constexpr double kDiagonal = 0.70710678118654752;
   constexpr std::array<std::array<double, 2>, kMaterialSamples - 1> kRing{{{1, 0},
@@ -20,7 +20,8 @@ std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const Texture
                                                                            {-kDiagonal, -kDiagonal},
                                                                            {0, -1},
                                                                            {kDiagonal, -kDiagonal}}};
-  // The axis with the smallest share of the normal is nearly perpendicular to it, so its projection is long.
+  // The axis with the smallest component of the normal is nearly perpendicular to it, so its projection into the plane
+  // is long.
   size_t least = 0;
   for (size_t axis = 1; axis < 3; ++axis) {
     if (std::fabs(normal[axis]) < std::fabs(normal[least])) least = axis;
@@ -46,7 +47,7 @@ std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const Texture
   return places;
 }
 
-/// Points by axis, for evaluation together.
+/// Coordinates of points, in one array per axis, as the evaluators read them.
 class PointList {
  public:
   explicit PointList(std::pmr::memory_resource* memory) : x_(memory), y_(memory), z_(memory) {}
@@ -63,10 +64,10 @@ class PointList {
   std::pmr::vector<int32_t> x_, y_, z_;
 };
 
-/// The field's attributes at points.
+/// The field's attributes at the points.
 struct Made {
   std::pmr::vector<uint32_t> labels;
-  std::pmr::vector<float> values;  ///< units, below 0 in the solid
+  std::pmr::vector<float> values;  ///< field values in units; below 0 in the solid
 
   Made(const ProgramView& program, const PointList& points, EvalScratch& scratch, std::pmr::memory_resource* memory)
       : labels(points.size(), memory), values(points.size(), memory) {
@@ -79,8 +80,8 @@ struct Made {
   uint16_t material(size_t i) const { return static_cast<uint16_t>(labels[i] & 0xFFFFu); }
 };
 
-/// Where to look for the solid behind a place in the air, in this order: half a cell and a whole one against the
-/// vertex's normal, then the corners of the vertex's cell, at least one of which is solid.
+/// The solid behind a place in the air is searched in this order: half a cell and one cell against the vertex's normal,
+/// then the corners of the vertex's cell, at least one of which is solid.
 constexpr size_t kStepsBehind = 2, kPlacesBehind = kStepsBehind + 8;
 
 std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
@@ -103,7 +104,7 @@ std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vert
   return places;
 }
 
-/// The material of the first solid place behind, or else of the deepest corner.
+/// Returns the material at the first of the places behind that is solid, or else that of the deepest corner.
 uint16_t materialBehind(const Made& made, size_t first) {
   for (size_t i = first; i < first + kStepsBehind; ++i) {
     if (made.isSolid(i)) return made.material(i);
@@ -132,7 +133,8 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   EvalScratch scratch(field.memory());
   const Made around((*program)->view(), places, scratch, field.memory());
 
-  // Air beyond the reach of every shape has no material, and shapes thinner than a cell may end before the surface.
+  // The air beyond the reach of every shape has no material, and shapes thinner than a cell may end before the mesh's
+  // surface.
   const bool named = field.settings().program->materials.size() > 1;
   PointList behind(field.memory());
   std::pmr::vector<size_t> in_air(field.memory());

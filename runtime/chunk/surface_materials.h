@@ -1,5 +1,5 @@
 #pragma once
-// The materials of a world's surface around its vertices.
+// Finds the materials of a world's surface at its vertices and around them.
 
 #include <span>
 
@@ -9,10 +9,10 @@
 
 namespace sgm {
 
-/// Finds the materials at each point and at eight places around it, one cell of the level away in the plane
-/// perpendicular to the normal, whose length may be any but 0. A pure function, so adjacent chunks agree on their
-/// border. The field is compiled for the bounding box of all points, so pass distant points in separate calls. Places
-/// in the air without a material take that of the solid behind them. Errors: those of WorldField::compile.
+/// Finds the materials at each point and at eight places around it. These lie one cell of the level away, in the plane
+/// perpendicular to the normal, which may have any length except 0. A pure function, so that adjacent chunks agree at
+/// their border. The field is compiled for the bounding box of all points, so pass distant points in separate calls. A
+/// place in the air without a material gets that of the solid behind it. Errors: those of WorldField::compile.
 Result<void> materialsAround(const WorldField& field, int level, const EditSnapshot* edits,
                              std::span<const Int3> points, std::span<const TexturePoint> normals,
                              std::span<MaterialMix> materials);

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the shapes that make a world's surface, and computes texture coordinates with them.
+// Finds the shapes that make a world's surface, which define the texture coordinates there.
 
 #include <map>
 #include <memory_resource>
@@ -12,19 +12,22 @@
 
 namespace sgm {
 
-/// The tile edge that texture coordinates count in, units.
+/// The default and the largest edge of a texture's tile, in units. Texture coordinates increase by 1 per tile.
 inline constexpr int32_t kTile = kUnitsPerMetre, kLargestTile = 1 << 20;
 
-/// Numbers shapes in the order of their discovery. Borrows the field and the edits. Not thread-safe.
+/// Finds shapes at points of the surface, and numbers them in the order of discovery. Borrows the field and the edits.
+/// Not thread-safe.
 class SurfaceShapes {
  public:
-  /// base: the origin of texture coordinates along the world's axes, units.
+  /// base: the point with texture coordinates 0 along the world's axes, in units. tile: edge of a tile, in units.
   SurfaceShapes(const WorldField& field, const EditSnapshot* edits, Int3 base, int32_t tile);
 
-  /// Labels each point with the shape that makes the level's surface there. Use separate calls for distant points:
-  /// everything between them is compiled. Errors: those of WorldField::compileShapes.
+  /// Sets the label of each point to the number of the shape that makes the level's surface there. Use separate calls
+  /// for distant points, because the field is compiled for all space between the points of a call. Errors: those of
+  /// WorldField::compileShapes.
   Result<void> label(int level, std::span<const Int3> points, std::span<uint32_t> labels);
-  /// The space of a label from label(); 0 is the world's own space, where no shape decides.
+  /// Returns the texture space of a label from label(); label 0 is the world's own space, for points where no shape
+  /// decides.
   const TextureSpace& space(uint32_t label) const { return spaces_[label]; }
 
  private:

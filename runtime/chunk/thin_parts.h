@@ -10,18 +10,19 @@ namespace sgm {
 
 /// The thin parts of one rule's statements.
 struct ThinPart {
-  std::string rule;       ///< as it is called: "Pane", "cave.Column"
-  bool cut = false;       ///< the thin part is cut away, not added
-  int32_t thickness = 0;  ///< of the thinnest part, units
-  size_t uses = 0;        ///< uses of the rule with such a part
+  std::string rule;       ///< name of the rule as it is called: "Pane", "cave.Column"
+  bool cut = false;       ///< true: the thin part is cut away; false: it is added
+  int32_t thickness = 0;  ///< of the thinnest such part, in units
+  size_t uses = 0;        ///< number of uses of the rule that have such a part
   bool is_about = false;  ///< `uses` is an estimate: some were counted by shapes, and a use may have several
 };
 
-/// Finds the thin parts whose middle lies in the box, by name. The thickness of a shape is its least diameter; an
-/// intersection has that of its thinnest operand, a sum or a morph that of its thickest part. Left out are parts that
-/// `detail` and `lod` drop at this level, parts with something thicker beside them along half of their length or more
-/// (a slab on a wall, a pipe in the ground), and walls of treemaps. The first cells of a layer are derived anew, to
-/// find each shape's statement; later cells only if they have thin shapes of a new kind. Errors: those of derivation.
+/// Finds the thin parts whose middle lies in the box; sorted by rule name. The thickness of a shape is its smallest
+/// diameter; an intersection has that of its thinnest operand, a sum or a morph that of its thickest part. Does not
+/// report parts that `detail` and `lod` drop at this level, parts with something thicker beside them along half of
+/// their length or more (a slab on a wall, a pipe in the ground), and walls of treemaps. The first cells of a layer are
+/// derived again, to find each shape's statement; later cells only if they have thin shapes of a new kind. Errors:
+/// those of derivation.
 Result<std::vector<ThinPart>> thinParts(const WorldField& world, const IntBox& box, int level);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Measures of a streamed world's chunks, each taken in the job that has meshed the chunk or read it from the disk.
+// Measures of a streamed world's chunks. Each is taken in the job that has meshed the chunk or read it from the disk.
 
 #include <memory>
 #include <mutex>
@@ -14,11 +14,11 @@ namespace measure {
 struct MeasureScratch;
 }
 
-/// The measures of the jobs' results.
+/// Sums of the measures of all finished jobs.
 struct MadeMeasures {
-  measure::SurfaceSums sums;  ///< of every part, each time that it was made
+  measure::SurfaceSums sums;  ///< sums over all parts; a part counts each time that it was made
   double measuring = 0;       ///< wall-clock seconds spent on measuring, summed over jobs
-  double meshing = 0;         ///< the same for meshing, reading and packing the chunks
+  double meshing = 0;         ///< same for meshing, reading and packing the chunks
 
   void add(const MadeMeasures& other) {
     sums.add(other.sums);
@@ -28,11 +28,11 @@ struct MadeMeasures {
 };
 
 struct WorldMeasures {
-  measure::SurfaceSums drawn;  ///< of the current frame: bodies, and the seams drawn with them
+  measure::SurfaceSums drawn;  ///< sums over the current frame: its bodies, and the seams drawn with them
   MadeMeasures made;
 };
 
-/// Scratch memory, one for each measuring thread. Thread-safe.
+/// A pool of scratch memory: one object per thread that is measuring. Thread-safe.
 class MeasuringPool {
  public:
   explicit MeasuringPool(std::pmr::memory_resource* memory);
@@ -46,8 +46,8 @@ class MeasuringPool {
   std::vector<std::unique_ptr<measure::MeasureScratch>> free_;
 };
 
-/// Measures the requested parts and adds them to `made`. Measures of other parts come from `before`, an earlier,
-/// measured surface of the chunk, or null. Throws std::bad_alloc.
+/// Measures the requested parts and adds them to `made`. The measures of other parts are copied from `before`, an
+/// earlier, measured surface of the chunk, or null. Throws std::bad_alloc.
 measure::ChunkMeasures measureParts(const ChunkRequest& request, const PlacedChunk& chunk, const ChunkSurface* before,
                                     MeasuringPool& pool, MadeMeasures& made);
 

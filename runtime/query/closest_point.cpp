@@ -9,27 +9,30 @@ namespace sgm {
 
 namespace {
 
-constexpr int kNearBrick = 4;         // cells on each axis that are sampled together
-constexpr int64_t kFirstSearch = 16;  // cells: a near surface is found without compiling distant parts
+constexpr int kNearBrick = 4;  // cells on each axis of a brick, whose samples are evaluated together
+// cells: the search starts within this distance, so that a near surface is found without compiling distant parts
+constexpr int64_t kFirstSearch = 16;
 constexpr int64_t kSearchGrowth = 4;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
-constexpr double kNearest = 0.25;  // units: smaller improvements are ignored
+constexpr double kNearest = 0.25;  // units: the search for the foot point ends when it improves by less
 
-/// Bricks, or a box, that may hold the surface, and a lower bound of the distance.
+/// A set of bricks, or a box, that may contain the surface, with a lower bound of its distance.
 struct Candidate {
   double lower = 0;
-  int rank = 0;  ///< several bricks 0, one brick 1, a box 2
-  IntBox box;    ///< of bricks: their places; of a box: units
+  int rank = 0;  ///< several bricks: 0; one brick: 1; a box: 2
+  IntBox box;    ///< bricks: range of their coordinates; box: in units
   std::shared_ptr<const PrunedProgram> program;
 
-  /// The nearest comes first. Among equals bricks come before boxes, ordered by place: so the order in which boxes are
-  /// found does not depend on the proofs for the bricks around.
+  /// Orders a priority queue: the nearest candidate comes first. Among equals, bricks come before boxes, and then lower
+  /// coordinates first. So the order in which boxes are found does not depend on the bounds that were proven for bricks
+  /// around them.
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(b.lower, b.rank, b.box.lo, b.box.hi) < std::tie(a.lower, a.rank, a.box.lo, a.box.hi);
   }
 };
 
-/// Finds the nearest sample on the other side of the surface, best first over an octree, and the surface before it.
+/// Finds the nearest sample on the other side of the surface, by best-first search over an octree; then finds the
+/// surface between that sample and the place.
 class SurfaceSearch {
  public:
   SurfaceSearch(const QueryField& field, const SplitPosition& place, double radius)
@@ -41,7 +44,7 @@ class SurfaceSearch {
         open_(std::less<Candidate>{}, std::pmr::vector<Candidate>(field.memory)) {}
 
   Result<std::optional<SurfacePoint>> run() {
-    // All corners of these cells lie in the world.
+    // Cells from world_first to world_last have all of their corners in the world.
     const int64_t world_first = -(INT64_C(2147483648) / cell_), world_last = INT64_C(2147483647) / cell_ - 1;
     IntBox bricks;
     for (int axis = 0; axis < 3; ++axis) {
@@ -127,7 +130,8 @@ class SurfaceSearch {
     if (longest > 1) sampleLattice(box.box, (longest + 1) / 2, box.program);
   }
 
-  /// Samples a box at this spacing and at its high faces; keeps the boxes whose corners differ in sign.
+  /// Samples a box at this spacing, including its high faces. Keeps the boxes of the lattice whose corners differ in
+  /// sign.
   void sampleLattice(const IntBox& box, int32_t spacing, std::shared_ptr<const PrunedProgram> program) {
     std::array<std::vector<int32_t>, 3> at;
     for (int axis = 0; axis < 3; ++axis) {
@@ -162,7 +166,7 @@ class SurfaceSearch {
     }
   }
 
-  /// Records a sample on the other side: the surface lies before it.
+  /// Records a sample on the other side of the surface: the surface lies between it and the place.
   void meet(const Int3& sample) {
     const Vector3 to = place_.to(sample);
     const double distance = std::sqrt(dot(to, to));
@@ -171,7 +175,7 @@ class SurfaceSearch {
     beyond_ = sample;
   }
 
-  /// Goes from the sample to the surface, and along it as long as the distance decreases.
+  /// Moves from the sample to the surface, and then along the surface as long as the distance decreases.
   SurfacePoint foot(const ProgramView& whole) {
     IntBox near = IntBox{place_.base, place_.base}.grown(static_cast<int32_t>(nearest_) + 2);
     PrunedProgram pruned(field_.memory);
@@ -202,7 +206,7 @@ class SurfaceSearch {
     return found;
   }
 
-  /// Bisects a stretch whose ends differ in sign, down to a quarter of a unit.
+  /// Bisects the stretch from `open` to `closed`, whose ends differ in sign, down to a quarter of a unit.
   void cut(const ProgramView& view, const Vector3& direction, double& open, double& closed) {
     while (closed - open > kNearest) {
       const double middle = open + (closed - open) / 2;
@@ -227,7 +231,7 @@ class SurfaceSearch {
   bool inside_ = false;
   std::priority_queue<Candidate, std::pmr::vector<Candidate>> open_;
   double nearest_ = kNoDistance;
-  Int3 beyond_;  ///< the nearest sample on the other side
+  Int3 beyond_;  ///< nearest known sample on the other side of the surface
 };
 
 }  // namespace

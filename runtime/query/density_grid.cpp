@@ -13,9 +13,9 @@ namespace sgm {
 
 namespace {
 
-constexpr uint32_t kBrick = 8;  // on each edge of a group that is evaluated together
+constexpr uint32_t kBrick = 8;  // edge of a brick in points; a brick is evaluated together
 constexpr uint32_t kBlock = 4 * kBrick;
-constexpr size_t kDepths = 3;  // levels of halving from a block to a brick, both included
+constexpr size_t kDepths = 3;  // number of levels when a block is halved down to bricks, both included
 
 /// A box of the grid's points.
 struct Part {
@@ -42,7 +42,7 @@ IntBox boxOf(const DensityGrid& grid, const Part& part) {
   return box;
 }
 
-/// Visits the parts of an edge length that make up a part, in order.
+/// Calls visit for the parts of this edge length that make up the whole part, in order.
 template <class Visit>
 void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   std::array<uint32_t, 3> at{};
@@ -60,7 +60,7 @@ void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   }
 }
 
-/// Fills one block. For one thread.
+/// Fills one block. Not thread-safe.
 class BlockFill {
  public:
   BlockFill(const DensityGrid& grid, const DensityEdge& edge, const DensityRows& rows,
@@ -74,11 +74,11 @@ class BlockFill {
 
   DensityFigures figures;
 
-  /// edge: the edge of parts at this depth; kBrick at the last depth.
+  /// Fills a part. edge: edge of the parts that it is divided into at this depth; kBrick at the last depth.
   void fill(const ProgramView& view, const Part& part, uint32_t edge, size_t depth = 0) {
     PrunedProgram& pruned = pruned_[depth];
     prune(view, boxOf(grid_, part), pruning_, pruned, Uniform::keep);
-    // Two steps more than the edge, since samples and the products of bounds are rounded.
+    // The margin of two steps beyond the edge covers the rounding of samples and of the products of bounds.
     const bool full = pruned.field.hi * static_cast<double>(pruned.q_scale) < -(edge_.steps + 2);
     if (pruned.empty() || full) {
       figures.bricks += bricksOf(part);
@@ -177,7 +177,7 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
   size_t error_at = 0;
   uint64_t done = 0;
   bool stopped = false;
-  // Blocks before a failed one continue: they may fail too, and the first block's error is reported.
+  // After an error, earlier blocks continue: they may fail, too, and the error of the first block is reported.
   const auto ended = [&](size_t i) {
     const std::lock_guard lock(mutex);
     return stopped || (error && i > error_at);

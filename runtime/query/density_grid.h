@@ -1,5 +1,5 @@
 #pragma once
-// Samples a volume's density on a lattice, from the same field samples as meshes: input for a renderer of fog.
+// Samples a volume's density on a lattice, from the same field samples that meshes use, for renderers of fog.
 
 #include <array>
 
@@ -9,31 +9,33 @@
 
 namespace sgm {
 
-/// The points origin + spacing * (x, y, z), 0 <= x < size[0] and so on, in units, and the rule for their density.
+/// A lattice of points origin + spacing * (x, y, z), 0 <= x < size[0] and so on, in units, and the width of the edge.
 struct DensityGrid {
   Int3 origin;
-  int32_t spacing = kUnitsPerMetre;     ///< at least 1
-  std::array<uint32_t, 3> size{};       ///< points, at least 1 on each axis
-  double edge = 10.0 * kUnitsPerMetre;  ///< from the surface to density 1: 1 to kMostEdgeCells finest cells, units
+  int32_t spacing = kUnitsPerMetre;  ///< at least 1
+  std::array<uint32_t, 3> size{};    ///< number of points on each axis, at least 1
+  /// distance in units over which the density rises from 0 at the surface to 1: 1 to kMostEdgeCells finest cells
+  double edge = 10.0 * kUnitsPerMetre;
 };
 
-/// The output array, not owned: rows along x, then y, then slices along z. Pitches count values.
+/// The output array, not owned: rows along x, then y, then slices along z. Pitches are in values, not bytes.
 struct DensityRows {
-  uint8_t* bytes = nullptr;  ///< rounded to the nearest 255th
-  float* values = nullptr;   ///< used if bytes is null
+  uint8_t* bytes = nullptr;  ///< densities as 0..255, rounded to the nearest
+  float* values = nullptr;   ///< densities as 0..1; used if bytes is null
   size_t row_pitch = 0, slice_pitch = 0;
 };
 
-/// Statistics: bricks of 8^3 points, and the bricks whose density was proven to be 0 or 1 everywhere, without
-/// evaluating their points.
+/// Statistics: the number of bricks of 8^3 points, and of the bricks whose density was proven to be 0 or 1 everywhere
+/// without evaluating their points.
 struct DensityFigures {
   uint64_t bricks = 0, uniform = 0;
 };
 
-/// Writes the density of shaders/common/density.h at every point. The same bits whatever the job system does and
-/// however a lattice is cut into grids. Each block of 32^3 points (8^3 if the field is sampled) has its own program.
-/// progress is called after each block, not concurrently; returning false cancels. Errors: invalid_argument (the edge),
-/// range (the grid leaves the world), cancelled, and those of compiling the field; of several errors the first block's.
+/// Writes the density (shaders/common/density.h) at every point. Gives the same bits regardless of the job system, and
+/// of how a lattice is divided into grids. Each block of 32^3 points (8^3 if the field contains sampled host fields)
+/// has its own program. progress is called after each block, never concurrently; returning false cancels. Errors:
+/// invalid_argument (the edge); range (the grid leaves the world); cancelled; those of compiling the field. Of several
+/// errors, the first block's is returned.
 Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid& grid, JobSystem& jobs,
                                      const DensityRows& rows, const Progress& progress = {});
 

@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// Larger than the value of any visible shape.
+/// A value above that of any visible shape: the shape is not visible.
 constexpr double kNothing = 1e20;
 
 struct Sample {
@@ -30,15 +30,16 @@ Sample sampleAt(const FieldProgram& program, Int3 p) {
   return sample;
 }
 
-/// Evaluates single nodes of a cell, and descends to the deciding ones.
+/// Evaluates single nodes of a cell's tree of shapes, and descends to the deciding ones.
 class NodeReader {
  public:
   NodeReader(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), copier_(chunk), cell_edge_(cell_edge) {}
 
-  /// The node's field at the place, units; kNothing or more if this level does not show it.
+  /// Returns the value of the node's field at the place, in units; kNothing or more if level 0 does not show the node.
   double value(uint32_t shape, Int3 p) { return valueBy(copier_, shape, p); }
 
-  /// traced: the same chunk. leaf: set to the index of the deciding shape in the nodes.
+  /// Returns the nodes of a group. traced: the same cell as the chunk. leaf: receives the index of the deciding shape
+  /// in them.
   Result<std::vector<ExplainedNode>> read(const TracedCell& traced, const Group& group, Int3 p, size_t& leaf) {
     traced_ = &traced;
     descend(group.root, p, 0, group.cut);
@@ -64,7 +65,7 @@ class NodeReader {
     return sampleAt(*program, p).value;
   }
 
-  /// The value of an expression: the displacement of a ball by it.
+  /// Returns the value of an expression. It is measured by how far it displaces the surface of a ball.
   double number(uint32_t expr, Int3 p) {
     if (!ball_) ball_.emplace(chunk_);
     std::pmr::vector<Shape>& shapes = ball_->chunk.shapes;
@@ -73,7 +74,8 @@ class NodeReader {
     return (valueBy(ball_->copier, static_cast<uint32_t>(shapes.size()) - 1, p) + 1) / kUnitsPerMetre;
   }
 
-  /// A copy of the cell with two more shapes, a ball and its displacement: made once, for all expressions.
+  /// A copy of the cell with two more shapes, a ball and its displacement. It is made once and used for all
+  /// expressions.
   struct DisplacedBall {
     GrammarChunk chunk;
     DraftCopier copier;
@@ -110,7 +112,7 @@ class NodeReader {
     nodes_.push_back(node);
     leaf_ = at;
     if (s.child_count == 0 || error_) return;
-    // A tube or a beam is one shape, whatever its pieces.
+    // A tube or a beam counts as one shape, although it consists of pieces.
     if (s.kind == ShapeKind::unite && s.point_count > 0) return;
     switch (s.kind) {
       case ShapeKind::unite:
@@ -164,7 +166,7 @@ class NodeReader {
     }
   }
 
-  /// Descends into the child with the least or the largest value.
+  /// Descends into the child with the smallest or the largest value.
   void nearest(const Shape& s, bool largest, Int3 p, size_t at) {
     uint32_t found = 0;
     double best = largest ? -kNothing : kNothing;
@@ -188,7 +190,7 @@ class NodeReader {
   std::optional<Error> error_;
 };
 
-/// The deciding group so far.
+/// The deciding group among those examined so far.
 struct Decision {
   bool any = false;
   uint32_t layer = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Explains why a place is solid or open: the deciding shape, the rule that made it, and the other shapes involved.
+// Explains why a place is solid or void: which shape decides, the rule that made it, and the other shapes involved.
 
 #include <string>
 #include <vector>
@@ -8,33 +8,36 @@
 
 namespace sgm {
 
-/// The deciding node, or a node inside of it.
+/// A node of the deciding group's tree of shapes.
 struct ExplainedNode {
   ShapeKind kind = ShapeKind::sphere;
-  int depth = 0;       ///< number of nodes around it
-  double value = 0;    ///< of its field at the place, units; negative inside
-  bool cuts = false;   ///< whether it is cut from the node around it, or from the domain
-  double measure = 0;  ///< smooth unions, cuts and meets: the radius, units; morphs: t; displacements: the amount,
-                       ///< units; warps: the distance, units
-  size_t others = 0;   ///< its parts that do not decide; they are not listed
-  std::string path;    ///< the use of the rule whose statement made it, as an override names it; if an override made
-                       ///< it, the use whose block the override replaces
-  Span span;           ///< of the statement
+  int depth = 0;      ///< number of nodes that enclose it
+  double value = 0;   ///< value of the node's field at the place, in units; negative inside
+  bool cuts = false;  ///< true if the node is cut from the node that encloses it, or from the domain
+  /// smooth unions, cuts and meets: the radius in units; morphs: t; displacements: the amount in units; warps: the
+  /// distance in units
+  double measure = 0;
+  size_t others = 0;  ///< number of its children that do not decide and are not listed
+  /// path, as an override names it, of the rule's use whose statement made the node; if an override made it, of the use
+  /// whose block the override replaces
+  std::string path;
+  Span span;  ///< place of the statement in the source
 };
 
 struct Explanation {
   bool solid = false;
-  double value = 0;                ///< of the world's field at the place, units; a distance only near the surface
-  uint16_t material = 0, tag = 0;  ///< indices into Program::materials and tags, for a surface at the place
-  uint32_t layer = 0;              ///< of the deciding group
+  /// value of the world's field at the place, in units; a distance only near the surface
+  double value = 0;
+  uint16_t material = 0, tag = 0;  ///< indices into Program::materials and tags of a surface at the place
+  uint32_t layer = 0;              ///< layer of the deciding group
   Int3 cell;
-  /// From the whole group down to the shape, each node after the node around it. A morph is followed by both sides.
-  /// Empty if no shape comes near: then the domain decides.
+  /// From the whole group down to the deciding shape: each node follows the node that encloses it. A morph is followed
+  /// by both of its sides. Empty if no shape comes near: then the domain decides.
   std::vector<ExplainedNode> nodes;
   size_t leaf = 0;  ///< index of the deciding shape in nodes
 };
 
-/// At level 0, without host fields and edits. Errors: those of WorldField::compile and trace.
+/// Explains a place at level 0, without host fields and edits. Errors: those of WorldField::compile and trace.
 Result<Explanation> explain(const WorldField& world, Int3 place);
 
 }  // namespace sgm

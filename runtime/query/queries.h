@@ -1,6 +1,6 @@
 #pragma once
-// Queries of the field itself, without a mesh: ray casts, the nearest surface, walkable floors. Callable from any
-// thread; the same answer on every machine and at any distance from the origin.
+// Queries of the field itself, without a mesh: ray casts, the nearest surface, walkable floors. Can be called from any
+// thread. The results are the same on every machine, and equally precise at any distance from the origin.
 //
 // Positions, lengths and distances are in units, with fractions. Common errors: invalid_argument (not finite, or
 // outside of the stated range), range (a position outside of the world), limit (too far or too large; the message names
@@ -17,36 +17,38 @@
 
 namespace sgm {
 
-/// The field to query: a world's, edited or not, at level 0.
+/// The field to be queried: that of a world, with or without edits, at level 0.
 struct QueryField {
-  /// Compiles everything that matters in a closed box.
+  /// Returns a program that is valid in the closed box.
   std::function<Result<std::shared_ptr<const FieldProgram>>(const IntBox&)> at;
-  int32_t finest_cell = kUnitsPerMetre / 2;  ///< edge of a level-0 cell
+  int32_t finest_cell = kUnitsPerMetre / 2;  ///< edge of a level-0 cell, in units
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
-  bool sampled = false;  ///< a program's cost grows with its box (sampled host fields): ask for small boxes
+  /// true if the cost of a program grows with its box, because host fields are sampled: then queries request small
+  /// boxes
+  bool sampled = false;
 };
 
 class WorldField;
-/// A world's own field, which must outlive it.
+/// Returns a world's field without edits. The world must outlive it.
 QueryField queryField(const WorldField& world);
 
-/// A place on the surface.
+/// A position on the surface.
 struct SurfacePoint {
   std::array<double, 3> position{};
-  std::array<double, 3> normal{};  ///< unit vector pointing out of the solid, as in vertices
-  double distance = 0;             ///< from the queried place
+  std::array<double, 3> normal{};  ///< unit vector that points out of the solid, as for vertices of meshes
+  double distance = 0;             ///< distance from the queried place, in units
   uint16_t material = 0, tag = 0;
-  bool inside = false;  ///< the queried place itself is solid
+  bool inside = false;  ///< true if the queried place itself is solid
 };
 
-/// The largest length of a ray, and the largest search distance of closestPoint().
+/// Returns the maximum length of a ray, and of the search distance of closestPoint(), in units.
 int64_t longestRay(int32_t finest_cell);
 int64_t farthestSurface(int32_t finest_cell);
 
-/// Finds the first solid along the ray within `length`. A ray that starts in the solid hits it at once (inside). The
-/// ray misses no solid that it crosses for a sixteenth of a cell or one unit, whichever is more; so it misses no wall
-/// as thick as a cell, which a mesh of level 0 always shows. The hit lies on the void's side, less than a unit from the
-/// solid. A ray ends at the end of the world. direction: any length but 0. length: 0 to longestRay().
+/// Finds the first solid along the ray within `length`. A ray that starts in the solid hits it at once (inside = true).
+/// The ray finds every solid that it crosses over at least a sixteenth of a cell and one unit; so it misses no wall as
+/// thick as a cell, which a mesh of level 0 always shows. The hit lies on the void's side, less than a unit from the
+/// solid. A ray ends at the end of the world. direction: any length except 0. length: 0 to longestRay().
 ///
 /// Interval bounds over whole stretches of the ray limit the steps: empty space costs almost nothing, and the result
 /// does not depend on the steepness of the field. Only stretches that are not proven empty are sampled.
@@ -54,9 +56,9 @@ Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const std::
                                             const std::array<double, 3>& direction, double length);
 
 /// Finds the surface nearest to a place within `max_distance` (0 to farthestSurface()); nullopt if there is none.
-/// Considers all of the surface that the samples of level 0 show: none of it is nearer than the answer by more than a
-/// quarter of a cell and a sixty-fourth of the distance; usually the answer is exact to a unit. On the position's side
-/// towards the place lies the void, or, if the place is inside the solid, the solid.
+/// Considers all of the surface that the samples of level 0 show: no part of it is nearer than the result by more than
+/// a quarter of a cell plus a sixty-fourth of the distance; usually the result is exact to a unit. The side of the
+/// returned position that faces the place is void or, if the place is inside the solid, solid.
 Result<std::optional<SurfacePoint>> closestPoint(const QueryField& field, const std::array<double, 3>& place,
                                                  double max_distance);
 
@@ -64,24 +66,28 @@ Result<std::optional<SurfacePoint>> closestPoint(const QueryField& field, const 
 struct Walker {
   double radius = 0.3 * kUnitsPerMetre;  ///< 0 to 64 cells
   double height = 1.8 * kUnitsPerMetre;  ///< above 0, to 256 cells
-  double step = 0.4 * kUnitsPerMetre;    ///< climbs and drops this much from one place to the next; below `height`
-  double slope = 0.7071067811865476;     ///< least y of a floor's normal: the cosine of the steepest angle; 0 to 1
-  double area = 1024.0 * 1024.0;         ///< square units of connected floor that make a box walkable; 0 or more
+  /// height that the walker can climb or drop from one place to the next; below `height`
+  double step = 0.4 * kUnitsPerMetre;
+  /// minimum y of a floor's unit normal: the cosine of the steepest angle; 0 to 1
+  double slope = 0.7071067811865476;
+  /// minimum area of connected floor that makes a box walkable, in square units; 0 or more
+  double area = 1024.0 * 1024.0;
 };
 
 struct WalkableArea {
-  bool walkable = false;  ///< `largest` is not 0, and is at least the walker's `area`
-  double standing = 0;    ///< the floor in the box on which the walker can stand, square units seen from above
-  double largest = 0;     ///< the largest connected part of that
-  uint8_t sides = 0;      ///< side faces of the box that the largest part reaches, bit (1 << Face)
+  bool walkable = false;  ///< true if `largest` is not 0 and at least the walker's `area`
+  /// area of the floor in the box on which the walker can stand, in square units seen from above
+  double standing = 0;
+  double largest = 0;  ///< area of the largest connected part of that floor
+  uint8_t sides = 0;   ///< side faces of the box that the largest part reaches: bit (1 << Face)
 };
 
 /// Finds where a walker can stand in a box (closed, not empty) and how far it can walk, on the samples of level 0, one
-/// cell apart. A place to stand is a column of samples with a floor in the box: solid under void, a normal within the
-/// slope, the walker's height free above it, and no solid within the walker's radius that is higher than its step and
-/// lower than its head. Adjacent places are connected if their floors differ by no more than the step. A passage is
-/// walkable if `sides` has both its ends.
-/// limit: more than 4,096 chunks of 32^3 cells.
+/// cell apart. A place to stand is a column of samples with a floor in the box: solid under void, with a normal within
+/// the slope, void over the walker's height, and no solid within the walker's radius that is higher than its step and
+/// lower than its head. Adjacent places are connected if their floors differ by no more than the step. A passage can be
+/// walked through if `sides` contains both of its ends. Errors: limit if the box meets more than 4,096 chunks of 32^3
+/// cells.
 Result<WalkableArea> isWalkable(const QueryField& field, const IntBox& box, const Walker& walker);
 
 }  // namespace sgm

@@ -1,6 +1,6 @@
 #pragma once
-// Shared by the queries: checks, positions without loss of precision far from the origin, and evaluation of points in
-// groups.
+// Common code of the queries: checks of arguments, positions that keep their precision far from the origin, and
+// evaluation of points in groups.
 
 #include <cmath>
 #include <string>
@@ -14,12 +14,13 @@
 
 namespace sgm {
 
-/// A position as whole units and a rest of 0 to 1: sums with offsets round the same everywhere in the world.
+/// A position as whole units plus a fraction of 0 to 1: sums with offsets are rounded in the same way everywhere in the
+/// world.
 struct SplitPosition {
   Int3 base;
   Vector3 rest{};
 
-  /// The nearest whole place at an offset. Precondition: it lies in the world.
+  /// Returns the whole position nearest to this one plus an offset. Precondition: it lies in the world.
   Int3 at(const Vector3& offset) const {
     Int3 p;
     for (int axis = 0; axis < 3; ++axis) {
@@ -31,14 +32,14 @@ struct SplitPosition {
   Vector3 position(const Vector3& offset) const {
     return {base.x + (rest[0] + offset[0]), base.y + (rest[1] + offset[1]), base.z + (rest[2] + offset[2])};
   }
-  /// The vector from here to a whole place.
+  /// Returns the vector from this position to a whole position.
   Vector3 to(const Int3& p) const {
     return {static_cast<double>(int64_t{p.x} - base.x) - rest[0], static_cast<double>(int64_t{p.y} - base.y) - rest[1],
             static_cast<double>(int64_t{p.z} - base.z) - rest[2]};
   }
 };
 
-/// invalid_argument: not finite; range: outside of the world.
+/// Splits a position. Errors: invalid_argument if it is not finite; range if it lies outside of the world.
 inline Result<SplitPosition> splitPosition(const Vector3& position) {
   SplitPosition split;
   for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +54,8 @@ inline Result<SplitPosition> splitPosition(const Vector3& position) {
   return split;
 }
 
-/// invalid_argument: negative or not a number; limit: more than `most`.
+/// Checks a length. Errors: invalid_argument if it is negative or NaN; limit if it is more than `most`. name: for the
+/// message.
 inline Result<void> checkLength(double length, int64_t most, const char* name) {
   if (!(length >= 0)) return Error{Code::invalid_argument, std::string(name) + " is not a number of at least 0"};
   if (length > static_cast<double>(most)) {
@@ -63,7 +65,7 @@ inline Result<void> checkLength(double length, int64_t most, const char* name) {
   return {};
 }
 
-/// Points that are evaluated together. For one thread.
+/// Points that are evaluated together. Not thread-safe.
 class QuerySampler {
  public:
   explicit QuerySampler(std::pmr::memory_resource* memory)
@@ -79,7 +81,7 @@ class QuerySampler {
     y_.push_back(p.y);
     z_.push_back(p.z);
   }
-  /// Quantised samples of the points, in order.
+  /// Returns the quantised samples at the points, in the order of the points.
   const std::pmr::vector<int32_t>& samples(const ProgramView& view) {
     q_.resize(x_.size());
     bestKernels().samples(view, {x_.data(), y_.data(), z_.data(), x_.size()}, scratch_, q_.data());
@@ -90,7 +92,7 @@ class QuerySampler {
     add(p);
     return samples(view)[0] < 0;
   }
-  /// Normal, material and tag at a place.
+  /// Returns the surface attributes (normal, material, tag) at a place.
   SurfacePoint surface(const ProgramView& view, const Int3& p) {
     int16_t nx = 0, ny = 0;
     uint32_t label = 0;

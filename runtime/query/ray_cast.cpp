@@ -7,13 +7,16 @@ namespace sgm {
 
 namespace {
 
-constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;  // the larger length shares a program
+// a piece of the ray has one program; its length is the larger of these two
+constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;
 constexpr int64_t kMostPieces = 64;
-constexpr int64_t kSampledPieceCells = 32;  // for a field that is sampled for each program
-constexpr int64_t kLeafSteps = 48;          // this many samples cost as much as one more proof that none are needed
-constexpr double kInWorld = 1.0;            // distance from the world's end, so that rounding stays inside
+constexpr int64_t kSampledPieceCells = 32;  // length of a piece if host fields are sampled for each program
+// evaluating this many samples costs as much as one more attempt to prove a stretch empty
+constexpr int64_t kLeafSteps = 48;
+// units: the ray ends this far before the end of the world, so that rounded positions stay inside
+constexpr double kInWorld = 1.0;
 
-/// One ray, in steps of `step`; the last one ends at the ray's length.
+/// One ray. Its positions are `step` apart; the last one is at the ray's length.
 class RayWalk {
  public:
   RayWalk(const QueryField& field, const SplitPosition& from, const Vector3& direction, double length)
@@ -41,10 +44,10 @@ class RayWalk {
  private:
   double along(int64_t i) const { return std::min(static_cast<double>(i) * step_, length_); }
   Int3 pointAt(double t) const { return from_.at(times(direction_, t)); }
-  /// Rounding is monotonic on each axis, so the box of the ends contains everything between.
+  /// Rounding is monotonic on each axis, so the box around the two ends contains all rounded positions between them.
   IntBox stretch(int64_t first, int64_t last) const { return boxAround(pointAt(along(first)), pointAt(along(last))); }
 
-  /// The first of these steps whose place is solid.
+  /// Returns the first of the steps first..last whose position is solid; nullopt if none is.
   std::optional<int64_t> firstSolid(const ProgramView& view, int64_t first, int64_t last, size_t depth) {
     while (pruned_.size() <= depth) pruned_.push_back(std::make_unique<PrunedProgram>(field_.memory));
     PrunedProgram& here = *pruned_[depth];
@@ -64,8 +67,8 @@ class RayWalk {
     return first + (hit - q.begin());
   }
 
-  /// Bisects between the solid step and the previous one, down to half a unit, using only quantised samples: so every
-  /// machine gets the same result.
+  /// Bisects between the solid step and the previous one, down to half a unit. Uses only quantised samples, so that
+  /// every machine gets the same result.
   Result<std::optional<SurfacePoint>> surfaceAt(int64_t step) {
     double open = step == 0 ? 0 : along(step - 1), closed = along(step);
     Result<std::shared_ptr<const FieldProgram>> program = field_.at(boxAround(pointAt(open), pointAt(closed)));
@@ -87,10 +90,10 @@ class RayWalk {
   const Vector3 direction_;
   const double length_, step_;
   QuerySampler sampler_;
-  std::vector<std::unique_ptr<PrunedProgram>> pruned_;  ///< by depth
+  std::vector<std::unique_ptr<PrunedProgram>> pruned_;  ///< one per depth of recursion
 };
 
-/// How far the ray stays in the world.
+/// Returns the length of the ray within the world.
 double lengthInWorld(const SplitPosition& from, const Vector3& direction, double length) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const int64_t base = from.base[static_cast<int>(axis)];
@@ -118,7 +121,7 @@ Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const Vecto
   if (largest == 0) return Error{Code::invalid_argument, "the direction has no length"};
   if (const Result<void> ok = checkLength(length, longestRay(field.finest_cell), "the ray's length"); !ok)
     return ok.error();
-  // Scale first, since squares of very large and very small numbers leave the range of a double.
+  // The direction is scaled first, because squares of very large or very small numbers leave the range of a double.
   Vector3 unit{direction[0] / largest, direction[1] / largest, direction[2] / largest};
   const double size = std::sqrt(dot(unit, unit));
   unit = {unit[0] / size, unit[1] / size, unit[2] / size};

@@ -1,5 +1,5 @@
 #pragma once
-// A window of chunks whose signs are held in memory, and the source of these signs.
+// Holds the signs of samples of a window of chunks in memory, and loads them from the field.
 
 #include <functional>
 #include <map>
@@ -15,21 +15,22 @@ namespace sgm {
 /// A lattice of samples one cell apart: sample (x, y, z) lies at (x, y, z) * cell, and chunk (x, y, z) begins with
 /// sample 32 * (x, y, z).
 struct SignField {
-  /// Returns the signs of a chunk wholly inside the world. Called from any thread.
+  /// Returns the signs of a chunk that lies wholly inside the world. Called from any thread.
   std::function<Result<ChunkSigns>(Int3 chunk)> signs;
   int32_t cell = kUnitsPerMetre / 2;  ///< units
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// The samples of level 0 of a field.
+/// Returns the samples of level 0 of a field.
 SignField signField(QueryField field);
 
-/// Holds the signs of chunks until they are dropped. For one thread, except at() and clearance().
+/// Holds the signs of chunks until they are dropped. Not thread-safe, except at() and clearance().
 class SignWindow {
  public:
   explicit SignWindow(const SignField& field) : field_(field) {}
 
-  /// Loads the missing chunks on the job system. Errors: the field's; of several errors the first chunk's.
+  /// Loads those of the chunks that are missing, on the job system. Errors: those of the field; of several errors, the
+  /// first chunk's.
   Result<void> add(std::span<const Int3> chunks, JobSystem& jobs);
   /// Drops the chunks for which keep(chunk) is false.
   template <class Keep>
@@ -39,7 +40,8 @@ class SignWindow {
 
   /// Precondition: the chunk is loaded.
   const ChunkSigns& at(Int3 chunk) const { return chunks_.at(chunk); }
-  /// See mesh/clearance.h. Precondition: the chunk is loaded; if most > 1, the 26 around it are, too.
+  /// Returns the clearance of a chunk's samples (squaredClearance in mesh/clearance.h). Precondition: the chunk is
+  /// loaded and, if most > 1, the 26 chunks around it, too.
   std::pmr::vector<uint16_t> clearance(Int3 chunk, int most) const;
 
  private:
@@ -47,7 +49,7 @@ class SignWindow {
   std::map<Int3, ChunkSigns> chunks_;
 };
 
-/// The chunks whose coordinates differ from this one's by at most `rings` on each axis.
+/// Returns the chunk, and all chunks whose coordinates differ from its own by at most `rings` on each axis.
 std::vector<Int3> chunksAround(Int3 chunk, int rings);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The voids of a region for agents of one size, as a graph: the voids of its chunks and their connections.
+// The voids of a region for agents of one size, as a graph whose nodes are voids of single chunks.
 
 #include <array>
 #include <cstdint>
@@ -15,46 +15,46 @@ namespace sgm {
 /// A connected void of a region.
 struct RegionVoid {
   uint64_t samples = 0;
-  bool sealed = false;  ///< it does not touch the region's border
+  bool sealed = false;  ///< true if the void does not touch the region's border
   friend auto operator<=>(const RegionVoid&, const RegionVoid&) = default;
 };
 
-/// Takes chunks one by one, and keeps their voids and the contacts between voids of adjacent chunks. Of the samples it
-/// keeps only the faces of the last layer: two bytes for each of a face's 1,089 samples.
+/// Builds the graph chunk by chunk: stores the voids, and the contacts between voids of adjacent chunks. Of the
+/// samples, it stores only the faces of the last layer of chunks: two bytes for each of a face's 1,089 samples.
 class VoidGraph {
  public:
-  /// order: of the region's chunks. ways: keep the data for chunksOfWay().
+  /// order: of the region's chunks. ways: store the data that chunksOfWay() needs.
   VoidGraph(const ChunkOrder& order, bool ways, std::pmr::memory_resource* memory);
 
   /// Adds the next chunk of the order. Returns false if the region has more voids than 32 bits can number.
   bool add(ChunkVoids chunk);
 
-  /// The graph's number for a void of the last added chunk.
+  /// Returns the graph's number for a void of the chunk that was added last.
   uint32_t numberOf(uint32_t void_in_chunk) const { return first_.back() + void_in_chunk; }
 
-  // For use after the last chunk was added:
+  // The following functions require that all chunks were added.
 
   bool joined(uint32_t a, uint32_t b) { return rootOf(a) == rootOf(b); }
-  /// The number of samples in the whole void that this one belongs to.
+  /// Returns the number of samples in the whole connected void that void `number` belongs to.
   uint64_t samplesOf(uint32_t number);
-  /// The voids of the region, largest first.
+  /// Returns the connected voids of the region, largest first.
   std::vector<RegionVoid> voids();
 
-  /// The chunks of a path from a to b, by their numbers in the order: those with the shortest sum of straight lines
-  /// through the middles of the face parts that the voids share. A chunk appears each time that the path enters it;
-  /// each chunk shares a face with the previous one. from, to: samples of a and b, counted from the region's lowest.
-  /// Preconditions: joined(a, b), and `ways` was set.
+  /// Returns the chunks of a path from a to b, as numbers of the order. Among all sequences of voids, chooses the one
+  /// with the shortest sum of straight lines through the middles of the portals (the parts of faces that two voids
+  /// share). A chunk appears each time that the path enters it; each chunk shares a face with the previous one. from,
+  /// to: samples of a and b, relative to the region's lowest sample. Preconditions: joined(a, b), and `ways` was true.
   std::vector<uint32_t> chunksOfWay(uint32_t a, Int3 from, uint32_t b, Int3 to) const;
 
  private:
-  using Place = std::array<double, 3>;  ///< in samples
+  using Place = std::array<double, 3>;  ///< a position in samples, relative to the region's lowest sample
   struct Portal {
-    std::array<uint32_t, 2> sides{};  ///< voids that share these samples of a face
+    std::array<uint32_t, 2> sides{};  ///< the two voids that share these samples of a face
     Place middle{};
     uint32_t samples = 0;
   };
   using FaceVoids = std::pmr::vector<uint16_t>;
-  /// A high face of a chunk, for the chunk's next neighbour.
+  /// A high face of a chunk, stored until the next chunk along the axis is added.
   struct OpenFace {
     FaceVoids voids;
     uint32_t first = 0;  ///< number of the chunk's first void
@@ -69,11 +69,11 @@ class VoidGraph {
   bool ways_;
   std::pmr::memory_resource* memory_;
   std::pmr::vector<uint32_t> first_;    ///< number of each chunk's first void
-  std::pmr::vector<uint32_t> parent_;   ///< union-find over voids; roots are the lowest
-  std::pmr::vector<uint32_t> samples_;  ///< samples of each void in its chunk
-  std::pmr::vector<uint8_t> open_;      ///< 1: touches the region's border
-  std::pmr::vector<Portal> portals_;    ///< only if `ways` is set
-  /// By axis: the high faces of the last chunks, up to the neighbour along the axis.
+  std::pmr::vector<uint32_t> parent_;   ///< union-find over voids; the root of a set is its lowest number
+  std::pmr::vector<uint32_t> samples_;  ///< number of samples of each void in its own chunk
+  std::pmr::vector<uint8_t> open_;      ///< for each void: 1 if it touches the region's border
+  std::pmr::vector<Portal> portals_;    ///< contacts between voids; empty unless `ways` is set
+  /// By axis: the high faces of the last chunks, until the next chunk along that axis is added.
   std::array<std::pmr::vector<OpenFace>, 3> awaiting_;
 };
 

@@ -14,20 +14,21 @@ namespace sgm {
 namespace {
 
 constexpr int kMostNeed = kMostClearance * kMostClearance;
-constexpr int kRadiiTogether = 16;      // agent sizes that one pass over the region distinguishes
-constexpr size_t kChunksTogether = 64;  // chunks whose voids are computed before they are joined
+constexpr int kRadiiTogether = 16;  // number of agent sizes that one pass over the region distinguishes
+// number of chunks whose voids are computed in parallel before they are added to the graph
+constexpr size_t kChunksTogether = 64;
 
-/// An end of a path: its sample, if it has one, and the distance from there to the nearest solid sample.
+/// An end of a path: its sample (nullopt in rock), and the distance from there to the nearest solid sample.
 struct End {
   std::optional<Int3> sample;
   int clearance = 0;  ///< squared, in cells
 };
 
-/// The results of one pass for agents of one size.
+/// The result of one pass for agents of one size.
 struct Survey {
-  int need = 1;  ///< the squared clearance, in cells, from which a sample is free
+  int need = 1;  ///< a sample is free if its squared clearance, in cells, is at least this
   VoidGraph graph;
-  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the ends
+  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the two ends
 
   bool joined() { return ends[0] && ends[1] && graph.joined(*ends[0], *ends[1]); }
 };
@@ -105,7 +106,7 @@ class VoidSearch {
     return {};
   }
 
-  /// The chunk that owns a sample of the region.
+  /// Returns the chunk that owns a sample of the region.
   Int3 chunkOf(Int3 sample) const {
     Int3 chunk;
     for (int axis = 0; axis < 3; ++axis)
@@ -117,7 +118,7 @@ class VoidSearch {
     return {sample.x - first.x, sample.y - first.y, sample.z - first.z};
   }
 
-  /// Ordered x, y, z, as the caller counts.
+  /// Formats a place for a message: x, y, z in the unit that the caller uses.
   std::string told(const std::array<double, 3>& place) const {
     const double unit = question_.ends->tell_metres ? kUnitsPerMetre : 1;
     return numberText(place[0] / unit) + ", " + numberText(place[1] / unit) + ", " + numberText(place[2] / unit);
@@ -145,7 +146,7 @@ class VoidSearch {
       const double sample = std::floor(place[static_cast<size_t>(axis)] / field_.cell);
       low[axis] = std::min(static_cast<int32_t>(sample), high_[axis] * kChunkCells - 1);
     }
-    // All eight samples lie in one chunk.
+    // The eight samples around a place always lie in one chunk.
     const Int3 chunk = chunkOf(low);
     if (const Result<void> added = window_.add(chunksAround(chunk, 1), jobs_); !added) return added.error();
     const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMostNeed);
@@ -167,19 +168,20 @@ class VoidSearch {
     return end;
   }
 
-  /// Whether a squared distance in cells is within the length. All code uses this one comparison, so that a reported
-  /// length gives the same result when it is used as a query.
+  /// True if the root of a squared distance in cells is at most the length in units. All code uses this one comparison,
+  /// so that a reported length gives the same result when it is used as a query.
   bool isAsNear(int square, double length) const { return length * length >= squaredOf(square); }
   double squaredOf(int square) const { return static_cast<double>(field_.cell) * field_.cell * square; }
 
-  /// The least square greater than the radius's: a solid sample at a smaller distance blocks the agent.
+  /// Returns the smallest square that is greater than that of the radius: any nearer solid sample blocks the agent.
   int needed() const {
     int need = 1;
     while (need < kMostNeed && isAsNear(need, question_.radius)) ++need;
     return need;
   }
 
-  /// The least length for which isAsNear() holds at this squared distance in cells: the root, or a number next to it.
+  /// Returns the smallest length for which isAsNear() holds at this squared distance in cells: the root, or a
+  /// floating-point number next to it.
   double leastAsFar(int square) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double least = std::sqrt(squaredOf(square));
@@ -189,7 +191,8 @@ class VoidSearch {
     return least;
   }
 
-  /// Needs between the last one known to have a path and the first one known to have none, evenly spaced, ascending.
+  /// Returns values of `need` between the last one known to have a path and the first one known to have none, evenly
+  /// spaced, ascending.
   std::vector<int> between() const {
     const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
@@ -197,7 +200,8 @@ class VoidSearch {
     return needs;
   }
 
-  /// One pass for all these needs, results in ascending order; keeps path data for one of them.
+  /// Makes one pass over the region for all of these needs; returns results in ascending order. way: the need for which
+  /// data of the path is stored.
   Result<std::vector<Survey>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
@@ -213,7 +217,7 @@ class VoidSearch {
         seen.insert(seen.end(), around.begin(), around.end());
       }
       window_.dropUnless([&](Int3 chunk) {
-        Int3 last;  // the last chunk that needs this one
+        Int3 last;  // the last chunk in the order whose computation needs this chunk
         for (int axis = 0; axis < 3; ++axis)
           last[axis] = std::clamp(chunk[axis] + rings - low_[axis], 0, count_[axis] - 1);
         return order.numberOf(last) >= first;
@@ -266,7 +270,7 @@ class VoidSearch {
     return voids;
   }
 
-  /// Makes passes until the largest need with a path is known.
+  /// Makes passes over the region until the largest need that has a path is known.
   Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
@@ -320,10 +324,10 @@ class VoidSearch {
   const VoidQuestion& question_;
   const Progress& progress_;
   SignWindow window_;
-  Int3 low_, high_, count_;  ///< chunks; high_ is outside of the region
+  Int3 low_, high_, count_;  ///< in chunks; high_ is excluded
   std::array<End, 2> ends_;
-  int last_holding_ = 0;   ///< needs up to this have a path
-  int first_failing_ = 1;  ///< needs from this on have none
+  int last_holding_ = 0;   ///< the largest need known to have a path
+  int first_failing_ = 1;  ///< the smallest need known to have none
 };
 
 }  // namespace

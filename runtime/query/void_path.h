@@ -5,10 +5,10 @@
 // outside of the region, is within the agent's radius (mesh/clearance.h); with radius 0 all of the void is free. Free
 // samples connect along the axes and across the diagonals of faces, as the mesh joins its voids (region/components.h),
 // and a path goes from sample to connected sample within the region. So a path is valid for the ball only to within
-// cells: between two of its samples the nearest solid sample may be nearer by 0.71 cells, and the surface lies before
+// cells: between two of its samples, the nearest solid sample may be nearer by 0.71 cells; and the surface lies before
 // that sample by less than 1.74 cells, usually less than one.
 //
-// A place stands for the nearest void sample of the eight around it; if all are solid, it lies in rock.
+// A place is represented by the nearest void sample of the eight around it; if all eight are solid, it lies in rock.
 
 #include <optional>
 #include <vector>
@@ -21,14 +21,14 @@ namespace sgm {
 
 struct VoidQuestion {
   IntBox region;      ///< lo <= p < hi, units; grown to whole chunks
-  double radius = 0;  ///< of the agent, units: 0 to less than kMostClearance cells
+  double radius = 0;  ///< radius of the agent in units: 0 to less than kMostClearance cells
   struct Ends {
-    std::array<double, 3> from{}, to{};  ///< units, in the region
-    bool widest = false;                 ///< also find the largest possible agent
-    bool tell_metres = false;            ///< error messages give places in metres instead of units
+    std::array<double, 3> from{}, to{};  ///< in units, in the region
+    bool widest = false;                 ///< also find the largest agent for which a path exists
+    bool tell_metres = false;            ///< true: error messages give places in metres; false: in units
   };
-  std::optional<Ends> ends;     ///< nullopt: no path is requested
-  uint64_t max_chunks = 65536;  ///< of the region; never more than 2^24
+  std::optional<Ends> ends;     ///< ends of the requested path; nullopt: no path is requested
+  uint64_t max_chunks = 65536;  ///< maximum number of chunks of the region; values above 2^24 count as 2^24
 };
 
 enum class WayVerdict {
@@ -37,40 +37,41 @@ enum class WayVerdict {
   to_in_rock,
   from_too_narrow,  ///< the place is in the void, but the agent does not fit there
   to_too_narrow,
-  apart,  ///< the agent fits at both places, but no path joins them
+  apart,  ///< the agent fits at both places, but no path connects them
 };
 
 /// A path from one place to another, or the reason why there is none. Lengths in units.
 struct VoidWay {
   WayVerdict verdict = WayVerdict::apart;
-  /// Samples from that of `from` to that of `to`, each connected with the previous one: the shortest such path within
-  /// the chunks that VoidGraph::chunksOfWay() chooses. Empty if there is none.
+  /// The samples of the path, from that of `from` to that of `to`, each connected with the previous one. It is the
+  /// shortest path within the chunks that VoidGraph::chunksOfWay() chooses. Empty if there is none.
   std::vector<Int3> places;
   double length = 0;
-  /// The distance from each place's sample to the nearest solid one, at most kMostClearance cells; 0 in rock. Rounded
-  /// up, so that an agent of this radius does not fit there.
+  /// The distance from the sample of each end to the nearest solid sample, in units, at most kMostClearance cells; 0 in
+  /// rock. Rounded up, so that an agent of this radius does not fit there.
   double from_clearance = 0, to_clearance = 0;
-  /// If requested: a path exists for every radius below this value, and for none from it on; 0: for no agent. Exact:
-  /// with this radius there is no path, with the next smaller number there is one. kMostClearance cells also stand for
-  /// any larger value.
+  /// If requested: the smallest radius, in units, for which there is no path; a path exists for every smaller radius.
+  /// 0: no agent has a path. Exact: the next smaller floating-point number has a path. kMostClearance cells also stand
+  /// for any larger value.
   double widest = 0;
-  /// The number of samples in the voids that contain the two places, for this radius; 0 if a place is not free.
+  /// For each end, the number of samples in the void that contains it, for this radius; 0 if the place is not free.
   uint64_t from_samples = 0, to_samples = 0;
 };
 
 struct VoidAnswer {
-  IntBox extent;  ///< the region grown to whole chunks; hi is outside, but samples on it count
+  IntBox extent;  ///< the region grown to whole chunks; hi is excluded, but the samples on it count
   uint64_t chunks = 0;
-  double sample = 0;              ///< volume of one sample, m3
-  std::vector<RegionVoid> voids;  ///< largest first
-  std::optional<VoidWay> way;     ///< if ends are given
+  double sample = 0;              ///< volume of one sample in m3
+  std::vector<RegionVoid> voids;  ///< connected voids, largest first
+  std::optional<VoidWay> way;     ///< result for the path, if ends are given
 };
 
-/// Processes the region's chunks in order along its longest axis, and keeps their voids and connections. Of the samples
-/// it keeps the signs (a bit each, 8.7 KB a chunk that is neither all solid nor all void) of about two layers of chunks
-/// with one layer around them, and the faces of one layer (void_graph.h). A path takes 12 bytes a place, and up to 300
-/// a chunk (void_walk.h). Finding the widest agent takes at most two more passes. The same answer whatever the job
-/// system does. progress: counts the chunks of each pass separately, and of the walk that finds the path.
+/// Processes the region's chunks in order along its longest axis, and stores their voids and connections. Of the
+/// samples, it holds the signs of about two layers of chunks with one layer around them (one bit per sample: 8.7 KB for
+/// a chunk that is neither all solid nor all void), and the faces of one layer (void_graph.h). A path takes 12 bytes
+/// per place, and up to 300 bytes per chunk (void_walk.h). Finding the largest agent takes at most two more passes. The
+/// result does not depend on the job system. progress: counts the chunks of each pass separately, and those of the walk
+/// that finds the path.
 /// Errors: invalid_argument (the region is empty; the radius; an end is outside of the region, or not finite), range
 /// (the region, with one chunk around it, leaves the world), limit (more than max_chunks chunks, or 2^32 voids),
 /// cancelled, and those of compiling the field.

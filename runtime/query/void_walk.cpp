@@ -14,9 +14,10 @@ namespace {
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
-constexpr uint8_t kStart = 27;                         // not a step: marks where a walk enters the chunk
-constexpr size_t kChunksAtOnce = 64;                   // chunks that are processed together
-constexpr uint64_t kAlongAxis = 70, kAcrossFace = 99;  // their ratio is the root of 2, to 5 in 100,000
+constexpr uint8_t kStart = 27;        // not a step: marks a sample where a walk enters the chunk
+constexpr size_t kChunksAtOnce = 64;  // number of chunks that are processed together
+// costs of a step along an axis and across a face's diagonal: their ratio is the root of 2, to 5 in 100,000
+constexpr uint64_t kAlongAxis = 70, kAcrossFace = 99;
 
 Int3 stepOf(int number) { return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1}; }
 int axesOf(Int3 step) { return std::abs(step.x) + std::abs(step.y) + std::abs(step.z); }
@@ -33,16 +34,16 @@ Int3 firstSampleOf(Int3 chunk) { return {chunk.x * kChunkCells, chunk.y * kChunk
 /// A sample where a walk enters a chunk, and the walk's cost up to there.
 struct Entry {
   uint64_t cost = 0;
-  uint32_t at = 0;  ///< number of the sample in the chunk
+  uint32_t at = 0;  ///< index of the sample in the chunk
 
   friend auto operator<=>(const Entry&, const Entry&) = default;
 };
 
 using Entries = std::pmr::vector<Entry>;
-using Steps = std::pmr::vector<uint8_t>;  ///< for each sample of a chunk the last step to it; kStart where a walk
-                                          ///< enters
+/// for each sample of a chunk: the last step of the shortest walk to it; kStart where a walk enters the chunk
+using Steps = std::pmr::vector<uint8_t>;
 
-/// The shortest walks in one chunk from its entries (Dijkstra).
+/// Finds the shortest walks in one chunk from its entries to all samples (Dijkstra).
 class ChunkWalks {
  public:
   ChunkWalks(std::span<const uint64_t> closed, std::span<const Entry> entries, std::pmr::memory_resource* memory)
@@ -74,7 +75,8 @@ class ChunkWalks {
     }
   }
 
-  /// The reached samples of the face towards the chunk on this side, numbered as that chunk's samples.
+  /// Returns the entries into the chunk on this side: the reached samples of the common face, with that chunk's
+  /// indices.
   Entries entriesTo(Int3 side) const {
     Entries found(cost_.get_allocator());
     for (size_t i = 0; i < kSamples; ++i) {
@@ -94,7 +96,8 @@ class ChunkWalks {
   std::pmr::vector<uint64_t> cost_;
 };
 
-/// Processes the chunks of a walk in groups: forwards, to find the entries into each group, and then backwards.
+/// Processes the chunks of a walk in groups: forwards, to find the entries into each group; then backwards, to trace
+/// the walk.
 class Walk {
  public:
   Walk(SignWindow& window, JobSystem& jobs, std::span<const Int3> chunks, int need, std::pmr::memory_resource* memory,
@@ -103,7 +106,7 @@ class Walk {
 
   Result<std::vector<Int3>> between(Int3 from, Int3 to) {
     const size_t last = (chunks_.size() - 1) / kChunksAtOnce;
-    // The last group is still loaded when the walk is traced backwards.
+    // The last group is visited only once: it is still loaded when the walk is traced backwards.
     total_ = chunks_.size() + last * kChunksAtOnce;
     std::vector<Entries> entries;
     entries.emplace_back(memory_).push_back({0, static_cast<uint32_t>(indexIn(0, from))});
@@ -133,7 +136,8 @@ class Walk {
  private:
   size_t indexIn(size_t chunk, Int3 sample) const { return indexOf(minus(sample, firstSampleOf(chunks_[chunk]))); }
 
-  /// Computes the steps in the chunks of a group. entries: of its first chunk; on return, of the chunk after the group.
+  /// Computes the steps in the chunks of a group. entries: of the group's first chunk; afterwards, of the chunk that
+  /// follows the group.
   Result<void> look(size_t group, Entries& entries, std::vector<Steps>& steps) {
     const size_t first = group * kChunksAtOnce;
     const std::span<const Int3> some = chunks_.subspan(first, std::min(kChunksAtOnce, chunks_.size() - first));
