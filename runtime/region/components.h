@@ -21,60 +21,61 @@ struct Components {
   friend bool operator==(const Components&, const Components&) = default;
 };
 
-/// A connected piece, in samples of the block.
+/// A connected piece; lengths in samples.
 struct Piece {
   uint64_t samples = 0;
-  IntBox box;  ///< the smallest box of its samples
+  IntBox box;  ///< bounding box of the piece's samples
 
   friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// Smallest first; equal ones by their lowest corner: z, then y, then x.
+/// sorted: smallest first, equal ones by their lowest corner (z, then y, then x)
 struct Pieces {
   std::vector<Piece> solid, air;
 
-  /// The numbers of pieces with more samples than this.
+  /// Returns the numbers of solid and void pieces that have more than `samples` samples.
   Components above(double samples) const;
   friend bool operator==(const Pieces&, const Pieces&) = default;
 };
 
-/// The pieces with more samples than this. pieces: a member of Pieces.
+/// Returns the pieces with more than `samples` samples. pieces: a sorted member of Pieces.
 std::span<const Piece> largerThan(std::span<const Piece> pieces, double samples);
 
-/// Counts plane by plane. Remembers only the last plane, and the sizes and boxes of the pieces before it.
+/// Counts pieces while planes are added one by one. Stores only the last plane, and the sizes and boxes of earlier
+/// pieces.
 class ComponentCounter {
  public:
-  /// For planes of nx by ny samples, at least one each.
+  /// nx, ny: number of samples in a plane along each axis, at least 1.
   ComponentCounter(size_t nx, size_t ny, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  /// Words of a row in a plane.
+  /// Returns the number of 64-bit words of a row of nx samples.
   static size_t rowWords(size_t nx) { return (nx + 63) / 64; }
 
   /// Adds the next plane: ny rows of rowWords(nx) words. Bit x % 64 of word x / 64 is set if sample x is solid; bits
-  /// from nx on are ignored. Takes about one step per run of equal signs, each in nearly constant time.
+  /// from nx on are ignored. Takes nearly constant time per run of equal signs.
   void addPlane(std::span<const uint64_t> signs);
 
-  /// The pieces of all planes so far.
+  /// Returns the pieces of all planes added so far.
   Pieces pieces() const;
 
  private:
-  /// A run of equal signs: samples begin <= x < end of one row.
+  /// A run of equal signs in a row: samples begin <= x < end.
   struct Run {
     uint32_t begin = 0, end = 0;
-    uint32_t piece = 0;  ///< into parent_
+    uint32_t piece = 0;  ///< index of the run's piece in parent_
     bool solid = false;
   };
   struct Plane {
     std::pmr::vector<Run> runs;
-    std::pmr::vector<size_t> first;  ///< index of each row's first run, and the end
+    std::pmr::vector<size_t> first;  ///< index of the first run of each row, and the end of the last row
 
     explicit Plane(std::pmr::memory_resource* memory) : runs(memory), first(memory) {}
     std::span<const Run> row(size_t y) const { return std::span(runs).subspan(first[y], first[y + 1] - first[y]); }
   };
 
   void findRuns(std::span<const uint64_t> signs);
-  /// Joins touching runs; void runs also touch if they are `diagonal` samples (0 or 1) apart. solid: join solid runs,
-  /// too.
+  /// Joins the pieces of runs in two rows that touch. Void runs also count as touching if they are `diagonal` samples
+  /// (0 or 1) apart. solid: true: join solid runs, too.
   void joinRows(std::span<const Run> a, std::span<const Run> b, uint32_t diagonal, bool solid);
   void join(uint32_t a, uint32_t b);
   uint32_t rootOf(uint32_t piece);
@@ -82,15 +83,16 @@ class ComponentCounter {
 
   size_t nx_, ny_;
   Plane last_, next_;
-  uint32_t open_ = 0;                  ///< number of pieces in the last plane
-  std::pmr::vector<uint32_t> parent_;  ///< union-find over the pieces of the last plane, then the runs of the next
+  uint32_t open_ = 0;  ///< number of pieces in the last plane
+  /// union-find over the pieces of the last plane, followed by the runs of the next plane
+  std::pmr::vector<uint32_t> parent_;
   std::pmr::vector<uint32_t> number_;
   struct Open {
     bool solid = false;
     Piece piece;
   };
-  std::pmr::vector<Open> pieces_;  ///< pieces in the last plane
-  Pieces closed_;                  ///< all other pieces, unordered
+  std::pmr::vector<Open> pieces_;  ///< the pieces that reach the last plane, to which later planes may add samples
+  Pieces closed_;                  ///< the pieces that do not reach the last plane and are complete, unsorted
   int32_t planes_ = 0;
 };
 

@@ -46,7 +46,7 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   return wanted;
 }
 
-/// The piece in units and m3, with a box around the cubes of its samples.
+/// Converts a piece to units and m3. Its box contains the cubes around its samples.
 MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   MeasuredPiece out;
   out.volume = static_cast<double>(piece.samples) * region.sample;
@@ -58,7 +58,7 @@ MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   return out;
 }
 
-/// Reads all measures except anchors.
+/// Extracts the measure that a statement names from those of a region. Not for anchors.
 Measured read(const Program& program, const Expectation& e, const RegionMeasures& region) {
   Measured result;
   switch (e.measure) {
@@ -99,7 +99,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
   return result;
 }
 
-/// Whether an error ends the whole evaluation, instead of being the outcome of one statement.
+/// True if an error ends the whole evaluation instead of being the outcome of one statement.
 bool isFatal(const Error& error) { return error.code == Code::out_of_memory || error.code == Code::cancelled; }
 
 class Evaluator {
@@ -127,7 +127,8 @@ class Evaluator {
   }
 
  private:
-  /// Groups statements of one rule (or of none) and one region, in order of their first; sets the outcomes' regions.
+  /// Groups statements about the same rule (or none) and the same region, in the order of the first of each group; also
+  /// sets the regions of the outcomes.
   std::vector<std::vector<uint32_t>> together() {
     std::vector<std::vector<uint32_t>> sets;
     for (uint32_t s = 0; s < program_.expectations.size(); ++s) {
@@ -201,7 +202,8 @@ class Evaluator {
       }
       keep(s, std::move(measured));
     }
-    // A region of very many cells was meshed without visiting all of them at once: then it has no notes.
+    // A region of very many cells was meshed without visiting all of its cells at once: then notes() fails, and there
+    // are none.
     const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent, *cell);
     if (!notes && notes.error().code != Code::limit) return notes.error();
     if (notes) result_.notes.insert(result_.notes.end(), notes->begin(), notes->end());
@@ -246,7 +248,7 @@ class Evaluator {
     return {};
   }
 
-  /// A box around all shapes, with air on every side; empty if there is no shape.
+  /// Returns a box around all shapes of a rule's use, with air on every side; empty if there is no shape.
   static IntBox boxOf(const RuleInstance& instance) {
     IntBox box;
     for (const Group& group : instance.chunk.groups) {
@@ -258,7 +260,7 @@ class Evaluator {
     return box;
   }
 
-  /// The measures of a use without shapes.
+  /// Returns the measures of a use that has no shapes.
   static RegionMeasures nothing() {
     RegionMeasures measures;
     measures.topology.watertight = true;

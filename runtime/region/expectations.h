@@ -12,7 +12,7 @@
 //   triangles   of that surface
 //   genus       handles of the surface, summed over its shells; not measured if the border cuts the surface
 //   anchors     inside the region
-// A measure that cannot be computed does not hold, and gives the reason.
+// A measure that cannot be computed counts as failed, and the result says why.
 //
 // Regions
 //   in block(n)  see blockRegion(); otherwise the region that the caller names, else the box of a finite world, else
@@ -37,47 +37,51 @@ struct ExpectationSettings {
   std::shared_ptr<const Program> program;
   ParameterValues parameters;
   uint64_t seed = 0;
-  std::optional<IntBox> region;  ///< lo <= p < hi; for statements without `in block(n)`
-  int32_t cell = 0;              ///< units; 0: chosen for each statement
+  std::optional<IntBox> region;  ///< lo <= p < hi: the region of statements without `in block(n)`; nullopt: see above
+  int32_t cell = 0;              ///< cell edge in units; 0: chosen for each statement
   uint64_t max_chunks = kMeasuredChunks;
   size_t cache_bytes = size_t{64} << 20;
 };
 
 struct MeasuredPiece {
-  double volume = 0;  ///< m3, by its samples
-  IntBox box;         ///< around its samples, units
+  double volume = 0;  ///< m3, computed from the number of its samples
+  IntBox box;         ///< bounding box of its samples, in units
 };
 
-/// The most pieces listed of those counted: the smallest ones.
+/// The maximum number of pieces listed in Measured::pieces: the smallest ones.
 inline constexpr size_t kMostPieces = 16;
 
-/// One measurement: of the region as a whole, or of one use of a rule.
+/// One measurement: of the region as a whole or, with `per`, of one use of a rule.
 struct Measured {
-  std::optional<double> value;          ///< SI; a count; watertight: 1 or 0. nullopt if it cannot be measured
-  std::string why;                      ///< why it cannot be measured, or is not watertight; else empty
-  std::string path;                     ///< of a use of a rule: its derivation path
-  Int3 origin;                          ///< of a use of a rule: its frame, in units
-  bool holds = true;                    ///< true for a report
-  std::vector<MeasuredPiece> pieces{};  ///< components: the smallest of those counted, ascending; at most kMostPieces
-  std::optional<double> cubes{};        ///< volume: m3 by equation 8 of the paper (cubeVolume() in measure.h)
+  /// in SI units; a count; for watertight 1 or 0. nullopt if it cannot be measured
+  std::optional<double> value;
+  std::string why;                      ///< the reason why it cannot be measured, or is not watertight; otherwise empty
+  std::string path;                     ///< with `per`: the derivation path of the rule's use
+  Int3 origin;                          ///< with `per`: the origin of the frame of the rule's use, in units
+  bool holds = true;                    ///< whether the expectation holds; true for a report
+  std::vector<MeasuredPiece> pieces{};  ///< for components: the smallest counted pieces, ascending; at most kMostPieces
+  /// for volume: m3 by counting cubes, equation 8 of the paper (cubeVolume() in measure.h)
+  std::optional<double> cubes{};
 };
 
 struct Outcome {
-  IntBox region;                   ///< grown to whole chunks if it is measured as a whole; hi is outside
-  int32_t cell = 0;                ///< units
-  uint64_t chunks = 0;             ///< meshed for this statement, alone or together with others
-  std::vector<Measured> measured;  ///< one element; with `per`, one for each use
+  /// the measured region, grown to whole chunks unless a use of a rule is measured; hi is excluded
+  IntBox region;
+  int32_t cell = 0;                ///< cell edge in units
+  uint64_t chunks = 0;             ///< number of chunks meshed for this statement, alone or together with others
+  std::vector<Measured> measured;  ///< one element; with `per`, one for each use of the rule
   std::optional<Error> error;      ///< set if the statement could not be evaluated at all
-  bool holds() const;              ///< all of `measured` hold, and no error; for a report: no error
+  /// true if all of `measured` hold and there is no error; for a report, if there is no error
+  bool holds() const;
 };
 
 struct Evaluation {
-  std::vector<Outcome> outcomes;  ///< one for each of Program::expectations, in their order
-  std::vector<DeriveNote> notes;  ///< omissions of derivation in the regions measured as a whole
+  std::vector<Outcome> outcomes;  ///< one for each element of Program::expectations, in the same order
+  std::vector<DeriveNote> notes;  ///< omissions of derivation in the regions that were measured as a whole
 };
 
-/// Pure. Statements about the same region share its meshes. Errors: out_of_memory and cancelled. Any other error is the
-/// outcome of the statement where it occurred.
+/// Evaluates all statements of a grammar. Pure. Statements about the same region share its meshes. Errors:
+/// out_of_memory and cancelled. Any other error becomes the outcome of the statement where it occurred.
 Result<Evaluation> evaluateExpectations(const ExpectationSettings& settings, Backend& backend, JobSystem& jobs,
                                         std::pmr::memory_resource* memory, const Progress& progress = {});
 

@@ -19,16 +19,17 @@ namespace {
 
 using measure::Point;
 
-/// Boxes this small have programs with few groups, and few of them share a vertex.
+/// Edge, in cells, of the boxes that have a program each: so small that a program has few groups.
 constexpr int32_t kBoxCells = 16;
 constexpr double kBend = 0.25;
-/// The least gradient of a field from which a distance could be read.
+/// The smallest length of a gradient at which |f| / |grad f| is meaningful.
 constexpr double kLeastGradient = 1e-6;
 
-/// An eighth of a cell, but not so small that the rounding of warped places to whole units would matter.
+/// Returns an eighth of a cell, but at least a step for which the rounding of warped positions to whole units does not
+/// matter.
 int32_t stepFor(int32_t cell) { return std::max(cell / 8, std::min(16, std::max(cell / 2, 1))); }
 
-/// A vertex in units, and the nearest whole place.
+/// A vertex in units, and the nearest position in whole units.
 struct Place {
   Point exact;
   Int3 whole;
@@ -43,9 +44,9 @@ Place placeOf(const WorldMesh& mesh, size_t vertex) {
   return place;
 }
 
-/// The field around a vertex.
+/// The field's value and gradient at a vertex.
 struct Sample {
-  Point gradient;  ///< units a unit
+  Point gradient;  ///< change of the value in units per unit
   double value = 0;
   bool bent = false, flat = false;
 
@@ -65,7 +66,8 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
     const double bend = (behind - 2 * middle + before) / step;
     bends += bend * bend;
   }
-  // The vertex is less than a unit from the whole place: the curvature of the field over that is negligible.
+  // Corrects the value to first order: the vertex is less than a unit from the whole position, so curvature is
+  // negligible.
   sample.value = middle + dot(sample.gradient,
                               place.exact - Point{double(place.whole.x), double(place.whole.y), double(place.whole.z)});
   const double size = length(sample.gradient);
@@ -74,7 +76,7 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
   return sample;
 }
 
-/// Vertices of one box of cells.
+/// The vertices in one box of cells.
 struct Box {
   Int3 number;
   size_t begin = 0, end = 0;
@@ -108,7 +110,7 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
     }
     const Result<std::shared_ptr<const FieldProgram>> field = world.compile(box.grown(step), level);
     if (!field) {
-      // Of several errors report the first box's, whichever thread was faster.
+      // Of several errors, the first box's is reported, so that the result does not depend on the threads' speed.
       const std::lock_guard lock(mutex);
       if (!failed || b < failed->first) failed.emplace(b, field.error());
       return;
@@ -121,7 +123,7 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
   return samples;
 }
 
-/// The value that this share of all values does not exceed.
+/// Returns the smallest value that at least this share of all values does not exceed.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -134,7 +136,7 @@ double meanOf(const std::vector<double>& values) {
 
 class AngleCounter {
  public:
-  /// Precondition: neither has length 0.
+  /// Adds the angle between two vectors. Precondition: neither has length 0.
   void add(Point normal, Point gradient) {
     const double along = dot(normal, gradient);
     inward_ += !(along > 0);

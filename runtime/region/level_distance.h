@@ -17,19 +17,20 @@ namespace sgm {
 inline constexpr double kLevelBound = 2.598076211353316;
 
 struct LevelDistance {
-  /// From the fine mesh to the coarse one and back, metres. nullopt if only one of them has triangles to test: if the
-  /// coarse one is empty, all parts are too thin for its level.
+  /// The distances from the fine mesh to the coarse one and back, in metres. nullopt if only one of the meshes has
+  /// triangles to test: if the coarse one has none, all parts are too thin for its level.
   std::optional<measure::Hausdorff> distance;
   uint64_t fine_triangles = 0, coarse_triangles = 0;  ///< tested triangles
-  /// Untested triangles: with a corner outside of the region, or less than kBorderCells coarse cells from a face where
-  /// the surface is cut. The surface nearest to them may lie outside.
+  /// Triangles that were not tested, because a corner lies outside of the region, or less than kBorderCells coarse
+  /// cells from a face of the region where the surface is cut: the surface nearest to them may lie outside.
   uint64_t fine_left_out = 0, coarse_left_out = 0;
 };
 
 inline constexpr int32_t kBorderCells = 3;
 
-/// extent: the box of the fine mesh, hi included; the coarse mesh's box contains it. coarse_cell: its edge, units. The
-/// same bits for any number of threads. Errors: those of measure::hausdorff.
+/// Measures the distance between two levels. extent: the box of the fine mesh, hi included; the coarse mesh's box
+/// contains it. coarse_cell: cell edge of the coarse level, in units. The same bits for any number of threads. Errors:
+/// those of measure::hausdorff.
 Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent, const WorldMesh& coarse,
                                     int32_t coarse_cell, const measure::HausdorffSettings& settings, JobSystem& jobs);
 

@@ -10,7 +10,7 @@ namespace sgm {
 
 Measures measuresOf(const WorldMesh& mesh, Int3 about) {
   Measures result;
-  // From `about` to the origin of positions.
+  // The vector from `about` to the origin of the mesh's positions, in metres.
   measure::Point from;
   for (int axis = 0; axis < 3; ++axis)
     from[axis] = static_cast<double>(int64_t{mesh.origin[axis]} - about[axis]) / kUnitsPerMetre;

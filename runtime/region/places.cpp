@@ -11,7 +11,7 @@ namespace {
 
 constexpr int32_t kCoarsestCell = 1024 * kUnitsPerMetre;
 
-/// Null if no layer is cut into cells.
+/// Returns the layer with the largest cells by volume; null if no layer is divided into cells.
 const Layer* coarsestLayer(const Program& program) {
   const Layer* coarsest = nullptr;
   double most = 0;
@@ -29,7 +29,7 @@ const Layer* coarsestLayer(const Program& program) {
   return coarsest;
 }
 
-/// Widens lo..hi by the reach of the layers along an axis.
+/// Extends the box to the proven reach of all layers along an axis.
 Result<void> addBounds(const Program& program, int axis, IntBox& box) {
   IntBox all;
   for (const Layer& layer : program.layers) all = all.joined(layer.bound);

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kCells = kChunkCells;
 constexpr uint64_t kCellBits = (uint64_t{1} << kCells) - 1;
 
-/// The number of chunks along each axis; keys are in order z, y, x.
+/// Returns the number of chunks along each axis. keys: all chunks of a box, in order z, y, x.
 std::array<size_t, 3> countsOf(std::span<const ChunkKey> keys) {
   std::array<size_t, 3> counts{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -22,13 +22,13 @@ std::array<size_t, 3> countsOf(std::span<const ChunkKey> keys) {
   return counts;
 }
 
-/// The signs of a row of a chunk's samples.
+/// Returns the signs of a row of a chunk's samples, one bit per sample.
 uint64_t signsOfRow(const ChunkMesh& mesh, size_t y, size_t z) {
   if (!mesh.signs.empty()) return mesh.signs[y + z * kChunkSamples];
   return mesh.solid_samples > 0 ? ~uint64_t{0} : 0;
 }
 
-/// Passes the sample planes of a layer of chunks to the counter; of the last layer also its highest plane.
+/// Adds the planes of samples of a layer of chunks to the counter, including the highest plane if it is the last layer.
 class PlaneReader {
  public:
   PlaneReader(size_t nx, size_t ny, std::pmr::memory_resource* memory)
@@ -89,7 +89,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     };
     Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, layer_progress);
     if (!chunks) return chunks.error();
-    // If the last chunk of a layer cancelled, the layer is complete, but the region is not.
+    // If the last chunk of a layer was cancelled, the layer is complete, but the region is not.
     if (stopped && z + 1 < counts[2]) return Error{Code::cancelled, "meshing was cancelled"};
     if (planes) planes->add(*chunks, z + 1 == counts[2]);
     if (z == 0) result.extent.lo = chunks->front().grid.origin;

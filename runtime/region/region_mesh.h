@@ -1,5 +1,5 @@
 #pragma once
-// A region of one level as a single mesh, for the surfaces of the C interface and the files of the command.
+// Meshes a region of one level as a single mesh, for the surfaces of the C interface and the files of the command.
 
 #include "chunk/mesh_chunks.h"
 #include "mesh/weld.h"
@@ -9,11 +9,13 @@ namespace sgm {
 
 struct RegionMesh {
   WorldMesh mesh;
-  IntBox extent;  ///< the region grown to whole chunks; hi is outside
+  IntBox extent;  ///< the region grown to whole chunks; hi is excluded
   uint64_t chunks = 0;
-  uint64_t solid_samples = 0;  ///< counted on the low faces and between, 32^3 a chunk
-  uint64_t rounded = 0;        ///< places left without sharp features, which would make the surface invalid
-  ContentHash hash;            ///< of the set of its chunks' meshes
+  /// counted like cubes: with those on the low faces, without those on the high faces; 32^3 samples per chunk
+  uint64_t solid_samples = 0;
+  /// number of loops left without sharp features, because these would make the surface invalid
+  uint64_t rounded = 0;
+  ContentHash hash;  ///< hash of the set of the chunks' meshes (hashParts)
 
   explicit RegionMesh(std::pmr::memory_resource* memory) : mesh(memory) {}
 };
@@ -25,10 +27,10 @@ struct RegionMesh {
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
                               int level, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 
-/// Meshes the same region in chunks of several levels: the chunks of the tree's coarsest level that meet it, split as
-/// in the tree. solid_samples counts the samples of each level as they are. Precondition: the tree is closed under its
-/// rules, and all virtual nodes are split that meet the region or touch such a node, except at the world's ends.
-/// Errors: those of meshRegion.
+/// Meshes the same region in chunks of several levels: those chunks of the tree's coarsest level that meet the region,
+/// split as in the tree. solid_samples counts the samples of each level without scaling. Precondition: the tree
+/// satisfies its rules, and all virtual nodes that meet the region, or touch a node that does, are split, except at the
+/// ends of the world. Errors: those of the other meshRegion.
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
                               const Octree& tree, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 

@@ -13,10 +13,10 @@
 namespace sgm {
 namespace {
 
-/// A vertex and its chunk: the vertices of a chunk share one program.
+/// A vertex and its chunk. The vertices of a chunk are evaluated with one program.
 struct Placed {
   ChunkKey block;
-  Int3 point;  ///< units
+  Int3 point;  ///< in units
   uint32_t vertex = 0;
 };
 
@@ -37,10 +37,10 @@ class PlacedMesh {
     place(chunk_at);
   }
 
-  std::span<const TexturePoint> positions() const { return positions_; }  ///< world, units
+  std::span<const TexturePoint> positions() const { return positions_; }  ///< world positions in units
   std::span<const TexturePoint> normals() const { return normals_; }
 
-  /// One for each vertex.
+  /// Returns the materials at each vertex.
   Result<std::pmr::vector<MaterialMix>> materials(const WorldField& world, JobSystem& jobs) const {
     std::pmr::vector<MaterialMix> materials(positions_.size(), memory_);
     std::pmr::vector<std::optional<Error>> errors(blocks(), memory_);
@@ -63,7 +63,8 @@ class PlacedMesh {
     return materials;
   }
 
-  /// One for each vertex. Processes blocks in order, since shapes are numbered as they are found.
+  /// Returns the label of the shape at each vertex. Blocks are processed in order, because shapes are numbered as they
+  /// are found.
   Result<std::pmr::vector<uint32_t>> labels(SurfaceShapes& shapes) const {
     std::pmr::vector<uint32_t> labels(positions_.size(), memory_), of_block(memory_);
     std::pmr::vector<Int3> points(memory_);
@@ -106,8 +107,8 @@ class PlacedMesh {
 
   std::pmr::memory_resource* memory_;
   std::pmr::vector<TexturePoint> positions_, normals_;
-  std::pmr::vector<Placed> placed_;   ///< by blocks
-  std::pmr::vector<size_t> borders_;  ///< index of each block's first vertex, and the end of the last block
+  std::pmr::vector<Placed> placed_;   ///< sorted by block (chunk)
+  std::pmr::vector<size_t> borders_;  ///< index in placed_ of each block's first vertex, and the end of the last block
 };
 
 }  // namespace

@@ -12,25 +12,26 @@
 
 namespace sgm {
 
-/// A region's mesh divided into charts and pairs of materials.
+/// The texture coordinates of a region's mesh, and how evenly they are distributed.
 struct TexturedRegion {
   Unwrapped unwrapped;
   TexelDensity density;
 };
 
-/// Returns the chunk whose level applies at a place, units. Called from one thread.
+/// Returns the chunk whose level applies at a place (in units). Not called concurrently.
 using ChunkAt = std::function<ChunkKey(Int3 place)>;
 
-/// For a level of the world: the chunk that contains the place.
+/// Returns a function for a world of a single level: the chunk that contains the place.
 ChunkAt chunksOfLevel(const WorldField& world, int level);
 
-/// Unwraps the whole region in one coordinate system, so that a vertex between two chunks has one place in a chart.
-/// tile: the edge that coordinates count in, units. Errors: those of WorldField::compileShapes and compile. Throws
-/// std::bad_alloc.
+/// Computes texture coordinates for the whole region in one coordinate system, so that a vertex between two chunks has
+/// the same coordinates in both. tile: edge of a tile in units; coordinates increase by 1 per tile. Errors: those of
+/// WorldField::compileShapes and compile. Throws std::bad_alloc.
 Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
                                     const ChunkAt& chunk_at, int32_t tile);
 
-/// The same without coordinates, as pairMaterials makes it: does not search for texture spaces.
+/// Computes only the blends of materials, without coordinates, as pairMaterials does. Does not search for texture
+/// spaces, and so is faster.
 Result<Unwrapped> blendRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, const ChunkAt& chunk_at);
 
 }  // namespace sgm

@@ -10,10 +10,10 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kChunksTogether = 4096;  ///< chunks whose meshes are in memory together
+constexpr size_t kChunksTogether = 4096;  ///< number of chunks whose meshes are in memory at the same time
 
-/// The faces of a chunk in the region's upper border. Through the lower border the flux of x, relative to the region's
-/// lowest corner, is 0.
+/// Returns which faces of a chunk lie in the upper border of the region. The lower border needs no faces: relative to
+/// the region's lowest corner, the flux of the position vector through it is 0.
 uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -21,7 +21,7 @@ uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   return faces;
 }
 
-/// Whether a sample is solid, by the rule of meshing.
+/// True if a sample is solid, by the rule of meshing.
 Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   const auto program = world.compile(IntBox{at, at}, level);
   if (!program) return program.error();
@@ -33,7 +33,7 @@ Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   return std::floor(value * (*program)->q_scale + 0.5f) < 0;
 }
 
-/// The solid in the upper faces of a region, computed from the surface's open boundary there (Green's theorem).
+/// Measures the solid in the upper faces of a region, from the open boundary of the surface there (Green's theorem).
 class UpperFaces {
  public:
   UpperFaces(const IntBox& region, const WorldMesh& mesh) : mesh_(mesh) {
@@ -43,7 +43,8 @@ class UpperFaces {
     }
   }
 
-  /// The solid area of the face across an axis, m2. corner_is_solid: whether the region's highest corner is solid.
+  /// Returns the solid area, in m2, of the upper face across an axis. corner_is_solid: sign at the region's highest
+  /// corner.
   double solidArea(int axis, bool corner_is_solid) const {
     const size_t k = index(axis), u = index((axis + 1) % 3), v = index((axis + 2) % 3);
     double area = 0;
@@ -51,7 +52,7 @@ class UpperFaces {
       const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
       const std::array<double, 3> a = place(from), b = place(to);
       if (a[k] != size_[k] || b[k] != size_[k]) continue;
-      // The face runs along the surface's edges in the opposite direction.
+      // The boundary of the face runs along the surface's open edges in the opposite direction.
       area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
     }
     return area + size_[u] * solidLength(k, u, v, corner_is_solid);
@@ -62,13 +63,14 @@ class UpperFaces {
  private:
   static size_t index(int axis) { return static_cast<size_t>(axis); }
 
-  /// Relative to the region's lowest corner, in metres: exact, since positions and cells are multiples of 1/2^18 m.
+  /// Returns the position of a vertex relative to the region's lowest corner, in metres. Exact, since positions and
+  /// cells are multiples of 1/2^18 m.
   std::array<double, 3> place(uint32_t vertex) const {
     const std::array<double, 3>& p = mesh_.positions[vertex];
     return {p[0] - low_[0], p[1] - low_[1], p[2] - low_[2]};
   }
 
-  /// The solid length of the edge along v of the upper faces across k and u, in metres.
+  /// Returns the length of solid, in metres, on the edge along v that the upper faces across k and u share.
   double solidLength(size_t k, size_t u, size_t v, bool is_solid) const {
     std::vector<double> crossings;
     for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
@@ -87,8 +89,8 @@ class UpperFaces {
   }
 
   const WorldMesh& mesh_;
-  std::array<double, 3> size_{};  ///< of the region, metres
-  std::array<double, 3> low_{};   ///< its lowest corner relative to the origin of positions
+  std::array<double, 3> size_{};  ///< extent of the region in metres
+  std::array<double, 3> low_{};   ///< the region's lowest corner, relative to the origin of positions
 };
 
 }  // namespace
@@ -108,7 +110,7 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
   for (const ChunkKey& key : keys) {
     const uint8_t faces = upperFaces(key, keys.back());
     if (faces == 0) continue;
-    // Seams to the domain's own state, as at the end of a world, fill the cut faces.
+    // Seams towards the domain's own state, as at the end of a world, have the shape of the cut faces.
     ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
     request.outermost = true;
     request.sharp = sharp;
@@ -140,7 +142,7 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
   double flux = 0;
   for (int axis = 0; axis < 3; ++axis) {
     double area = faces.solidArea(axis, *corner_is_solid);
-    // In a solid domain the surface is that of the void.
+    // In a solid domain, the surface encloses the void, so the area of the whole face is subtracted.
     if (world.isSolidDomain()) area -= faces.size((axis + 1) % 3) * faces.size((axis + 2) % 3);
     flux += faces.size(axis) * area / 3;
   }
@@ -149,7 +151,7 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
 
 double solidVolume(const WorldField& world, const IntBox& region, double flux) {
   if (!world.isSolidDomain()) return flux;
-  // The surface bounds the part that is not solid.
+  // In a solid domain, the surface bounds the void part, which is subtracted from the whole region.
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis)
     volume *= static_cast<double>(int64_t{region.hi[axis]} - region.lo[axis]) / kUnitsPerMetre;

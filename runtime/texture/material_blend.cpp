@@ -11,7 +11,7 @@ MaterialBlend materialBlend(const MaterialMix& a, const MaterialMix& b, const Ma
     std::copy(corners[i]->begin(), corners[i]->end(), all.begin() + static_cast<std::ptrdiff_t>(i * kMaterialSamples));
   }
   std::sort(all.begin(), all.end());
-  // If counts are equal, the lower numbers stay.
+  // Among equal counts, the materials with the lower numbers are chosen.
   struct Counted {
     uint16_t material;
     size_t count;
@@ -47,7 +47,7 @@ std::array<uint8_t, 3> planeShares(const std::array<double, 3>& normal) {
   for (size_t axis = 0; axis < 3; ++axis) power[axis] = normal[axis] * normal[axis] * normal[axis] * normal[axis];
   const double whole = power[0] + power[1] + power[2];
   std::array<uint8_t, 3> shares{};
-  // The rounding remainder goes to the largest share, where it is least visible.
+  // The remainder of rounding is added to the largest share, where it is least visible.
   int left = 255;
   size_t largest = 0;
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -41,7 +41,8 @@ SweepPlace SweepLine::at(Vec3 p) const {
   }
   const Vec3 off = p - nearest->from;
   double t = dot(off, nearest->tangent);
-  // Beyond a bend the next segment continues; beyond an end the line itself does.
+  // Before its start, a segment is clamped, because the previous one continues there; the first one extends beyond the
+  // line's end.
   if (nearest != &segments_.front()) t = std::max(t, 0.0);
   if (nearest != &segments_.back()) t = std::min(t, nearest->length);
   SweepPlace place;

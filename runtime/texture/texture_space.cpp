@@ -10,16 +10,18 @@
 namespace sgm {
 namespace {
 
-constexpr Chart kMirrored = 0x8000;              ///< flag of a chart: the void is on the inner side
-constexpr int kSide = 0, kTop = 1, kBottom = 2;  // of a line: its far end, its near end
-constexpr Chart kFirstSide = 2;                  ///< of a prism, after its two ends
+/// flag in a chart's number: the void is on the inner side, so u is mirrored
+constexpr Chart kMirrored = 0x8000;
+// charts of a line (side, far end, near end) and of round shapes (side, top, bottom)
+constexpr int kSide = 0, kTop = 1, kBottom = 2;
+constexpr Chart kFirstSide = 2;  ///< of a prism: the first chart after those of its two ends
 
 size_t largestAxis(const TexturePoint& v) {
   const double x = std::fabs(v[0]), y = std::fabs(v[1]), z = std::fabs(v[2]);
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-/// Twice the axis, plus one on its negative side.
+/// Returns the face of a cube that a direction hits: twice the axis, plus one on its negative side.
 int faceOf(const TexturePoint& v) {
   const size_t axis = largestAxis(v);
   return 2 * static_cast<int>(axis) + (v[axis] < 0 ? 1 : 0);
@@ -50,7 +52,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     origin_ = pointAt(points[0]);
     const Shape& piece = s.child_count > 0 ? chunk.shapes[chunk.children[s.first_child]] : s;
     square_ = piece.kind == ShapeKind::box;
-    // A beam's sides are oriented as its pieces, regardless of the scope's rotation.
+    // The sides of a beam follow the orientation of its pieces, regardless of the scope's rotation.
     const std::array<float, 9>& rows = piece.frame.rows;
     const Vec3 up = square_ ? Vec3{double{rows[3]}, double{rows[4]}, double{rows[5]}} : Vec3{0, 1, 0};
     line_ = std::make_shared<const SweepLine>(points, up);
@@ -103,7 +105,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       kind_ = Kind::prism;
       for (const Int3& corner : points) corners_.push_back({double(corner.x), double(corner.z)});
       break;
-    case ShapeKind::morph_power:  // its radii vary from place to place
+    case ShapeKind::morph_power:  // no coordinates, because its radii vary from place to place
     case ShapeKind::voxels:
     case ShapeKind::unite:
     case ShapeKind::meet:
@@ -115,7 +117,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     case ShapeKind::morph:
     case ShapeKind::displace:
     case ShapeKind::warp:
-      break;  // combiners and voxels have no coordinates of their own
+      break;  // combinations of shapes, and voxels, have no coordinates of their own
   }
 }
 
@@ -138,7 +140,7 @@ double TextureSpace::tilesAroundLine() const {
 double TextureSpace::turnOf(const SweepPlace& place) const {
   const double side = place.side, up = place.up;
   if (!square_ || (side == 0 && up == 0)) return detAtan2(side, up) / (2 * kPi);
-  // A quarter per side, plus the position on the side.
+  // Each side counts as a quarter turn; the position on the side is added.
   if (std::fabs(up) < std::fabs(side)) return (side > 0 ? 0.25 : -0.25) - up / side / 8;
   if (up > 0) return side / up / 8;
   return side / up / 8 + (side > 0 ? 0.5 : -0.5);
@@ -182,7 +184,8 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
   if (kind_ == Kind::line) {
     const SweepPlace place = line_->at({middle[0] - origin_[0], middle[1] - origin_[1], middle[2] - origin_[2]});
     const double ahead = product(place.tangent, normal);
-    // A triangle of an end faces forward or back, and lies at an end: a rough side may also face so.
+    // A triangle belongs to an end if it faces along the line and lies near the end: on a rough side, triangles may
+    // face so, too.
     const bool far_end = place.along > line_->length() - size_[0] / 2, near_end = place.along < size_[0] / 2;
     if ((far_end || near_end) && 2 * ahead * ahead > product(normal, normal)) {
       const bool is_far = far_end && !(near_end && place.along < line_->length() / 2);
@@ -200,13 +203,13 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
       return side(faceOf(outward), product(outward, n));
     }
     case Kind::round: {
-      // The side is inclined: a point belongs to an end if it is nearer to the end's plane than to the side.
+      // The side is inclined, so a point belongs to an end if it is nearer to the end's plane than to the side.
       const double lean = (size_[0] - size_[1]) / (2 * size_[2]);
       const TexturePoint radial = outwardAt(q);
       const double wide = std::sqrt(product(radial, radial)), whole = std::sqrt(product(n, n));
       const double out = wide > 0 ? (product(radial, n) / wide + lean * n[1]) / std::sqrt(1 + lean * lean) : 0;
       if (std::fabs(n[1]) > std::fabs(out) && std::fabs(n[1]) > 0.5 * whole) {
-        // The end shows whether the void is inside.
+        // The chart of the end also says whether the void is inside.
         const int end = q[1] > 0 ? kTop : kBottom;
         return side(end, end == kTop ? n[1] : -n[1]);
       }
@@ -237,8 +240,8 @@ Chart TextureSpace::prismChart(const TexturePoint& q, const TexturePoint& n) con
     if (x * x + z * z >= least) continue;
     least = x * x + z * z;
     nearest = i;
-    // If the corners are counter-clockwise seen from +y, the outer side of an edge (dx, dz) is (-dz, dx). Otherwise it
-    // is the inner one, and an edge runs the other way along u: together these mirror nothing.
+    // If the corners are counter-clockwise seen from +y, the outer side of an edge (dx, dz) is (-dz, dx). Otherwise
+    // that is the inner side, but the edge also runs the other way along u, so that nothing is mirrored.
     outside = -dz * n[0] + dx * n[2] >= 0;
   }
   const size_t chart = kFirstSide + nearest;

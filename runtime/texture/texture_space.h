@@ -1,5 +1,5 @@
 #pragma once
-// Texture coordinates of a shape: along and around a passage, over the faces of a box, or by the world's axes if no
+// Texture coordinates of a shape: along and around a passage, over the faces of a box, or along the world's axes if no
 // shape makes the surface.
 
 #include <array>
@@ -14,7 +14,7 @@ namespace sgm {
 /// A part of a shape's surface that has its own layout.
 using Chart = uint16_t;
 
-/// x, y, z.
+/// Coordinates x, y, z.
 using TexturePoint = std::array<double, 3>;
 
 class SweepLine;
@@ -32,27 +32,29 @@ struct TextureCoordinates {
 ///   box, prism                        a chart for each face
 ///   cylinder, truncone                around and along the side; the ends by their plane
 ///   capsule, tube                     around and along the line; the ends by their plane
-///   beam                              the same, around by the way along its four sides
+/// beam                              the same as tube; around it, the distance along its four sides counts
 ///   torus                             around the ring and around the tube: one chart
 ///   halfspace                         its plane
-///   all others                        none of their own: by the world's axes
+/// all others                        none of their own: along the world's axes
 ///
 /// Immutable. Positions are world positions in units, exact in double precision.
 class TextureSpace {
  public:
-  /// Maps by the world's axes, from a base in units. tile: its edge, units, at least 1. If each base is a multiple of
-  /// the tile, the tiles of all parts of the world lie on one lattice.
+  /// Maps along the world's axes. base: the point with coordinates 0, in units. tile: edge of a tile in units, at least
+  /// 1. If each base is a multiple of the tile, the tiles of all parts of the world lie on one lattice.
   TextureSpace(Int3 base, int32_t tile);
-  /// For a leaf, or for the union of a sweep's pieces; byWorld() if the shape has no coordinates of its own.
+  /// Maps by a leaf of the chunk's shapes, or by the union of a sweep's pieces; byWorld() if the shape has no
+  /// coordinates of its own.
   TextureSpace(const GrammarChunk& chunk, uint32_t shape, int32_t tile);
 
-  /// The chart for a triangle with this centre and this normal (any length, out of the solid).
+  /// Returns the chart of a triangle. middle: its centre. normal: of any length, points out of the solid.
   Chart chartOf(const TexturePoint& middle, const TexturePoint& normal) const;
-  /// True if the world's axes map it: triplanar blending then looks better than one chart.
+  /// True if points are mapped along the world's axes: then triplanar blending looks better than one chart.
   bool byWorld() const { return kind_ == Kind::world; }
-  /// The coordinates of a point, in the chart of any triangle near it.
+  /// Returns the coordinates of a point in the given chart. The chart must be that of a triangle near the point.
   TextureCoordinates at(const TexturePoint& p, Chart chart) const;
-  /// The period in tiles after which a position repeats; 0: never. If it is not 0, at() jumps by it somewhere.
+  /// Returns the period of each coordinate, in tiles; 0 if it is not periodic. A periodic coordinate jumps by its
+  /// period where the surface closes.
   TextureCoordinates period(Chart chart) const;
 
  private:
@@ -62,21 +64,22 @@ class TextureSpace {
   TexturePoint turned(const TexturePoint& world) const;
   TextureCoordinates plane(const TexturePoint& q, int face) const;
   Chart prismChart(const TexturePoint& q, const TexturePoint& n) const;
-  /// The outward normal of the undisplaced surface at a local point.
+  /// Returns the outward normal of the shape's surface, without displacement, at a local point.
   TexturePoint outwardAt(const TexturePoint& q) const;
   double tilesAround(double radius) const;
   double tilesAroundLine() const;
-  /// The angle around the line, from -1/2 to 1/2 turn, 0 on the upper side.
+  /// Returns the angle around the line in turns, -1/2 to 1/2; 0 on the upper side.
   double turnOf(const SweepPlace& place) const;
 
   Kind kind_ = Kind::world;
   double tile_ = 1;
   TexturePoint origin_{};
   std::array<TexturePoint, 3> axes_{TexturePoint{1, 0, 0}, TexturePoint{0, 1, 0}, TexturePoint{0, 0, 1}};
-  std::array<double, 3> size_{};  ///< ball: radii; round: bottom, top, half height; line: radius; ring: ring, tube
+  /// ball: the radii; round: bottom radius, top radius, half height; line: radius; ring: radii of ring and tube
+  std::array<double, 3> size_{};
   std::shared_ptr<const SweepLine> line_;
-  bool square_ = false;                         ///< line: a beam
-  std::vector<std::array<double, 2>> corners_;  ///< of a prism, local x and z
+  bool square_ = false;                         ///< for a line: true if it is a beam
+  std::vector<std::array<double, 2>> corners_;  ///< for a prism: the corners' local x and z
 };
 
 }  // namespace sgm

@@ -10,17 +10,18 @@ namespace sgm {
 
 /// A vertex in one chart and with one pair of materials.
 struct Wedge {
-  uint32_t vertex = 0;                    ///< of the mesh: position, normal and label
-  float u = 0, v = 0;                     ///< tiles
-  std::array<uint16_t, 2> materials{};    ///< of its triangles, ascending; both the same if they have one
-  uint8_t share = 0;                      ///< of the second material here, in 255ths
-  std::array<uint8_t, 3> plane_shares{};  ///< planeShares() if the world's axes texture it, else all 0
+  uint32_t vertex = 0;                  ///< index of the mesh's vertex, which has the position, normal and label
+  float u = 0, v = 0;                   ///< texture coordinates in tiles
+  std::array<uint16_t, 2> materials{};  ///< materials of its triangles, ascending; equal if there is only one
+  uint8_t share = 0;                    ///< share of the second material at this vertex, in 255ths
+  /// planeShares() if the texture is mapped along the world's axes, otherwise all 0
+  std::array<uint8_t, 3> plane_shares{};
   friend bool operator==(const Wedge&, const Wedge&) = default;
 };
 
 struct Unwrapped {
-  std::pmr::vector<Wedge> wedges;      ///< in the order of their first use by triangles
-  std::pmr::vector<uint32_t> corners;  ///< into wedges, three per triangle, parallel to the mesh's indices
+  std::pmr::vector<Wedge> wedges;      ///< in the order in which triangles first use them
+  std::pmr::vector<uint32_t> corners;  ///< indices of wedges, three per triangle, parallel to the mesh's indices
 
   explicit Unwrapped(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : wedges(memory), corners(memory) {}
