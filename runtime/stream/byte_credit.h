@@ -1,5 +1,6 @@
 #pragma once
-// Limits the bytes that an update hands over. Every item gets its turn, however small the budgets are.
+// Limits the bytes of surfaces that one update passes to the engine. Every item passes eventually, however small the
+// budgets are.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,14 +9,15 @@
 
 namespace sgm {
 
-/// Invariant: any successive updates hand over at most the sum of their budgets plus one item. An item passes if it
-/// fits the rest of the budget, or as the first item of an update without debt; later updates owe the excess.
+/// Invariant: any series of successive updates passes at most the sum of their budgets plus one item. An item passes if
+/// it fits the rest of the budget, or if it is the first item of an update without debt; its excess becomes a debt of
+/// later updates.
 class ByteCredit {
  public:
-  /// Begins an update. The unused rest of the previous one is lost.
+  /// Begins an update. The unused rest of the previous update's budget is lost.
   void begin(size_t budget) {
     constexpr auto kMost = static_cast<size_t>(std::numeric_limits<int64_t>::max());
-    // Never above the budget, so it cannot overflow.
+    // The rest never exceeds the budget, so it cannot overflow.
     left_ = std::min<int64_t>(left_, 0) + static_cast<int64_t>(std::min(budget, kMost));
     is_first_ = true;
   }
@@ -27,7 +29,7 @@ class ByteCredit {
   }
 
  private:
-  int64_t left_ = 0;  ///< negative: debt
+  int64_t left_ = 0;  ///< bytes left in this update; negative: debt
   bool is_first_ = true;
 };
 

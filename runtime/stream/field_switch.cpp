@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// Chunks that one job compares: some milliseconds of work if none of their cells is cached.
+/// Number of chunks that one job compares: it takes some milliseconds if none of their cells is cached.
 constexpr size_t kComparedAtOnce = 64;
 
 }  // namespace
@@ -75,7 +75,7 @@ bool FieldSwitch::compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldE
   } catch (const std::bad_alloc&) {
     change_ = nullptr;
     const std::lock_guard lock(mutex_);
-    // A field that was requested since serves as well, but not in place of the field to return to.
+    // If another field was requested since, it is used instead, unless the world returns to an earlier field.
     std::shared_ptr<const WorldField>& again = going_back_ ? back_ : next_;
     if (again == nullptr) again = to_;
     comparing_ = open_ = false;

@@ -5,11 +5,11 @@
 //   jobs                compare(): finds the differences (field_change.h), some chunks at a time
 //   then                the change goes to the world's edits, and the planner takes it up like a brush
 //
-// The next switch waits until the previous field is drawn. If chunks are still to be meshed for a moving viewer, it
-// waits as long again, so that an animation leaves half of the time to them. Before the first drawn frame only one
-// switch happens, since a world animated from the start would never appear otherwise. If a field cannot be drawn, the
-// world returns to the previous field, so that edits and queries match the drawn one. Without viewers nothing is drawn,
-// and all switches wait.
+// The next switch waits until the previous field is drawn. If chunks for a moving viewer are still to be meshed then,
+// it waits as long again as the previous switch took, so that an animation leaves them half of the time. Before the
+// first drawn frame, only one switch happens; otherwise a world that is animated from the start would never appear. If
+// a field cannot be drawn, the world returns to the previous field, so that edits and queries match the drawn one.
+// Without viewers nothing is drawn, and all switches wait.
 
 #include <chrono>
 #include <memory>
@@ -23,21 +23,22 @@
 
 namespace sgm {
 
-/// Thread-safe, but only one compare() at a time.
+/// Thread-safe, except that calls of compare() must not run concurrently.
 class FieldSwitch {
  public:
   /// sharp: the world's chunks have sharp features.
   explicit FieldSwitch(bool sharp = false) : sharp_(sharp) {}
 
-  /// Requests a switch. Of several requests that have not begun, the last one counts.
+  /// Requests a switch. If several requests are waiting, only the last one is carried out.
   void want(std::shared_ptr<const WorldField> next);
 
-  /// Whether no comparison runs and, with viewers, no switch is requested or unfinished.
+  /// True if no comparison is running and, if `viewed`, no switch is waiting or unfinished. viewed: there are viewers.
   bool settled(bool viewed) const;
-  /// Whether a job is comparing or about to.
+  /// True if a job is comparing fields, or was told to by begin().
   bool busy() const;
 
-  /// Numbers of want() calls, counted from 1: the last call, and the call whose field is drawn (0: the first field).
+  /// Numbers of want() calls, counted from 1: that of the last call, and that of the call whose field is drawn (0: the
+  /// first field of the world).
   struct Turn {
     uint64_t wanted = 0, drawn = 0;
   };
@@ -48,13 +49,14 @@ class FieldSwitch {
     uint64_t failed = 0;   ///< number of a state that cannot be drawn
     bool viewed = false;   ///< there are viewers
     bool shown = false;    ///< a frame has been drawn
-    bool at_rest = false;  ///< everything that the viewers want is drawn
+    bool at_rest = false;  ///< true if all that the viewers need is drawn
   };
-  /// Whether a job should call compare(). If so, this returns false until that call returns.
+  /// Returns true if a job should call compare(). After that it returns false until compare() returns, or giveUp() is
+  /// called.
   bool begin(const Progress& progress);
 
-  /// The work of one job. Returns true if begin() should be called again soon. Throws std::bad_alloc; then the same
-  /// field is compared anew later.
+  /// Does the work of one job. Returns true if begin() should be called again soon. Throws std::bad_alloc; the
+  /// comparison of the same field then starts again later.
   bool compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldEdits& edits, JobSystem& jobs);
   /// Reports that the job of a successful begin() could not be submitted.
   void giveUp();
@@ -66,22 +68,23 @@ class FieldSwitch {
 
   bool compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSystem& jobs);
 
-  // Used only by compare().
+  // Used by compare() only.
   std::shared_ptr<const WorldField> from_, to_;
-  std::shared_ptr<const FieldChange> change_;  ///< the comparison in progress, or null
-  std::vector<ChunkKey> left_;                 ///< chunks still to be compared
+  std::shared_ptr<const FieldChange> change_;  ///< the comparison in progress; null: none
+  std::vector<ChunkKey> left_;                 ///< chunks that are still to be compared
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the following members
   std::shared_ptr<const WorldField> next_;
-  std::shared_ptr<const WorldField> back_;    ///< set if the last field failed: the field to return to, before all
-                                              ///< others
+  /// set if the last field failed: the field to return to, which takes precedence over all requests
+  std::shared_ptr<const WorldField> back_;
   std::shared_ptr<const WorldField> before_;  ///< the field before the open change
   Turn turn_;
-  uint64_t turn_begun_ = 0;  ///< turn of the open change
-  bool going_back_ = false;  ///< the compared field was back_
-  bool comparing_ = false;   ///< a job has begun, or is about to
-  bool open_ = false;        ///< a change is in progress or not drawn yet
-  uint64_t state_ = 0;       ///< the state it led to; 0: in progress
+  uint64_t turn_begun_ = 0;  ///< turn (want() call) of the open change
+  bool going_back_ = false;  ///< true if the field being compared was back_
+  bool comparing_ = false;   ///< true if a job compares fields, or is about to
+  bool open_ = false;        ///< true if a change is in progress or not drawn yet
+  /// number of the state that the open change led to; 0: the comparison is still in progress
+  uint64_t state_ = 0;
   Clock::time_point begun_, not_before_;
 };
 

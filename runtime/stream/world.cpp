@@ -17,13 +17,13 @@ namespace sgm {
 namespace {
 
 constexpr size_t kHashedAtOnce = 256;
-/// The most failures reported in one update; space is reserved for them.
+/// The maximum number of failures reported in one update, for which memory is reserved.
 constexpr ptrdiff_t kFailedAtOnce = 64;
-/// waitIdle gives up after this many checks in a row without progress.
+/// waitIdle gives up after this number of successive checks without progress.
 constexpr int kLooksInVain = 2000;
 constexpr auto kBetweenLooks = std::chrono::milliseconds(2);
 
-/// Measures the time of a call.
+/// Measures the duration of a call.
 class TimedCall {
  public:
   TimedCall(WorldCore& core, TimeHistogram WorldTimes::*of) : core_(core), of_(of) {}
@@ -66,10 +66,11 @@ Result<void> checkLod(const LodSettings& lod) {
 
 uint64_t randomAuthor() {
   std::random_device device;
-  return (uint64_t{device()} << 32 | device()) | 1;  // never 0
+  return (uint64_t{device()} << 32 | device()) | 1;  // never 0, which means "none"
 }
 
-/// Stored data is distinguished from another field's by the field's identity.
+/// Checks the host fields. The disk cache and stores distinguish fields by identity, so they require one of each host
+/// field.
 Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
   if (settings.journal.empty() && settings.cache.empty() && settings.baked == nullptr) return {};
   for (const HostField& host : field.settings().hosts) {
@@ -80,7 +81,7 @@ Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) 
   return {};
 }
 
-/// Creates the threads that wait for servers. If none starts, only baked parts nearby are used.
+/// Creates the threads that wait for servers. If none can be started, only nearby stores are used.
 std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, const WorldSettings& settings) {
   Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(WorldCore::kLookers + 1, profiler, "sgm store");
   if (lookers) return std::move(*lookers);
@@ -195,8 +196,9 @@ void World::advance(size_t bytes, size_t colliders) {
     tellColliders(colliders);
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
-  // A better step does not hold back one that can be drawn sooner: if meshing is faster than handing over, steps would
-  // grow, and none would ever complete. But edits must be in the next frame or the one after it.
+  // If the engine can draw the staged step sooner than a better one, the staged step stays. Otherwise, if meshing is
+  // faster than passing surfaces, steps would grow, and none would ever complete. But edits must be in the next frame
+  // or the one after it.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
       staged_->to->edits == step->to->edits && bytesLeft(*staged_) <= bytesLeft(*step)) {
     step = staged_;
@@ -212,13 +214,13 @@ void World::advance(size_t bytes, size_t colliders) {
   } else {
     core_->kickOverdue();
   }
-  // Even if this world's own plan waits: the time that has passed may pay for it now (plan_turns.h).
+  // Called even if this world's own plan waits: the elapsed time may suffice for its turn now (plan_turns.h).
   core_->startDuePlans();
   core_->kickFieldSwitch();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
-  // Surfaces handed over for a step that is abandoned are removed, unless this frame has them too.
+  // Surfaces that were passed for an abandoned step are removed, unless this frame contains them, too.
   std::unordered_set<ChunkKey, ChunkKeyHash> drawn;
   for (const DrawnChunk& chunk : frame.drawn) drawn.insert(chunk.key);
   if (staged_ != nullptr) {
@@ -247,8 +249,8 @@ size_t World::bytesLeft(const FrameStep& step) const {
 }
 
 bool World::handOver(const FrameStep& step) {
-  events_.reserve(events_.size() + step.changes.size() - staged_changes_);  // whatever counts as handed over must be
-                                                                            // reported
+  // reserved first: surfaces that count as passed must be reported
+  events_.reserve(events_.size() + step.changes.size() - staged_changes_);
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
     if (chunk.surface == nullptr || wasHanded(chunk)) continue;
@@ -277,7 +279,7 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step) {
     }
     return WorldEvent::Kind::removed;
   };
-  // All changes or none: nothing below can fail.
+  // All changes are emitted or none: after this reservation, nothing can fail.
   events_.reserve(events_.size() + step->changes.size());
   for (const FrameChange& change : step->changes) {
     if (change.kind == FrameChange::Kind::removed) handed_.erase(change.chunk.key);
@@ -323,7 +325,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
     const uint64_t plans = core_->plans;
-    // If no work is running, a plan becomes due by time alone.
+    // If no work is running, a plan becomes due only by elapsed time.
     const auto look_again = std::chrono::steady_clock::now() + kBetweenLooks;
     helpUntil(jobs_, lock, core_->changed, [&] {
       return core_->plans != plans || core_->settled() || std::chrono::steady_clock::now() >= look_again;
@@ -350,7 +352,7 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 }
 
 void World::cancel() {
-  std::vector<WorkItem> dropped;  // freed after the mutex
+  std::vector<WorkItem> dropped;  // destroyed after the mutex is released
   const std::lock_guard lock(core_->mutex);
   core_->queue.replace(dropped, true, std::chrono::steady_clock::now());
   ++core_->generation;
@@ -384,7 +386,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
       add(surface->mesh.ranges[0].hash, surface->grid);
     }
   }
-  // A bounded number at a time, since only the hash of each mesh is kept.
+  // Processes a limited number of chunks at a time, since only the hash of each mesh is stored.
   for (size_t first = 0; first < rest.size(); first += kHashedAtOnce) {
     const auto some = std::span(rest).subspan(first, std::min(kHashedAtOnce, rest.size() - first));
     const Result<std::pmr::vector<PlacedChunk>> chunks =

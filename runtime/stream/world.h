@@ -1,14 +1,14 @@
 #pragma once
-// A streamed world: meshed around its viewers on the job system, passed to an engine frame by frame.
+// A streamed world: jobs mesh it around its viewers, and an engine receives it frame by frame.
 //
 //   engine's thread            jobs
 //   setViewers, update  --->   plan (planner.h): which chunks to mesh, and the next frame
 //   edit, setField      --->   mesh (mesh_chunks.h): each job meshes a request or a device batch, urgent ones first
 //   poll events         <---   write the journal of edits
 //
-// If a store is on a server, the world's own threads look there for chunks before a job takes the request
-// (work_queue.h). All sides share a mailbox (world_core.h) behind one mutex that is held only for short work. update()
-// waits for nothing else, so the engine never waits for a job or a device.
+// If a store is on a server, the world's own threads search it for chunks before a job takes the request
+// (work_queue.h). All sides communicate through a mailbox (world_core.h) whose mutex is held for short work only.
+// update() waits for nothing else, so the engine never waits for a job or a device.
 
 #include <memory>
 #include <mutex>
@@ -33,60 +33,63 @@
 
 namespace sgm {
 
-/// An event for the engine, in order. Between two updates the changes of a whole frame arrive, or none.
+/// An event for the engine; events must be processed in order. Between two updates, either all changes of a frame
+/// arrive or none.
 struct WorldEvent {
   enum class Kind {
-    ready,             ///< a surface to upload; it is not drawn yet
-    shown,             ///< draw it from now on
-    replaced,          ///< draw the last ready surface instead of the previous one
-    seams,             ///< draw other seams of the same surface, or the same seams among other neighbours
-    removed,           ///< stop drawing it, and forget it; also for a surface that was ready and never shown
-    failed,            ///< the chunk cannot be made: the coarser chunk stays in its place
+    ready,     ///< upload this surface; it is not drawn yet
+    shown,     ///< draw the chunk's last ready surface from now on
+    replaced,  ///< draw the chunk's last ready surface instead of the previous one
+    seams,     ///< draw other seams of the same surface, or the same seams with other coarser neighbours
+    /// stop drawing the chunk, and release its surface; also sent for a surface that was ready but never shown
+    removed,
+    failed,            ///< the chunk cannot be made: the coarser chunk stays
     collider,          ///< use this collider instead of the chunk's previous one
-    collider_removed,  ///< the chunk has no collider any more
+    collider_removed,  ///< the chunk no longer has a collider
   };
   Kind kind = Kind::ready;
   ChunkKey key;
   std::shared_ptr<const ChunkSurface> surface;  ///< for ready
-  uint8_t seams = 0;                            ///< the drawn seams, bit (1 << Face)
-  Neighbourhood coarser = 0;                    ///< as DrawnChunk::coarser
-  uint64_t frame = 0;                           ///< the frame of the change; 0 for ready and failed
-  std::optional<Error> error;                   ///< for failed
-  std::shared_ptr<const Collider> collider{};   ///< for collider
+  uint8_t seams = 0;                            ///< mask of the drawn seams: bit (1 << Face)
+  Neighbourhood coarser = 0;                    ///< same as DrawnChunk::coarser
+  /// number of the frame that contains the change; 0 for ready and failed
+  uint64_t frame = 0;
+  std::optional<Error> error;                  ///< for failed
+  std::shared_ptr<const Collider> collider{};  ///< for collider
 };
 
 struct WorldStats {
   PlannerStats planner;
-  size_t queued = 0, in_work = 0;  ///< requests
-  size_t stale = 0;                ///< of these, the ones planned for previous viewers
+  size_t queued = 0, in_work = 0;  ///< number of requests that wait, and that are being meshed
+  size_t stale = 0;                ///< number of these that were planned for previous viewers
   uint64_t frame = 0;              ///< number of the drawn frame
   uint64_t plans = 0;
   uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of the current and of the drawn state
-  FieldSwitch::Turn fields;             ///< numbers of setField() calls
+  FieldSwitch::Turn fields;             ///< numbers of setField() calls (FieldSwitch::Turn)
   DiskCacheStats cache;
   BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
-  bool idle = false;  ///< everything that the viewers want is drawn
+  bool idle = false;  ///< true if all that the viewers need is drawn
 };
 
 class WorldCore;
 
 inline constexpr size_t kMostViewers = 256;
 
-/// Thread-safe, except that update, poll and waitIdle must not run concurrently.
+/// Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
 class World {
  public:
-  /// Creates a world, and reads the journal if settings name one. Errors: invalid_argument; limit (mesh_bytes is too
-  /// small, or the distances are too large: the message names values that work); those of WorldEdits::open. backend,
-  /// jobs and memory must outlive the world; surfaces may outlive it, but not memory. turns: shared by all worlds on
-  /// these jobs; null: this is the only world.
+  /// Creates a world, and reads the journal if the settings name one. backend, jobs and memory must outlive the world;
+  /// surfaces may outlive the world, but not memory. turns: shared by all worlds on these jobs; null: this is the only
+  /// world. Errors: invalid_argument; limit (mesh_bytes is too small, or the distances are too large: the message gives
+  /// values that work); those of WorldEdits::open.
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
                                                std::pmr::memory_resource* memory,
                                                std::shared_ptr<PlanTurns> turns = nullptr);
-  /// Waits for jobs that have begun, and up to about a second for a pending server request; jobs that the job system
-  /// runs later do nothing.
+  /// Waits for jobs that have begun, and up to about a second for a pending request to a server. Jobs that the job
+  /// system runs later do nothing.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -95,92 +98,94 @@ class World {
   /// Errors: those of checkViewer; limit (more than kMostViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
-  /// Takes over finished work, at most `bytes` of new surfaces and max_colliders (settings) colliders, and starts more
-  /// work. A larger surface is still handed over, as the first of an update; later updates compensate, so that any
-  /// successive updates hand over at most their bytes plus one surface (byte_credit.h). Never waits. While events of
-  /// the previous update are unpolled, it returns false and only schedules a write of the journal.
+  /// Takes over finished work, and starts new work: emits events for at most `bytes` of new surfaces and max_colliders
+  /// (settings) colliders. A larger surface is passed as the first one of an update; later updates pass less, so that
+  /// any successive updates pass at most their bytes plus one surface (byte_credit.h). Never waits. If events of the
+  /// previous update were not polled, returns false and only schedules a write of the journal.
   bool update(size_t bytes);
 
-  /// Passes the next events to `take`, in order, until it returns false or none is left. An event that `take` refused,
-  /// or for which it threw, comes first the next time.
+  /// Passes the next events to `take`, in order, until it returns false or no event is left. An event for which `take`
+  /// returned false or threw an exception is passed again first by the next call.
   void poll(const std::function<bool(const WorldEvent&)>& take);
 
-  /// The frame of the last update that took over a frame.
+  /// Returns the frame that the last successful step of an update drew.
   std::shared_ptr<const DrawnFrame> drawn() const;
 
-  /// Updates without a byte limit until everything that the viewers want is drawn; the calling thread works, too.
-  /// Events accumulate meanwhile, so poll first. `more` is called now and then; returning false cancels. Errors:
+  /// Updates without a byte limit until all that the viewers need is drawn; the calling thread helps with the work.
+  /// Events accumulate meanwhile, so poll before. `more` is called now and then; returning false cancels. Errors:
   /// cancelled; limit (not enough memory).
   Result<void> waitIdle(const std::function<bool()>& more = {});
 
-  /// Replaces the world's field: other parameters, an edited grammar, or other host fields. Chunks that the difference
-  /// reaches (field_change.h) are meshed again and replaced in one frame; others keep their meshes. Without viewers the
-  /// switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the previous field. If fields
-  /// arrive faster than they can be drawn, only the last one is used. Edits stay, and keep the numbers of their
-  /// materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another finest cell, or
-  /// anything that create() refuses).
+  /// Replaces the world's field: other parameters, an edited grammar, or other host fields. The chunks that the
+  /// difference affects (field_change.h) are meshed again and replaced in one frame; the others keep their meshes.
+  /// Without viewers the switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the
+  /// previous field. If fields arrive faster than they can be drawn, only the last one is used. Edits stay, with the
+  /// numbers of their materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another
+  /// finest cell, or anything that create() rejects).
   Result<void> setField(std::shared_ptr<const WorldField> field);
 
-  /// Drops all requests; results of running ones are dropped, too. The next update begins anew for the current viewers.
+  /// Drops all requests, and the results of those in work. The next update plans again for the current viewers.
   void cancel();
 
-  /// Lays a brush, undoes an edit (as EditLog), or imports another world's edits. The result is drawn at the latest two
-  /// frames of changes later. None of these waits for a job or the disk.
+  /// Adds a brush, undoes an edit (same as EditLog), or imports the edits of another world. At the latest the second
+  /// frame of changes afterwards shows the result. These functions never wait for a job or the disk.
   Result<EditId> edit(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> importEdits(std::span<const std::byte> bytes);
-  /// All edits except the first `since`, in order of arrival, for another world's importEdits().
+  /// Returns all edits except the first `since`, in order of arrival, as bytes for importEdits() of another world.
   std::vector<std::byte> exportEdits(uint64_t since = 0) const;
   uint64_t editCount() const;
-  /// A hash of the set of edits: worlds that have exchanged their edits have equal hashes.
+  /// Returns a hash of the set of edits: worlds that have exchanged their edits have equal hashes.
   uint64_t editHash() const;
   /// Blocks until all edits so far are on disk. Errors: io.
   Result<void> flushEdits();
 
-  /// The current field, from which the next chunks are meshed. A newer one may be about to replace it.
+  /// Returns the field from which chunks are meshed now. A newer field may be about to replace it.
   std::shared_ptr<const WorldField> field() const;
-  /// The current field with the current edits, for queries at a level. Must not outlive its memory.
+  /// Returns the current field with the current edits, for queries at a level. The result must not outlive the world's
+  /// memory resource.
   QueryField queryField(int level = 0) const;
 
-  /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi. Meshes chunks that are not
-  /// drawn. Errors: those of chunksOfRegion and meshChunks.
+  /// Returns the hash of the set of bodies (hashParts) of those chunks of a level that meet lo <= p < hi. Meshes chunks
+  /// that are not drawn. Errors: those of chunksOfRegion and meshChunks.
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
 
-  /// The viewers of the last setViewers().
+  /// Returns the viewers of the last setViewers() call.
   std::vector<Viewer> viewers() const;
   WorldTimes times() const;
   const WorldSettings& settings() const;
 
-  /// The current measures; nullopt if the settings do not ask for them. Takes some microseconds per hundred drawn
-  /// chunks.
+  /// Returns the current measures; nullopt if the settings do not request measures. Takes some microseconds per hundred
+  /// drawn chunks.
   std::optional<WorldMeasures> measures() const;
 
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes, size_t colliders);
-  /// Emits the next changes of colliders. Precondition: the core's mutex is held.
+  /// Emits the next changes of colliders as events. Precondition: the core's mutex is held.
   void tellColliders(size_t most);
-  /// Removes surfaces that were handed over for the staged step, but are not part of the new frame.
+  /// Emits removal of surfaces that were passed for the staged step, but are not part of the new frame; then stages
+  /// `step`.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
   bool wasHanded(const DrawnChunk& chunk) const;
-  /// The bytes of the step's surfaces that have not been handed over.
+  /// Returns the total size of the step's surfaces that were not passed to the engine yet.
   size_t bytesLeft(const FrameStep& step) const;
-  /// Whether all of the step's surfaces have been handed over.
+  /// Passes surfaces of the step to the engine while the byte credit allows. Returns true if all have been passed.
   bool handOver(const FrameStep& step);
-  /// Hands over surfaces of a step and, once all are handed over, its changes; then returns true.
+  /// Passes surfaces of a step and, once all were passed, its changes; then returns true.
   bool stage(const std::shared_ptr<const FrameStep>& step);
 
   std::unique_ptr<WorldCore> core_;
   JobSystem& jobs_;
-  // The engine's side, guarded by front_.
+  // The following members are used on the engine's side and guarded by front_.
   mutable std::mutex front_;
   std::vector<WorldEvent> events_;
   size_t polled_ = 0;
   ByteCredit credit_;
   std::shared_ptr<const FrameStep> staged_;
-  size_t staged_changes_ = 0;  ///< changes of staged_ whose surfaces have been handed over
+  size_t staged_changes_ = 0;  ///< number of changes of staged_ whose surfaces have been passed to the engine
   std::unordered_map<ChunkKey, std::shared_ptr<const ChunkSurface>, ChunkKeyHash> handed_;
 };
 

@@ -10,9 +10,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2;
-/// Colliders are made for this many updates at once.
+/// A plan makes the colliders for this many updates.
 constexpr size_t kUpdatesOfColliders = 4;
-/// Including the time of the disk, at most a second's edits are ever lost.
+/// The interval between writes of the journal: so that, including the time of the disk, at most a second's edits are
+/// lost.
 constexpr auto kBetweenFlushes = 250ms;
 
 PlannerSettings plannerSettings(const WorldSettings& settings) {
@@ -69,7 +70,7 @@ void WorldCore::stop() noexcept {
     helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
   }
   surfaces_->close();
-  flush_failed_ = false;  // finally: report the failure again
+  flush_failed_ = false;  // this is the last write: report a failure again
   flushOnce();
 }
 
@@ -78,7 +79,7 @@ void WorldCore::warn(const char* message) const noexcept {
   try {
     settings.on_warning(message);
   } catch (const std::bad_alloc&) {
-    // A job must not throw, and there is no memory for a longer message.
+    // A job must not throw; the message is dropped if there is no memory for it.
   }
 }
 
@@ -148,7 +149,7 @@ void WorldCore::flushOnce() {
     first = !flushed && !flush_failed_;
     flush_failed_ = !flushed;
   }
-  // A failed write is repeated with the next edits, and at the end.
+  // The write is repeated after the next edits, and at the end of the world; a repeated failure is not reported.
   if (!first) return;
   const Error& why = flushed.error();
   warn(why.code == Code::out_of_memory ? "out of memory while writing the edit journal" : why.message.c_str());
@@ -173,7 +174,7 @@ void WorldCore::compareOnce() {
     at_once = handsOn();
     frame = drawn;
   }
-  if (at_once) return fields.giveUp();  // the next update goes on
+  if (at_once) return fields.giveUp();  // the job system runs jobs inside submit(); the next update continues
   try {
     const ProfileScope scope(profiler, zone::kDerive);
     if (fields.compare(frame, edits, jobs)) return handOn([this] { kickFieldSwitch(); });
@@ -235,14 +236,15 @@ bool WorldCore::planIsDue() const {
   const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
                     planning_with_.applied != applied || !finished_.empty() ||
                     (!colliders_done_ && collider_changes.empty());
-  // No room, out of memory, or between two states of edits of which one changed nothing.
+  // There is nothing to draw if memory is exhausted, or if the plan was made between two states of edits of which one
+  // changed nothing.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || news;
 }
 
 void WorldCore::losePlanner() {
-  std::vector<WorkItem> dropped;  // freed after the mutex
+  std::vector<WorkItem> dropped;  // destroyed after the mutex is released
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   queue.replace(dropped, true, Clock::now());
@@ -256,7 +258,7 @@ bool WorldCore::makePlan() {
     const ProfileScope scope(profiler, zone::kPlan);
     if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
     Plan plan = planner_.plan(planInput());
-    // A step offered before a restart may be taken after it: the planner has forgotten that frame.
+    // The engine may take a step that was offered before a restart; the planner no longer knows that frame.
     if (planner_.applied().number != planning_with_.applied) {
       losePlanner();
       return false;
@@ -265,7 +267,7 @@ bool WorldCore::makePlan() {
     publish(std::move(plan));
     return true;
   } catch (const std::bad_alloc&) {
-    // The planner's data is no longer consistent. It restarts from the drawn frame at the next update.
+    // The planner's data is inconsistent now. It restarts from the drawn frame at the next update.
     tellScarce();
     losePlanner();
     return false;
@@ -290,7 +292,7 @@ void WorldCore::planOnce() {
     }
     seconds += secondsSince(begun_at);
   }
-  turns_->endPlan(turn_, seconds);  // before another plan may be requested
+  turns_->endPlan(turn_, seconds);  // called before another plan may be requested
   bool again;
   {
     const std::lock_guard lock(mutex);
@@ -306,11 +308,11 @@ void WorldCore::makeColliders() {
   std::vector<Viewer> around;
   {
     const std::lock_guard lock(mutex);
-    if (!collider_changes.empty()) return;  // earlier changes are not yet taken
+    if (!collider_changes.empty()) return;  // earlier changes were not reported yet
     frame = drawn;
     around = viewers;
   }
-  // Without viewers the colliders stay as they are.
+  // Without viewers, colliders do not change.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
   const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
   const size_t most = std::min(room, kUpdatesOfColliders * settings.max_colliders);
@@ -326,12 +328,12 @@ void WorldCore::makeColliders() {
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
   const std::lock_guard lock(mutex);
-  // From now on a job may again request a restart.
+  // From now on, a job may request another restart.
   return std::exchange(planner_lost_, false) ? drawn : nullptr;
 }
 
 void WorldCore::publish(Plan&& plan) {
-  // The queue is long, and the engine may wait for the mutex: remove most of the begun requests without it.
+  // The queue is long, and the engine may wait for the mutex: most of the begun requests are removed without it.
   std::vector<ChunkKey> begun;
   {
     const std::lock_guard lock(mutex);
@@ -346,7 +348,7 @@ void WorldCore::publish(Plan&& plan) {
   const std::lock_guard lock(mutex);
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
-  // The previous queue goes into the plan, and is freed without the mutex.
+  // The previous queue is swapped into the plan, and destroyed without the mutex.
   queue.replace(plan.queue, mayLook(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);

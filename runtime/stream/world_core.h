@@ -1,10 +1,11 @@
 #pragma once
-// The shared part of a streamed world and its jobs (world.h): a mailbox behind one mutex, a planning job, and meshing
-// jobs. If chunks may come from a server, the world's own threads fetch them: no job waits for a server.
+// The part of a streamed world that the world shares with its jobs (world.h): a mailbox behind one mutex, a planning
+// job, and meshing jobs. If chunks may come from a server, threads of the world (lookers) fetch them, so that no job
+// waits for a server.
 //
-// Jobs may start late: they own only a gate, which closes when the world ends. No job takes longer than one plan, one
-// chunk or one device batch, so that the engine's own jobs get their turn. world_core.cpp has planning and occasional
-// work, world_meshing.cpp has meshing and prefetching.
+// Jobs may start late, so they own only a gate, which closes when the world is destroyed. No job takes longer than one
+// plan, one chunk or one device batch, so that the engine's own jobs are not delayed. world_core.cpp contains planning
+// and occasional work, world_meshing.cpp meshing and prefetching.
 
 #include <algorithm>
 #include <array>
@@ -31,8 +32,8 @@
 
 namespace sgm {
 
-/// The largest size of a chunk in bytes: every cell cut in the worst way, with six seams. Texture coordinates double
-/// it; so do sharp features in every second cell, and a chunk with more of them fails.
+/// Returns the maximum size of a chunk in bytes: every cell is cut in the worst way, and there are six seams. Texture
+/// coordinates double it, as do sharp features in every second cell; a chunk with more features fails.
 inline size_t largestChunk(const WorldSettings& settings) {
   return size_t{5} << (20 + (settings.texture ? 1 : 0) + (settings.sharp ? 1 : 0));
 }
@@ -41,7 +42,7 @@ class WorldCore {
  public:
   static constexpr unsigned kLookers = 4;
 
-  /// lookers: threads that may wait for a server; null: all baked parts are near. turns: shared by all worlds on these
+  /// lookers: threads that may wait for a server; null: all stores are nearby. turns: shared by all worlds on these
   /// jobs.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
             std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> lookers,
@@ -50,187 +51,195 @@ class WorldCore {
   WorldCore(const WorldCore&) = delete;
   WorldCore& operator=(const WorldCore&) = delete;
 
-  /// Schedules planning for the world's turn (plan_turns.h); if it is running, one more run.
+  /// Schedules planning at the world's turn (plan_turns.h). If a plan is running, another one follows.
   void kickPlanner();
-  /// Whether a plan would have new input.
+  /// True if a plan would have new input.
   bool planIsDue() const;
-  /// Starts plans whose turn has come, of any world.
+  /// Begins plans of any world whose turn has come.
   void startDuePlans() { turns_->startDue(); }
-  /// Schedules a write of the journal, at most every kBetweenFlushes.
+  /// Schedules a write of the journal, unless the last one was less than kBetweenFlushes ago.
   void kickJournal();
-  /// Schedules the switch to the next requested field, when its turn comes.
+  /// Schedules the switch to the next requested field, if its turn has come.
   void kickFieldSwitch();
-  /// Schedules meshing of requests whose prefetch has taken too long.
+  /// Schedules meshing of requests that have waited too long for their prefetch.
   void kickOverdue();
-  /// Waits for running jobs; no others will touch the core. Writes the journal. Call once, before destruction.
+  /// Waits for running jobs, after which no job accesses the core. Writes the journal. Call once, before destruction.
   void stop() noexcept;
 
-  /// Whether everything that the current viewers want is drawn, edits included. Precondition: the mutex is held.
+  /// True if all that the current viewers need is drawn, including edits. Precondition: the mutex is held.
   bool settled() const;
-  /// Whether a plan or a chunk is being made. Precondition: the mutex is held.
+  /// True if a plan or a chunk is being made. Precondition: the mutex is held.
   bool atWork() const { return planning_ || mesh_jobs > 0 || isLooking(); }
-  /// Whether all planned requests are being prefetched or wait for that. Precondition: the mutex is held.
+  /// True if all planned requests are being prefetched or wait for a prefetch. Precondition: the mutex is held.
   bool isLooking() const;
 
-  const Profiler profiler;  ///< of the first field
+  const Profiler profiler;  ///< the profiler of the world's first field
   Backend& backend;
   JobSystem& jobs;
   const WorldSettings settings;
   WorldEdits edits;
   FieldSwitch fields;
-  std::unique_ptr<DiskCache> cache;  ///< or null; set before the first job
+  std::unique_ptr<DiskCache> cache;  ///< null: no cache; set before the first job starts
 
-  mutable std::mutex mutex;  ///< guards the following; held only for short work
+  mutable std::mutex mutex;  ///< guards the following members; held for short work only
   std::condition_variable changed;
   std::vector<Viewer> viewers;
-  uint64_t viewers_set = 0;  ///< counts changes
+  uint64_t viewers_set = 0;  ///< number of changes of the viewers
   WorkQueue queue;
   std::vector<FailedChunk> failed;
-  std::vector<ColliderChange> collider_changes;  ///< in the order of reporting
+  std::vector<ColliderChange> collider_changes;  ///< in the order in which they must be reported
   std::shared_ptr<const FrameStep> step;
-  std::array<uint64_t, 2> in_hand{};  ///< as PlanInput::in_hand
+  std::array<uint64_t, 2> in_hand{};  ///< same as PlanInput::in_hand
   uint64_t applied = 0;
-  std::shared_ptr<const DrawnFrame> drawn;  ///< the frame with that number
-  uint64_t edits_drawn = 0;                 ///< the state that it shows
-  uint64_t generation = 0;                  ///< of requests: those of previous generations are obsolete
+  std::shared_ptr<const DrawnFrame> drawn;  ///< the frame with the number `applied`
+  uint64_t edits_drawn = 0;                 ///< number of the state that `drawn` shows
+  /// number of the current generation of requests; results of earlier generations are dropped
+  uint64_t generation = 0;
   uint64_t plans = 0;
-  size_t mesh_jobs = 0;  ///< submitted or running
-  bool scarce = false;   ///< memory ran out, and no chunk could be made since
+  size_t mesh_jobs = 0;  ///< number of mesh jobs submitted or running
+  bool scarce = false;   ///< true if memory ran out, and no chunk could be made since
   PlannerStats planner_stats;
-  MadeMeasures made;  ///< if the settings ask for it
+  MadeMeasures made;  ///< measures of finished work, if the settings request them
   WorldTimes times;
   size_t collider_bytes = 0;
 
   struct Work {
     size_t queued = 0, in_work = 0;
-    size_t stale = 0;  ///< of these, the ones planned for previous viewers
+    size_t stale = 0;  ///< number of these that were planned for previous viewers
   };
-  /// Precondition: the mutex is held.
+  /// Returns the amount of work. Precondition: the mutex is held.
   Work work() const;
-  /// Advances times.clock_seconds and job_seconds to now. Precondition: the mutex is held.
+  /// Adds the time until now to times.clock_seconds and times.job_seconds. Precondition: the mutex is held.
   void countWork();
   const SurfacePool& surfaces() const { return *surfaces_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Short enough for a string without allocation.
+  /// Short enough that a std::string needs no allocation for it.
   static constexpr const char* kOutOfMemory = "out of memory";
 
-  /// Few jobs are needed while a device works on a batch: one prepares its chunks, one finishes them.
+  /// The maximum number of mesh jobs. A device that meshes batches needs few: one job prepares its chunks, one finishes
+  /// them.
   size_t mostMeshJobs() const {
     const size_t most = std::max(1u, jobs.concurrency() - 1);
     return backend.batch() > 1 ? std::min<size_t>(most, 3) : most;
   }
-  /// Bytes that are neither used nor reserved.
+  /// Returns the bytes of the limit that are neither used nor reserved by jobs.
   size_t room() const {
     const size_t used = surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + reserved_;
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
-  /// Whether to prefetch more: not while there is too little memory for one chunk, whatever jobs have reserved.
+  /// True if more requests may be prefetched: not while too little memory is free for one chunk, regardless of
+  /// reservations.
   bool mayLook() const {
     return !scarce && settings.mesh_bytes >=
                           surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + largestChunk(settings);
   }
-  /// Whether jobs could mesh a request whose prefetch has taken too long.
+  /// True if jobs could mesh requests that have waited too long for their prefetch.
   bool isOverdue() const;
 
-  /// The object that jobs own.
+  /// The object that jobs own instead of the core.
   struct Gate {
     explicit Gate(WorldCore& core_in) : core(core_in) {}
-    /// Keeps the core alive until leave(). Returns false if the core has ended.
+    /// Delays the end of the core until leave(). Returns false if the core has ended.
     bool enter() noexcept;
     void leave() noexcept;
 
     WorldCore& core;
-    std::mutex mutex;  ///< guards what follows
+    std::mutex mutex;  ///< guards the following members
     std::condition_variable ended;
-    bool closed = false;  ///< the core has ended or is about to
+    bool closed = false;  ///< true if the core has ended or is about to
     size_t running = 0;   ///< number of running jobs
   };
 
-  /// Returns false if memory runs out.
+  /// Submits a job. Returns false if memory runs out.
   bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
   bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
-  /// Called at the world's turn to plan. owner: its gate.
+  /// Called when it is the world's turn to plan. owner: the world's gate.
   static void beginPlan(const std::shared_ptr<void>& owner) noexcept;
   /// Precondition: the mutex is held.
   void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
   void kickMeshing();
-  /// Starts lookers if there are too few for the requests to prefetch.
+  /// Starts lookers if fewer are running than there are requests to prefetch.
   void kickLooking();
   PlanInput planInput();
   void publish(Plan&& plan);
   void losePlanner();
-  /// Null if the planner needs no restart.
+  /// Returns the frame from which the planner must restart; null if it need not.
   std::shared_ptr<const DrawnFrame> frameToRestartFrom();
-  /// Returns false if memory ran out.
+  /// Makes and publishes a plan. Returns false if memory ran out.
   bool makePlan();
   void planOnce();
   void makeColliders();
-  /// Prefetches, as a looker, as long as there are requests for that.
+  /// The work of a looker: prefetches requests as long as there are any.
   void lookFar();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
   void meshAgain();
-  /// Ends a mesh job without a successor.
+  /// Ends a mesh job that submits no successor.
   void endMeshJob();
-  /// Calls `job`, which submits another job of this kind. If the job system runs that one at once, handsOn() is true
-  /// inside and it does nothing, so that no call does more than one job's work. Does nothing if memory runs out.
+  /// Calls `job`, which submits another job of the same kind. Some job systems run a submitted job at once, inside the
+  /// call: then handsOn() is true in it and it does nothing, so that no call does more than one job's work. Does
+  /// nothing if memory runs out.
   template <class Submit>
   void handOn(const Submit& job);
-  /// Precondition: the mutex is held.
+  /// True if this thread is inside handOn(). Precondition: the mutex is held.
   bool handsOn() const;
-  /// Takes as many of the queue's items as one job meshes, at most `batch`, for which the vector has capacity.
+  /// Takes as many items of the queue as one job meshes, at most `batch`; the vector has capacity for them.
   /// Precondition: the mutex is held.
   void takeItems(size_t batch, std::vector<WorkItem>& items);
   void surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const;
-  /// Meshes the items. Returns their measures.
+  /// Meshes the items, and returns their measures.
   MadeMeasures meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                          std::span<FinishedChunk> done) const;
   void flushOnce();
   void compareOnce();
-  /// Reports that memory ran out: the next update tries again, with one job at first.
+  /// Reports that memory ran out. The next update tries again, with a single job at first.
   void tellScarce() noexcept;
-  /// Thread-safe, takes no lock.
+  /// Sends a warning. Thread-safe, takes no lock.
   void warn(const char* message) const noexcept;
 
-  /// The entry point of jobs: does nothing once the gate is closed.
+  /// The entry point of jobs; does nothing if the gate is closed.
   template <void (WorldCore::*work)()>
   static void run(void* argument) noexcept;
 
   std::pmr::memory_resource* memory_;
-  const std::unique_ptr<JobSystem> lookers_;  ///< null: no store is far
+  const std::unique_ptr<JobSystem> lookers_;  ///< null: no store is on a server
   const std::shared_ptr<Gate> gate_;
   const std::shared_ptr<PlanTurns> turns_;
   PlanTurns::Member turn_;
   std::shared_ptr<SurfacePool> surfaces_;
-  const std::unique_ptr<MeasuringPool> measuring_;  ///< null: no measures
-  Planner planner_;                                 ///< used only by the planning job, which never runs concurrently
-  Colliders colliders_;                             ///< same as above
+  const std::unique_ptr<MeasuringPool> measuring_;  ///< null: measures are not requested
+  Planner planner_;                                 ///< used by the planning job only, of which at most one runs
+  Colliders colliders_;                             ///< also used by the planning job only
 
-  // Guarded by the mutex.
-  bool scarce_told_ = false;   ///< since the world was last at rest
-  bool passed_over_ = false;   ///< memory ran out for a chunk since the last plan
-  bool planner_lost_ = false;  ///< memory ran out during planning
+  // The following members are guarded by the mutex.
+  bool scarce_told_ = false;   ///< true if low memory was reported since the world was last at rest
+  bool passed_over_ = false;   ///< true if memory ran out for a chunk since the last plan
+  bool planner_lost_ = false;  ///< true if memory ran out during planning
   struct Seen {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
-  Seen planning_with_, planned_with_;  ///< input of the plan in progress, and of the published one
-  WorldState queue_edits_;             ///< the state under which the queue is meshed
+  Seen planning_with_, planned_with_;  ///< input of the plan in progress, and of the published plan
+  WorldState queue_edits_;             ///< the state under which the queue must be meshed
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
-  size_t meshing_before_ = 0;  ///< requests in work when these viewers' plan came, minus those that ended since
-  size_t meshing_ = 0;         ///< requests in work
-  size_t meshing_jobs_ = 0;    ///< jobs at work on them
-  Clock::time_point counted_at_ = Clock::now();             ///< countWork() precedes changes of meshing_jobs_
-  std::array<size_t, WorkItem::kRanks> meshing_of_rank_{};  ///< requests in work by WorkItem::Rank
-  size_t reserved_ = 0;                                     ///< the most bytes that these may take
-  size_t look_jobs_ = 0;                                    ///< lookers that run or are about to
-  std::vector<std::thread::id> submitting_;                 ///< threads that are submitting a mesh job's successor
-  bool planning_ = false;                                   ///< waiting for its turn, submitted or running
+  /// number of requests in work when the plan for the current viewers was published, minus those that have ended since
+  size_t meshing_before_ = 0;
+  size_t meshing_ = 0;       ///< number of requests in work
+  size_t meshing_jobs_ = 0;  ///< number of jobs that mesh these requests
+  /// countWork() is called before each change of meshing_jobs_
+  Clock::time_point counted_at_ = Clock::now();
+  std::array<size_t, WorkItem::kRanks> meshing_of_rank_{};  ///< number of requests in work, by WorkItem::Rank
+  /// the maximum number of bytes that the requests in work may need
+  size_t reserved_ = 0;
+  size_t look_jobs_ = 0;                     ///< number of lookers that run or are about to
+  std::vector<std::thread::id> submitting_;  ///< threads that are inside handOn()
+  /// true if a plan waits for its turn, is submitted or is running
+  bool planning_ = false;
   bool plan_again_ = false;
-  bool flushing_ = false;  ///< same as above
+  bool flushing_ = false;  ///< true if a write of the journal is submitted or running
   bool stopped_ = false;
   bool idle_ = false;
   bool colliders_done_ = true;

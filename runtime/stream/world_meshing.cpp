@@ -1,4 +1,4 @@
-// The jobs that mesh a world's planned chunks, and the lookers, which prefetch chunks from a server.
+// The jobs that mesh a world's planned chunks, and the lookers: threads that prefetch chunks from a server.
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-/// Finished requests that trigger a plan while more are waiting and no update comes.
+/// After this number of finished requests a plan is made, even if more requests are waiting and no update is called.
 constexpr size_t kFinishedToPlan = 64;
 constexpr int kMeshPriority = 1, kLookPriority = 1;
 static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finished too late would never be released");
@@ -18,7 +18,7 @@ static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finish
 }  // namespace
 
 bool WorldCore::isLooking() const {
-  // Without room the requests wait for that instead.
+  // Without free memory, the requests wait for memory, not for a prefetch.
   return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
@@ -27,12 +27,12 @@ bool WorldCore::isOverdue() const {
 }
 
 void WorldCore::kickMeshing() {
-  // A job system that runs jobs at once gets only this many.
+  // The number is limited, because some job systems run a job at once, inside submit().
   for (size_t more = mostMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      // After a failed allocation do not try one prefetched chunk after the other.
+      // After a failed allocation, the other prefetched chunks are not tried one after the other.
       if (lookers_ != nullptr && passed_over_) return;
       if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
@@ -60,13 +60,13 @@ void WorldCore::kickLooking() {
     }
     if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
     const std::lock_guard lock(mutex);
-    --look_jobs_;  // jobs mesh the requests after kPatience
+    --look_jobs_;  // the prefetch failed to start; jobs mesh the requests after kPatience
     return;
   }
 }
 
 void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
-  // A device needs many chunks at a time; but each job should have some, and room for them.
+  // A device needs many chunks at a time; but each idle job should get some, and there must be memory for them.
   const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
   const Clock::time_point now = Clock::now();
@@ -76,7 +76,7 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
        at = queue.nextReady(*at, now)) {
     const WorkItem& next = queue[*at];
-    // Urgent requests do not wait for less urgent ones.
+    // Urgent requests do not wait for less urgent ones in the same batch.
     if (!items.empty() && next.rank != items.front().rank) break;
     try {
       begun_.push_back(next.request.key);
@@ -141,7 +141,7 @@ void WorldCore::lookFar() {
     try {
       look = std::make_shared<Look>();
     } catch (const std::bad_alloc&) {
-      // Jobs mesh requests without a prefetch after kPatience.
+      // Without lookers, jobs mesh the requests after kPatience.
     }
     std::optional<ChunkRequest> request;
     WorldState under;
@@ -158,7 +158,7 @@ void WorldCore::lookFar() {
     try {
       found = mesherOf(under).find(*request, under.brushes.get());
     } catch (const std::bad_alloc&) {
-      // The chunk is meshed instead.
+      // The prefetch ran out of memory: the chunk is meshed instead.
     }
     {
       const std::lock_guard lock(mutex);
@@ -214,7 +214,7 @@ void WorldCore::meshOnce() {
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
-    // If the job system runs a submitted job at once, within submit(), one call would mesh the whole queue.
+    // Inside handOn() nothing is taken: otherwise one call could mesh the whole queue, one job within the other.
     if (!handsOn()) takeItems(batch, items);
     under = queue_edits_;
     of_generation = generation;
@@ -227,7 +227,7 @@ void WorldCore::meshOnce() {
     done.back().before = item.before;
     done.back().edits = under.number;
   }
-  // Skip the rest of a batch that is no longer wanted.
+  // Cancels the rest of a batch that is no longer wanted.
   const auto wanted = [&](uint64_t, uint64_t) {
     const std::lock_guard lock(mutex);
     return !stopped_ && generation == of_generation;
@@ -262,15 +262,17 @@ void WorldCore::meshOnce() {
       try {
         finished_.push_back(std::move(chunk));
       } catch (const std::bad_alloc&) {
-        // The planner, or a new one that knows of its begin, would wait for this chunk for ever.
+        // Without the result, the planner (also a new one, since it would learn that the chunk was begun) would wait
+        // for this chunk forever. So it restarts.
         planner_lost_ = out_of_memory = true;
         std::erase(begun_, key);
       }
     }
-    // Edited chunks, and those needed to stand on, are drawn as soon as the last one of their rank is finished.
+    // A plan is made as soon as the last edited chunk, or the last one needed to stand on, is finished, so that these
+    // are drawn soon.
     const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.mostUrgent().rank > rank);
     plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
-    // Memory may suffice for less urgent chunks; but limit failed attempts to one.
+    // Memory may suffice for less urgent chunks, so meshing goes on; but after a second failure it stops.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
   }

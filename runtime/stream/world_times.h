@@ -1,5 +1,5 @@
 #pragma once
-// Durations of a world's work as histograms: averages would hide the peaks that a player notices.
+// Durations of a world's work as histograms: averages would hide the peaks that players notice.
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// Seconds. counts[i] has the durations above 2^(i - 17) and up to 2^(i - 16); the first bucket also has shorter ones,
-/// the last bucket also longer ones.
+/// A histogram of durations in seconds. counts[i] has the durations above 2^(i - 17) and up to 2^(i - 16); the first
+/// bucket also has shorter ones, the last bucket also longer ones.
 struct TimeHistogram {
   static constexpr int kBuckets = 21, kFirstExponent = -16;
 
@@ -27,11 +27,14 @@ struct TimeHistogram {
 };
 
 struct WorldTimes {
-  TimeHistogram update, poll;                     ///< calls, including the wait for each other
-  std::array<TimeHistogram, kMaxLevel + 1> mesh;  ///< of bodies by level; each chunk of a batch has an equal share
-  TimeHistogram read;                             ///< of bodies from the disk or a server, in equal shares
-  double clock_seconds = 0;                       ///< time during which jobs meshed or read chunks
-  double job_seconds = 0;                         ///< the same, multiplied by the number of these jobs
+  /// durations of calls, including the time that one waits for the other
+  TimeHistogram update, poll;
+  /// time to mesh a body, by level; the chunks of a batch have equal shares of its time
+  std::array<TimeHistogram, kMaxLevel + 1> mesh;
+  /// time to read a body from the disk or a server; equal shares as above
+  TimeHistogram read;
+  double clock_seconds = 0;  ///< seconds during which at least one job meshed or read chunks
+  double job_seconds = 0;    ///< seconds that jobs spent on this, summed over jobs
 };
 
 }  // namespace sgm

@@ -23,10 +23,10 @@ namespace {
 constexpr uint64_t kJournalMagic = 0x53544944454D4753;  // "SGMEDITS"
 constexpr uint32_t kJournalVersion = 1;
 constexpr size_t kHeadBytes = 40;
-constexpr size_t kRecordHead = 12;  // u32 length, u64 checksum of the content
+constexpr size_t kRecordHead = 12;  // length of the content (u32), checksum of the content (u64)
 constexpr size_t kMostRecordBytes = kRecordHead + kMostEditBytes;
 constexpr uint64_t kMostJournalBytes = uint64_t{1} << 30;
-constexpr size_t kLeastCompacted = 256;  // operations: fewer are not worth a new file
+constexpr size_t kLeastCompacted = 256;  // operations: a file with fewer is not rewritten
 constexpr int kMostTries = 100;
 
 using Bytes = std::vector<std::byte>;
@@ -50,7 +50,7 @@ Bytes headOf(const WorldIdentity& world) {
   return bytes;
 }
 
-/// Checks that the bytes begin a journal of this world. Precondition: there are kHeadBytes.
+/// Checks that the bytes begin a journal of this world. Precondition: there are at least kHeadBytes bytes.
 Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, const WorldIdentity& world) {
   ByteReader in(bytes);
   const auto bad = [&](const std::string& why) { return journalError(Code::bad_input, path, why); };
@@ -62,7 +62,7 @@ Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, c
   const WorldIdentity of{0, 0, in.get<int32_t>()};
   const auto grammar = in.get<uint64_t>(), seed = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksum(bytes.first(kHeadBytes - 8))) return bad("its header is damaged");
-  // The grammar's hash comes last: it includes the others.
+  // The grammar's hash is compared last, because it includes the seed and the cell.
   const char* differs = seed != world.seed         ? "seed"
                         : of.cell != world.cell    ? "finest cell"
                         : grammar != world.grammar ? "grammar, other parameters or other host fields"
@@ -80,7 +80,7 @@ void putRecord(const EditOperation& operation, Bytes& bytes) {
   bytes.insert(bytes.end(), payload.begin(), payload.end());
 }
 
-/// The first operation of these bytes, and its size.
+/// Decodes the first operation of these bytes; returns it with its size; nullopt if it is incomplete or damaged.
 std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto length = in.get<uint32_t>();
@@ -94,7 +94,8 @@ std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::b
   return std::pair(*operation, kRecordHead + length);
 }
 
-/// Opens and locks the file as long as it has that name: another process may be about to replace it.
+/// Opens and locks the file. Repeats until the locked file still has this name: another process may be about to replace
+/// it.
 Result<File> openLocked(const fs::path& path) {
   for (int i = 0; i < kMostTries; ++i) {
     File file(platform::openFile(path, platform::kRead | platform::kWrite | platform::kCreate));
@@ -125,11 +126,11 @@ Result<Bytes> readAll(const fs::path& path, int file) {
 }
 
 struct Written {
-  size_t bytes = 0;  ///< that are on disk
-  int error = 0;     ///< errno if writing failed
+  size_t bytes = 0;  ///< number of bytes that are on disk
+  int error = 0;     ///< errno if writing failed, otherwise 0
 };
 
-/// Blocks until the bytes are on disk, or as many of them as possible.
+/// Writes the bytes, and blocks until they are on disk. If that fails, as many bytes as possible are.
 Written writeDurably(int file, std::span<const std::byte> bytes, uint64_t at) {
   Written done;
   while (done.bytes < bytes.size() && done.error == 0) {
@@ -142,12 +143,12 @@ Written writeDurably(int file, std::span<const std::byte> bytes, uint64_t at) {
   return {0, done.error != 0 ? done.error : errno};
 }
 
-/// The complete records at the beginning of the bytes, and their size.
+/// The complete records at the beginning of some bytes, and their total size.
 struct WholeRecords {
   size_t count = 0, bytes = 0;
 };
 
-/// Precondition: the bytes are records; the last one may be cut off.
+/// Precondition: the bytes are valid records; the last one may be incomplete.
 WholeRecords wholeRecords(std::span<const std::byte> bytes) {
   WholeRecords whole;
   while (bytes.size() - whole.bytes >= kRecordHead) {
@@ -164,11 +165,11 @@ Result<void> writeWhole(const fs::path& path, std::span<const std::byte> bytes) 
   if (!writer) return writer.error();
   writer->write(bytes.data(), bytes.size());
   if (Result<void> done = writer->commit(); !done) return done;
-  platform::syncFolder(path.parent_path());  // or the disk may lose the new name
+  platform::syncFolder(path.parent_path());  // without this, a power failure may lose the new name
   return {};
 }
 
-/// Copies a damaged file to a new name. Only the process that holds the journal's lock does this.
+/// Copies a damaged file to a new name. Precondition: this process holds the journal's lock.
 Result<fs::path> setAside(const fs::path& path, std::span<const std::byte> bytes) {
   for (int i = 1; i <= kMostTries; ++i) {
     fs::path aside = path;
@@ -196,10 +197,10 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
   OpenedJournal opened;
   const Bytes head = headOf(world);
   if (bytes->size() < kHeadBytes && std::equal(bytes->begin(), bytes->end(), head.begin())) {
-    // The file is new, or the process was killed while it was new.
+    // The file is new, or a process was killed before it had written the head.
     if (const Written written = writeDurably(file->number(), head, 0); written.error != 0)
       return ioError(path, written.error);
-    platform::syncFolder(path.parent_path());  // or the disk may lose the new name
+    platform::syncFolder(path.parent_path());  // without this, a power failure may lose the new name
     *bytes = head;
   }
   if (bytes->size() < kHeadBytes) return journalError(Code::bad_input, path, "it is not an edit journal");
@@ -212,7 +213,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
     whole += record->second;
   }
   const size_t rest = all.size() - whole;
-  const bool damaged = rest > kMostRecordBytes;  // more than one incompletely written operation
+  const bool damaged = rest > kMostRecordBytes;  // more bytes than one incompletely written operation has
   if (damaged) {
     Result<fs::path> aside = setAside(path, all);
     if (!aside) return aside.error();
@@ -251,7 +252,7 @@ EditJournal::~EditJournal() {
   try {
     (void)flush();
   } catch (const std::bad_alloc&) {
-    // Everything flushed before is safe.
+    // Errors cannot be reported here, but everything that was flushed before is on disk.
   }
   platform::closeFile(file_);
 }
@@ -262,7 +263,7 @@ void EditJournal::append(std::span<const EditOperation> operations) {
   try {
     for (const EditOperation& operation : operations) putRecord(operation, waiting_);
   } catch (const std::bad_alloc&) {
-    waiting_.resize(before);  // half a record would damage all that follow
+    waiting_.resize(before);  // an incomplete record would damage all following ones
     throw;
   }
 }
@@ -276,7 +277,7 @@ Result<void> EditJournal::flush() {
   }
   if (unwritten_.empty()) return {};
   const Written written = writeDurably(file_, unwritten_, size_);
-  // The next try overwrites the rest of a record that was cut off.
+  // The next attempt overwrites the rest of a record that was written incompletely.
   const size_t kept = wholeRecords(std::span(unwritten_).first(written.bytes)).bytes;
   size_ += kept;
   unwritten_.erase(unwritten_.begin(), unwritten_.begin() + static_cast<std::ptrdiff_t>(kept));

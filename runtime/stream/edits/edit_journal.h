@@ -1,5 +1,6 @@
 #pragma once
-// The edits of a world on disk: a head that identifies the world, then operations with their lengths and checksums.
+// A file with the edits of a world: a head that identifies the world, then operations, each with its length and
+// checksum.
 
 #include <filesystem>
 #include <memory>
@@ -9,7 +10,7 @@
 
 namespace sgm {
 
-/// Identifies the world of a journal.
+/// Identifies the world to which a journal belongs.
 struct WorldIdentity {
   uint64_t grammar = 0;  ///< hash of the grammar and its parameters
   uint64_t seed = 0;
@@ -18,25 +19,25 @@ struct WorldIdentity {
 
 struct OpenedJournal;
 
-/// Thread-safe. Everything that was flushed is there when the file is opened again, even after a crash of the process
-/// or a power failure. The file is locked during the journal's lifetime, so that no other process opens it.
+/// Thread-safe. All operations that were flushed are read when the file is opened again, even after a crash of the
+/// process or a power failure. The file is locked during the journal's lifetime, so that no other process opens it.
 class EditJournal {
  public:
-  /// Opens or creates the file. A damaged file is kept under another name, and its content before the damage continues
-  /// in a new one. A file in which most operations are no longer essential (essentialEdits) is rewritten without them.
-  /// io: not readable or writable, or no room. bad_input: not a journal, or of another version or world; the file stays
-  /// as it is. limit: the file is already open, or larger than a gigabyte.
+  /// Opens or creates the file. If the file is damaged, it is renamed, and a new file continues with the content before
+  /// the damage. If most operations are no longer essential (essentialEdits), the file is rewritten without them.
+  /// Errors: io if the file cannot be read or written, or the disk is full; bad_input if it is not a journal, or is of
+  /// another version or world (the file is not changed); limit if the file is already open, or larger than a gigabyte.
   static Result<OpenedJournal> open(const std::filesystem::path& path, const WorldIdentity& world);
 
   EditJournal(const EditJournal&) = delete;
   EditJournal& operator=(const EditJournal&) = delete;
-  ~EditJournal();  ///< flushes; to see errors, call flush() before
+  ~EditJournal();  ///< Flushes, but cannot report errors: call flush() before.
 
-  /// Stores operations in memory; never waits for the disk. Throws std::bad_alloc, and then stores none.
+  /// Adds operations to a buffer in memory; never waits for the disk. Throws std::bad_alloc, and then adds none.
   void append(std::span<const EditOperation> operations);
-  /// Writes the appended operations, and blocks until they are on disk. Call it every second on a thread other than the
-  /// frame's; then at most that second can be lost. io: nothing is lost, and the next call tries again; the message
-  /// says how many operations are not on disk.
+  /// Writes the appended operations, and blocks until they are on disk. If it is called every second, on a thread other
+  /// than the frame's, a crash loses at most one second. Error: io; no operation is lost then, the next call tries
+  /// again, and the message says how many operations are not on disk.
   Result<void> flush();
 
  private:
@@ -45,18 +46,18 @@ class EditJournal {
   const std::filesystem::path path_;
   const int file_;
   std::mutex appending_, writing_;
-  std::vector<std::byte> waiting_;    ///< guarded by appending_
-  std::vector<std::byte> unwritten_;  ///< guarded by writing_
-  uint64_t size_;                     ///< the size of the file on disk; guarded by writing_
+  std::vector<std::byte> waiting_;    ///< appended operations; guarded by appending_
+  std::vector<std::byte> unwritten_;  ///< operations that are being written; guarded by writing_
+  uint64_t size_;                     ///< size of the file on disk; guarded by writing_
 };
 
 struct OpenedJournal {
   std::unique_ptr<EditJournal> journal;
-  std::vector<EditOperation> operations;  ///< in the order of writing
-  uint64_t cut_bytes = 0;                 ///< lost: of a last operation that was not completely written
-  size_t left_out = 0;                    ///< removed: operations that were no longer essential
-  std::filesystem::path damaged;          ///< path of the damaged file; empty: the file was intact
-  std::string message;                    ///< for the log, if something was wrong
+  std::vector<EditOperation> operations;  ///< the file's operations, in the order of writing
+  uint64_t cut_bytes = 0;                 ///< size of an incompletely written last operation, which was lost
+  size_t left_out = 0;                    ///< number of operations removed, because they were no longer essential
+  std::filesystem::path damaged;          ///< new path of the damaged file; empty: the file was intact
+  std::string message;                    ///< message for the log, if the file had a problem; otherwise empty
 };
 
 }  // namespace sgm

@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// If a cell has more changes, one box around all of them is kept.
+/// The maximum number of changed groups stored per cell; if there are more, one box around all of them is stored.
 constexpr size_t kMostChangesOfCell = 64;
 
 bool sameDomain(const Program& a, const Program& b) {
@@ -21,7 +21,7 @@ bool sameCells(const Program& of_a, const Layer& a, const Program& of_b, const L
   return of_a.text(a.name) == of_b.text(b.name) && a.cell == b.cell && (a.cell_expr == kNoId) == (b.cell_expr == kNoId);
 }
 
-/// A host field without an identity is never known to be the same.
+/// A host field without an identity is always treated as changed.
 bool sameHost(const HostField& a, const HostField& b) {
   return a.identity != 0 && a.identity == b.identity && a.bounds == b.bounds && a.cut == b.cut && a.label == b.label &&
          a.smooth == b.smooth && a.steepness == b.steepness;
@@ -38,7 +38,7 @@ ChangedShape joined(const std::vector<ChangedShape>& changes) {
   return all;
 }
 
-/// Whether a change can be seen in the body or the seams of a chunk: these read the next coarser level.
+/// True if a change is visible in the body or the seams of a chunk; the seams read the next coarser level.
 bool touchesChunk(const ChangedShape& change, const ChunkGrid& grid, const IntBox& box) {
   if (change.anchor) return grid.level == 0 && change.box.meets(box);
   return grid.cell <= change.coarsest_cell && int64_t{2} * grid.cell >= change.finest_cell &&
@@ -53,7 +53,7 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
   pairLayers();
   const auto keepOthers = [this](std::span<const HostField> of, std::span<const HostField> other) {
     for (size_t i = 0; i < of.size(); ++i) {
-      // Their order matters: later ones lie on top.
+      // The order of host fields matters, because later ones lie on top.
       if (i >= other.size() || !sameHost(of[i], other[i])) hosts_.push_back(of[i]);
     }
   };
@@ -64,7 +64,8 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
 void FieldChange::pairLayers() {
   const Program &before = *from_->settings().program, &after = *to_->settings().program;
   everything_ = !sameDomain(before, after);
-  uint32_t next = 0;  // index of the first layer that may still have a partner: the order of layers matters
+  // index of the first layer that may still have a partner: pairs must have the same order in both fields
+  uint32_t next = 0;
   for (uint32_t i = 0; i < before.layers.size(); ++i) {
     const auto same = [&](const Layer& layer) { return sameCells(before, before.layers[i], after, layer); };
     const auto found = std::find_if(after.layers.begin(), after.layers.end(), same);
@@ -94,7 +95,7 @@ bool FieldChange::showsOtherwise(const LayerPair& pair, int32_t cell_edge) const
   if (!pair.before || !pair.after) return false;
   const Layer& before = from_->settings().program->layers[*pair.before];
   const Layer& after = to_->settings().program->layers[*pair.after];
-  // Seams read the next coarser level.
+  // The seams of the chunk read the next coarser level.
   return before.shows(cell_edge) != after.shows(cell_edge) || before.shows(2 * cell_edge) != after.shows(2 * cell_edge);
 }
 
@@ -116,11 +117,12 @@ bool FieldChange::touches(const ChunkKey& key) const {
       const std::shared_ptr<const Changes> changes = changesIn(i, cell);
       touched = touched || std::any_of(changes->begin(), changes->end(),
                                        [&](const ChangedShape& change) { return touchesChunk(change, *grid, box); });
-      // Return any error to end the walk.
+      // Any error ends the walk.
       if (touched) return Error{Code::cancelled, ""};
       return {};
     };
-    // Each layer by its own reach: an edited grammar may have another.
+    // The cells of each field are searched by that field's declared reach, since an edited grammar may have another
+    // one.
     if (pair.before && !from_->cellsAround(*pair.before, around, look)) return true;
     if (pair.after && !to_->cellsAround(*pair.after, around, look)) return true;
   }
@@ -133,7 +135,7 @@ std::shared_ptr<const FieldChange::Changes> FieldChange::changesIn(uint32_t pair
     const std::lock_guard lock(mutex_);
     if (const auto found = known_.find(at); found != known_.end()) return found->second;
   }
-  // Two threads that compare the same cell concurrently get the same result.
+  // If two threads compare the same cell concurrently, both get the same result.
   Changes changes = compare(layers_[pair], cell);
   if (changes.size() > kMostChangesOfCell) changes.assign(1, joined(changes));
   auto found = std::make_shared<const Changes>(std::move(changes));
@@ -148,17 +150,17 @@ FieldChange::Changes FieldChange::compare(const LayerPair& pair, Int3 cell) cons
                              std::shared_ptr<const DerivedCell>& held) {
     if (!layer) return true;
     Result<std::shared_ptr<const DerivedCell>> derived = field.cell(*layer, cell);
-    // Lack of memory must not decide the result.
+    // The result must not depend on the available memory, so lack of memory is passed on.
     if (!derived && derived.error().code == Code::out_of_memory) throw std::bad_alloc();
     if (!derived) return false;
     held = std::move(*derived);
     content.chunk = &held->chunk;
     return true;
   };
-  // The chunks that the cell may reach fail, or have failed, as a whole.
+  // If the cell cannot be derived, all chunks that it may reach fail as a whole, before or after the change.
   const Changes all{{IntBox::everything()}};
   if (!derive(*to_, pair.after, after, now)) return all;
-  // A cell that has read nothing that differs would be derived alike.
+  // Skips the comparison: a cell that has read nothing that differs would be derived alike.
   if (pair.before && now != nullptr && to_->derivesAlike(*from_, now->chunk.parameters)) return {};
   if (!derive(*from_, pair.before, before, old)) return all;
   return changedShapes(before, after);

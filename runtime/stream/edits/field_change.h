@@ -1,5 +1,6 @@
 #pragma once
-// Finds the chunks to mesh again when another field replaces a world's own: other parameters, or an edited grammar.
+// Finds the chunks that must be meshed again when another field (other parameters, or an edited grammar) replaces a
+// world's own.
 //
 // Cells of both fields are derived and compared group by group, except cells that have read no differing parameter. A
 // chunk within the bounds of a differing group is meshed again; other chunks keep their meshes.
@@ -17,30 +18,30 @@
 
 namespace sgm {
 
-/// Thread-safe: a pure function of the two fields, with cached results.
+/// The difference between two fields. Thread-safe: a pure function of the fields, with cached results.
 class FieldChange {
  public:
-  /// Compares two fields with the same finest cell. `to` takes over the derived cells of `from` (WorldField::adopt).
-  /// sharp: chunks have sharp features.
+  /// Compares two fields with the same finest cell. `to` copies those derived cells of `from` that do not differ
+  /// (WorldField::adopt). sharp: true if chunks have sharp features.
   FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in, bool sharp = false);
 
   const std::shared_ptr<const WorldField>& to() const { return to_; }
 
-  /// Whether the chunk's mesh, seams or anchors may differ. Derives the cells around the chunk that are not cached, and
-  /// takes as long as that. A cell that cannot be derived counts as changed.
+  /// Returns true if the chunk's mesh, seams or anchors may differ. Derives the cells around the chunk that are not
+  /// cached, which takes time. A cell that cannot be derived counts as changed.
   bool touches(const ChunkKey& chunk) const;
 
  private:
   using Changes = std::vector<ChangedShape>;
-  /// A layer of each field with the same name and cells; or a layer that only one field has.
+  /// A pair of layers with the same name and cells, one of each field; or a layer that only one field has.
   struct LayerPair {
     std::optional<uint32_t> before, after;
   };
 
   void pairLayers();
   bool shows(const LayerPair& pair, int32_t cell_edge) const;
-  /// Whether only one of the two is visible, by its own `detail`, at a level that matters to chunks with cells of this
-  /// edge.
+  /// True if only one layer of the pair is visible, by its `detail`, at a level that affects chunks with cells of this
+  /// edge (in units).
   bool showsOtherwise(const LayerPair& pair, int32_t cell_edge) const;
   std::shared_ptr<const Changes> changesIn(uint32_t pair, Int3 cell) const;
   Changes compare(const LayerPair& pair, Int3 cell) const;
@@ -48,10 +49,10 @@ class FieldChange {
   const std::shared_ptr<const WorldField> from_;
   const std::shared_ptr<const WorldField> to_;
   const bool sharp_;
-  bool everything_ = false;  ///< the domain differs, or the order of layers
+  bool everything_ = false;  ///< true if every chunk changes, because the domain or the order of layers differs
   std::vector<LayerPair> layers_;
-  std::vector<HostField> hosts_;  ///< host fields that only one of the two has
-  mutable std::mutex mutex_;      ///< guards the following
+  std::vector<HostField> hosts_;  ///< host fields that only one of the two fields has
+  mutable std::mutex mutex_;      ///< guards the following members
   mutable std::map<std::pair<uint32_t, Int3>, std::shared_ptr<const Changes>> known_;
 };
 

@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-/// Above this number unread changes are joined: a world without viewers may be edited for ever.
+/// Above this number, changes that were not read are merged: a world without viewers may be edited without end.
 constexpr size_t kMostChanges = 4096;
 
 }  // namespace
@@ -29,7 +29,7 @@ Result<std::string> WorldEdits::open(const std::filesystem::path& path, const Wo
   return std::move(opened->message);
 }
 
-// Reserves first, so that every change of the log is reported: nothing after it can fail.
+// Reserves memory before an edit is made, so that reporting the edit cannot fail.
 void WorldEdits::makeRoom(size_t more) {
   if (changes_.size() + more > kMostChanges) {
     WorldChange all;
@@ -68,7 +68,7 @@ Result<void> WorldEdits::merge(const Merge& from) {
       changed(*boxes);
     }
   } catch (const std::bad_alloc&) {
-    // An unknown part may have been merged.
+    // Some operations may have been merged before the error, and it is unknown which: everything counts as changed.
     changed({&everything, 1});
     throw;
   }
@@ -140,7 +140,7 @@ std::vector<WorldChange> WorldEdits::changedSince(uint64_t number) const {
 }
 
 void WorldEdits::forget(uint64_t number) {
-  std::vector<WorldChange> forgotten;  // freed after the mutex: a change of field is large
+  std::vector<WorldChange> forgotten;  // destroyed after the mutex is released, because a change of field is large
   const std::lock_guard lock(mutex_);
   const auto kept = std::stable_partition(changes_.begin(), changes_.end(),
                                           [number](const WorldChange& change) { return change.number <= number; });

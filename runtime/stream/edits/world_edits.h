@@ -1,6 +1,6 @@
 #pragma once
-// The changes of a streamed world: brushes laid on its field, and replacements of the field. Also the changes that no
-// frame shows yet, and the journal of the brushes.
+// The changes of a streamed world: its brushes, and replacements of its field. Also stores which changes are not yet
+// drawn, and writes the journal of the brushes.
 
 #include <atomic>
 #include <filesystem>
@@ -16,53 +16,58 @@
 
 namespace sgm {
 
-/// A world at one moment. All chunks of a frame are meshed under the same state, so that they fit together.
+/// The state of a world at one moment. All chunks of a frame are meshed under the same state, so that they fit
+/// together.
 struct WorldState {
-  uint64_t number = 0;                            ///< number of changes before it; states with equal numbers are equal
+  /// number of changes that led to this state; equal numbers mean equal states
+  uint64_t number = 0;
   std::shared_ptr<const WorldField> field{};      ///< the field below the brushes
-  std::shared_ptr<const EditSnapshot> brushes{};  ///< null: none
+  std::shared_ptr<const EditSnapshot> brushes{};  ///< null: no brushes
 };
 
-/// The effect of a change.
+/// A change of the world's state.
 struct WorldChange {
-  uint64_t number = 0;                         ///< of the state after the change
-  IntBox box{};                                ///< of a brush
-  std::shared_ptr<const FieldChange> field{};  ///< of a new field, then without a box
+  uint64_t number = 0;  ///< number of the state after the change
+  IntBox box{};         ///< for a brush: the changed region, in units
+  /// for a new field: the difference from the previous one; box is unused then
+  std::shared_ptr<const FieldChange> field{};
 };
 
 /// Thread-safe. Only open() and flush() wait for the disk.
 class WorldEdits {
  public:
-  /// memory: as EditLog's.
+  /// memory: same as for EditLog.
   WorldEdits(std::shared_ptr<const WorldField> field, const EditSettings& settings, std::pmr::memory_resource* memory);
 
-  /// Adds the operations of a journal, and writes to it from now on. Returns a message for the log
-  /// (OpenedJournal::message). Call once, before anything else. Errors: those of EditJournal::open and EditLog::merge.
+  /// Adds the operations of a journal, and uses it for writing from now on. Returns a message for the log
+  /// (OpenedJournal::message). Call once, before all other functions. Errors: those of EditJournal::open and
+  /// EditLog::merge.
   Result<std::string> open(const std::filesystem::path& path, const WorldIdentity& world);
 
-  /// As in EditLog.
+  /// Same as the functions of EditLog.
   Result<EditId> add(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> import(std::span<const std::byte> bytes);
-  /// Replaces the field below the brushes by FieldChange::to(); returns the state's number. New brushes may have the
-  /// materials and tags of that field's grammar. Precondition: the change comes from state().field.
+  /// Replaces the field below the brushes by FieldChange::to(); returns the number of the new state. From now on,
+  /// brushes may have the materials and tags of that field's grammar. Precondition: the change starts from
+  /// state().field.
   uint64_t setField(std::shared_ptr<const FieldChange> change);
   std::vector<std::byte> exportBytes(uint64_t since) const;
   uint64_t size() const;
   uint64_t hash() const;
 
-  /// The number of the current state; never waits.
+  /// Returns the number of the current state. Never waits.
   uint64_t number() const { return number_.load(std::memory_order_acquire); }
   WorldState state() const;
-  /// The changes after the state of this number, up to state().
+  /// Returns the changes that lead from the state with this number to state().
   std::vector<WorldChange> changedSince(uint64_t number) const;
-  /// Drops changes up to this state: changedSince() will not be called with an earlier one.
+  /// Drops the changes up to this state. changedSince() must not be called with an earlier number afterwards.
   void forget(uint64_t number);
 
-  /// Whether there are operations that flush() has not tried to write.
+  /// True if there are operations that flush() has not tried to write.
   bool unwritten() const { return unwritten_.load(std::memory_order_acquire); }
-  /// Blocks until all operations so far are on disk. Errors: as EditJournal::flush; unwritten() is true again, also if
-  /// it throws std::bad_alloc.
+  /// Blocks until all operations so far are on disk. Errors: same as EditJournal::flush. After an error or
+  /// std::bad_alloc, unwritten() is true again.
   Result<void> flush();
 
  private:
@@ -71,13 +76,13 @@ class WorldEdits {
   template <class Merge>
   Result<void> merge(const Merge& from);
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the following members
   EditLog log_;
   std::shared_ptr<const WorldField> field_;
   std::vector<WorldChange> changes_;
-  uint64_t journalled_ = 0;  ///< operations that were passed to the journal
+  uint64_t journalled_ = 0;  ///< number of operations that were passed to the journal
 
-  std::unique_ptr<EditJournal> journal_;  ///< or null; set once
+  std::unique_ptr<EditJournal> journal_;  ///< null: no journal; set once by open()
   std::atomic<uint64_t> number_{0};
   std::atomic<bool> unwritten_{false};
 };

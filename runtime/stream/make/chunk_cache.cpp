@@ -35,16 +35,16 @@ std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, co
   return FoundBaked{std::move(*found), stored->is_far};
 }
 
-/// Stores a part from a server in the disk cache, if it is worth more than a lookup of its record.
+/// Copies a part from a server to the disk cache, if reading it there is faster than looking up its record.
 void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const ChunkPart& found,
                std::pmr::memory_resource* memory) try {
   if (found.mesh.indices.empty()) return;
   cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, found.mesh, found.anchors, found.voids, memory));
 } catch (const std::bad_alloc&) {
-  // The part is fetched again the next time.
+  // Not stored: the part will be fetched from the server again.
 }
 
-/// Searches the disk cache and the stores, the nearer one first.
+/// Searches the disk cache and the stores; the cache first if a store is on a server, else the stores first.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
                                 const ChunkPartInputs& inputs, int part, Reach reach,
                                 std::pmr::memory_resource* memory) {
@@ -70,8 +70,8 @@ void leaveOut(int part, ChunkRequest& request) {
   }
 }
 
-/// Stores the requested parts. If the chunk was proven solid or void without samples, empty parts are not stored: that
-/// proof takes as long as reading a file, and a tenth of writing one.
+/// Stores the requested parts in the cache. If the chunk was proven solid or void without samples, empty parts are not
+/// stored: that proof takes as long as reading a file, and a tenth of the time of writing one.
 void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& request, const PlacedChunk& chunk,
           const VoidComponents& voids, bool sampled, std::pmr::memory_resource* memory) try {
   const MeshParts meshes = partsOf(chunk.mesh);
@@ -82,7 +82,7 @@ void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& r
     cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, mesh, chunk.anchors, voids, memory));
   }
 } catch (const std::bad_alloc&) {
-  // The chunk is meshed again the next time.
+  // Not stored: the chunk will be meshed again.
 }
 
 void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& voids) {
@@ -103,7 +103,7 @@ ChunkRequest completed(ChunkRequest request, bool sharp) {
   return request;
 }
 
-/// nullopt if such requests are not stored.
+/// Returns the inputs of a request's parts; nullopt if such requests are not stored.
 std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRequest& request,
                                         const EditSnapshot* edits) {
   if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return {};
@@ -124,7 +124,8 @@ Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach rea
   return found;
 }
 
-/// The found parts whose inputs are unchanged; the others are searched near.
+/// Returns the found parts whose inputs have not changed since; searches the other parts in the cache and nearby
+/// stores.
 Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartInputs& inputs) {
   Parts still;
   std::optional<Parts> near;
@@ -138,9 +139,9 @@ Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartI
   return still;
 }
 
-/// An order in progress.
+/// An order while it is processed.
 struct InWork {
-  ChunkRequest request, rest;  ///< rest: the parts that were not found
+  ChunkRequest request, rest;  ///< request: all parts; rest: the parts that were not found and must be meshed
   const ChunkSurface* before;
   std::optional<ChunkPartInputs> inputs;
   Parts found;
@@ -173,7 +174,8 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   }
 }
 
-/// Meshes these orders together; if that fails, each half separately, so that only the failing order gets the error.
+/// Meshes these orders together. If that fails, meshes each half separately, so that only a failing order gets the
+/// error.
 void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<const size_t> numbers,
               const Progress& progress, std::vector<InWork>& work) {
   if (numbers.empty()) return;
@@ -197,12 +199,12 @@ void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<co
   }
 }
 
-/// Stores the meshed parts and adds the found ones.
+/// Stores the meshed parts in the cache, and adds the found parts.
 void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
-    // A body from the cache was sampled, and so, most likely, was a drawn chunk.
+    // A body from the cache has been sampled; and if a chunk is already drawn, it most likely was, too.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
     if (work.inputs && mesher.cache != nullptr)
       keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
@@ -212,8 +214,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   }
 }
 
-/// Uploads parts that the device has not meshed itself: those from the disk, and those that the CPU has meshed for it.
-/// If that fails, they are not on the device.
+/// Uploads the parts that the device has not meshed itself: those from the disk, and those that the CPU has meshed for
+/// it. If that fails, the parts are not on the device, which is no error.
 void bring(Backend& backend, std::span<InWork> all) {
   std::vector<const MeshPart*> parts;
   std::vector<std::shared_ptr<const DevicePart>*> places;
@@ -247,7 +249,7 @@ MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   return result;
 }
 
-/// Runs the body for orders without an error, on the job system; sets out_of_memory if it throws bad_alloc.
+/// Calls body on the job system for each order without an error; sets the error out_of_memory if it throws bad_alloc.
 template <class Body>
 void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
   parallelFor(jobs, work.size(), [&](size_t i) {

@@ -1,8 +1,8 @@
 #pragma once
-// Counts the bytes of living surfaces, and frees them outside of the engine's thread.
+// Counts the bytes of existing surfaces, and frees surfaces outside of the engine's thread.
 //
-// An engine releases a mesh at its own point of the frame, where freeing hundreds of arrays would be noticeable. The
-// last owner only puts the surface on a list, which the world's jobs empty.
+// An engine releases a mesh at some point of its frame, where freeing hundreds of arrays would take noticeable time. So
+// the last owner only puts the surface on a list, and the world's jobs free the surfaces on the list.
 
 #include <atomic>
 #include <memory>
@@ -12,21 +12,22 @@
 
 namespace sgm {
 
-/// Thread-safe. Lives as long as its last surface.
+/// Thread-safe. Exists as long as its last surface.
 class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
  public:
   explicit SurfacePool(std::pmr::memory_resource* memory) : memory_(memory) {}
   ~SurfacePool() { collect(); }
 
-  /// Throws std::bad_alloc.
+  /// Takes ownership of a surface. Throws std::bad_alloc.
   std::shared_ptr<const ChunkSurface> add(ChunkSurface&& surface);
 
-  /// Frees surfaces without an owner. Returns their number.
+  /// Frees the surfaces that have no owner any more. Returns their number.
   size_t collect();
-  /// Announces that collect() will not be called any more: from now on the last owner frees.
+  /// Announces that collect() will not be called any more: from now on, the last owner frees a surface itself.
   void close();
 
-  size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }  ///< of all surfaces that are not freed
+  /// total size of all surfaces that are not freed yet
+  size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
   size_t peakBytes() const { return peak_bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A set of chunk keys, for the octree's split nodes. It is searched some hundred thousand times a plan, and
-// std::unordered_set took two thirds of that time.
+// A hash set of chunk keys for the octree's split nodes. A plan searches it some hundred thousand times, for which
+// std::unordered_set took two thirds of the plan's time.
 
 #include <algorithm>
 #include <vector>
@@ -20,7 +20,7 @@ class ChunkSet {
     }
   }
 
-  /// Returns whether the key is new. Precondition: its level is not negative.
+  /// Inserts a key; returns true if it is new. Precondition: its level is not negative.
   bool insert(const ChunkKey& key) {
     if (2 * (size_ + 1) > keys_.size()) grow();
     for (size_t i = home(key);; i = next(i)) {
@@ -32,12 +32,12 @@ class ChunkSet {
     }
   }
 
-  /// Returns whether the key was present.
+  /// Removes a key; returns true if it was present.
   bool erase(const ChunkKey& key) {
     if (!contains(key)) return false;
     size_t hole = home(key);
     while (keys_[hole] != key) hole = next(hole);
-    // Move back entries that were displaced past the hole, so that no search ends too early.
+    // Moves back entries that were displaced past the hole, so that no search for them ends at the hole.
     for (size_t i = next(hole); keys_[i].level != kFree; i = next(i)) {
       const size_t from_home = (i - home(keys_[i])) & (keys_.size() - 1);
       const size_t from_hole = (i - hole) & (keys_.size() - 1);
@@ -53,7 +53,7 @@ class ChunkSet {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
 
-  /// No result may depend on the order.
+  /// Returns all keys in any order; no result may depend on it.
   std::vector<ChunkKey> unordered() const {
     std::vector<ChunkKey> found;
     found.reserve(size_);

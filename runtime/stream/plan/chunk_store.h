@@ -1,5 +1,5 @@
 #pragma once
-// The chunks that a world has meshed or is about to mesh. Used only by the planner, one thread at a time.
+// The chunks that a world has meshed or is about to mesh. Used by the planner only; not thread-safe.
 
 #include <memory>
 #include <optional>
@@ -12,19 +12,19 @@ namespace sgm {
 
 struct KnownChunk {
   std::shared_ptr<const ChunkSurface> surface;  ///< null if not meshed yet, or without triangles
-  std::unique_ptr<const VoidComponents> voids;  ///< of a level-0 chunk with a body; else null
-  bool body = false;                            ///< meshed, triangles or not
-  uint8_t seams = 0;                            ///< made seams, with or without triangles
-  bool in_work = false;                         ///< a request for it is handed out and has not come back
-  bool failed = false;                          ///< the last request failed; not requested again until edits change the
-                                                ///< chunk
+  std::unique_ptr<const VoidComponents> voids;  ///< voids of a level-0 chunk whose body is meshed; otherwise null
+  bool body = false;                            ///< true if the body is meshed, with or without triangles
+  uint8_t seams = 0;                            ///< mask of the meshed seams, with or without triangles
+  bool in_work = false;                         ///< true while a request for the chunk is being meshed
+  /// true if the last request failed; the chunk is not requested again until edits change it
+  bool failed = false;
   bool ever_drawn = false;
-  uint64_t edited = 0;  ///< the last state (WorldState::number) that changed it
-  uint64_t wanted = 0;  ///< the last plan that used it
-  uint64_t queued = 0;  ///< the last plan that requested it
-  size_t queue_at = 0;  ///< index in that plan's queue
+  uint64_t edited = 0;  ///< number of the last state (WorldState::number) that changed the chunk
+  uint64_t wanted = 0;  ///< number of the last plan that used the chunk
+  uint64_t queued = 0;  ///< number of the last plan that requested the chunk
+  size_t queue_at = 0;  ///< index of the request in that plan's queue
 
-  /// The chunk's memory, including its entry in the store.
+  /// Returns the memory of the chunk, including its entry in the store.
   size_t bytes() const {
     constexpr size_t kPlace = sizeof(ChunkKey) + 3 * sizeof(void*);
     return kPlace + sizeof *this + (surface != nullptr ? surface->bytes() : 0) +
@@ -34,7 +34,7 @@ struct KnownChunk {
 
 class ChunkStore {
  public:
-  /// Null if the chunk is unknown.
+  /// Returns the record of a chunk; null if the chunk is unknown.
   const KnownChunk* find(const ChunkKey& key) const {
     const auto at = records_.find(key);
     return at == records_.end() ? nullptr : &at->second;
@@ -44,15 +44,15 @@ class ChunkStore {
     if (is_new) record->second.edited = edits_;
     return record->second;
   }
-  /// New records count as edited in the state of this number: their earlier content is forgotten.
+  /// Sets the state in which new records count as last edited: what they contained before they were removed is unknown.
   void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
-  /// Removes records that no plan since `since` has used, longest unused first, until `bytes` are freed and at most
-  /// `most` records are left, or no such record is left. Returns the removed amounts.
+  /// Removes records that were not used by any plan from number `since` on, least recently used first, until `bytes`
+  /// are freed and at most `most` records are left, or no such record is left. Returns what was removed.
   struct Freed {
     size_t bytes = 0;
-    uint64_t never_drawn = 0;  ///< chunks with a body that was never drawn
+    uint64_t never_drawn = 0;  ///< number of removed chunks with a body that was never drawn
   };
   Freed freeUnused(uint64_t since, size_t bytes, size_t most);
   void clear() { records_.clear(); }
@@ -64,7 +64,7 @@ class ChunkStore {
 
  private:
   uint64_t edits_ = 0;
-  std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< no result may depend on the order
+  std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< unordered: no result may depend on the order
 };
 
 }  // namespace sgm

@@ -6,9 +6,9 @@ namespace sgm {
 
 namespace {
 
-/// Builds the tree from everything that is ready; then undoes changes that break a rule or lack a seam. Undoing
-/// restores committed nodes, which then stay, or removes uncommitted nodes, which do not return. So it ends, at the
-/// latest with the committed tree, which breaks no rule.
+/// Builds the tree from everything that is ready; then undoes the changes that break a rule or lack a seam. An undone
+/// change is not made again: committed nodes are restored and stay, uncommitted nodes are removed and do not return. So
+/// the loop ends, at the latest with the committed tree, which breaks no rule.
 class StepSearch {
  public:
   StepSearch(const Octree& committed, const Octree& target, const Readiness& ready)
@@ -38,7 +38,7 @@ class StepSearch {
   bool isVirtual(const ChunkKey& node) const { return node.level > target_.top(); }
   bool canBeLeaf(const ChunkKey& node) const { return isVirtual(node) || ready_.body(node); }
 
-  /// Whether the target's part in this node can be drawn, with ready coarser chunks as stand-ins.
+  /// True if the target's part in this node can be drawn, if necessary with ready coarser chunks as stand-ins.
   bool canPlace(const ChunkKey& node) const {
     if (committed_.isSplit(node) || canBeLeaf(node)) return true;
     return target_.isSplit(node) && canPlaceChildren(node);
@@ -51,7 +51,8 @@ class StepSearch {
     return true;
   }
 
-  /// Precondition: canPlace(node), and all ancestors are split in the plan.
+  /// Adds the target's part in this node to the plan. Precondition: canPlace(node), and all ancestors are split in the
+  /// plan.
   void place(const ChunkKey& node) {
     Octree& tree = plan_.tree;
     if (target_.isSplit(node) && canPlaceChildren(node)) {
@@ -59,12 +60,13 @@ class StepSearch {
       for (int i = 0; node.level > 1 && i < 8; ++i) place(childOf(node, i));
       return;
     }
-    // A wanted leaf is not ready: the drawn chunks stay. A wanted split is not complete: they stay too, or a stand-in.
+    // If a leaf of the target is not ready, the drawn chunks stay. If a split of the target is incomplete, the drawn
+    // chunks stay as well, or a coarser chunk stands in.
     const bool keeps = target_.isSplit(node) ? committed_.isSplit(node) : !canBeLeaf(node);
     if (!keeps) tree.merge(node);
   }
 
-  /// Restores the committed content of the highest merged ancestor of this node.
+  /// Restores the committed content of the highest ancestor of this node that the plan has merged.
   void restore(ChunkKey node) {
     while (!isVirtual(node) && !plan_.tree.isSplit(parentOf(node))) node = parentOf(node);
     restoreBelow(node);
@@ -76,7 +78,7 @@ class StepSearch {
     for (int i = 0; node.level > 1 && i < 8; ++i) restoreBelow(childOf(node, i));
   }
 
-  /// Removes an uncommitted split: the nearest ancestor that can be drawn as a leaf becomes one.
+  /// Undoes a split that is not committed: the nearest ancestor that can be drawn becomes a leaf.
   void coarsen(ChunkKey node) {
     while (!canBeLeaf(node)) node = parentOf(node);
     plan_.tree.merge(node);
@@ -114,7 +116,7 @@ class StepSearch {
       plan_.missing.push_back({leaf, missing});
       if (!committed_.isLeaf(leaf)) {
         undone = true;
-        // This leaf is new: by a split above it, or by a merge of drawn chunks.
+        // This leaf is not in the committed tree: it was created by a split above it, or by a merge of drawn chunks.
         if (committed_.isSplit(leaf)) {
           restore(leaf);
         } else {
@@ -122,7 +124,7 @@ class StepSearch {
         }
         continue;
       }
-      // This leaf is drawn already: a merge happened across one of its faces.
+      // This leaf is in the committed tree: the missing seam is due to a merge across one of its faces.
       for (int face = 0; face < 6; ++face) {
         if (!(missing >> face & 1)) continue;
         ChunkKey neighbour = leaf;

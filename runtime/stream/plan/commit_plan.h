@@ -1,5 +1,6 @@
 #pragma once
-// The next frame: as much of the wanted octree as can be drawn now, closed by its seams, with no partial change.
+// Plans the next frame: the part of the target octree that can be drawn now, with all seams, and with no change carried
+// out partially.
 
 #include <functional>
 #include <vector>
@@ -8,11 +9,11 @@
 
 namespace sgm {
 
-/// Tells what can be drawn. Called for chunks of the committed tree, of the target, and between them; answers must not
-/// change during one call of planCommit.
+/// Says what can be drawn. The functions are called for nodes of the committed tree, of the target, and between them;
+/// their results must not change during one call of planCommit.
 struct Readiness {
   std::function<bool(const ChunkKey&)> body;
-  /// The seams of a ready chunk that can be drawn, bit (1 << Face).
+  /// Returns the seams of a ready chunk that can be drawn: bit (1 << Face).
   std::function<uint8_t(const ChunkKey&)> seams;
 };
 
@@ -22,14 +23,14 @@ struct MissingSeams {
 };
 
 struct CommitPlan {
-  Octree tree;  ///< satisfies the rules; the body and needed seams of every leaf are ready
-  /// Seams whose absence prevented a commit.
+  Octree tree;  ///< satisfies the octree's rules; the body and the needed seams of every leaf are ready
+  /// Seams that would have allowed a change if they had been ready.
   std::vector<MissingSeams> missing;
 };
 
-/// Returns the octree nearest to the target that can replace the committed one in one step. Where something is not
+/// Returns the octree nearest to the target that can replace the committed one in one step. Where the target is not
 /// ready, the committed chunks stay, or a ready coarser chunk stands in for finer ones. Preconditions: both trees
-/// satisfy the rules and have the same top; the committed tree's leaves and seams are ready.
+/// satisfy the rules and have the same top level; the leaves and seams of the committed tree are ready.
 CommitPlan planCommit(const Octree& committed, const Octree& target, const Readiness& ready);
 
 }  // namespace sgm

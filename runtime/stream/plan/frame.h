@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of an octree: each leaf's body, and the seams towards coarser leaves and outer virtual nodes.
+// Lists the meshes of an octree: the body of each leaf, and its seams towards coarser leaves and outer virtual nodes.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// Returns one request for each leaf, in the order of Octree::leaves(), with exactly the drawn seams. Together the
-/// meshes form a closed surface: the outer faces are closed against the domain's own state.
+/// Returns one request for each leaf, in the order of Octree::leaves(), with exactly the seams that are drawn. Together
+/// the meshes form a closed surface: outer faces are closed against the domain's own state (octree.h).
 std::vector<ChunkRequest> frameRequests(const Octree& tree);
 
 }  // namespace sgm

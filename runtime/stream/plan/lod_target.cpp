@@ -14,11 +14,11 @@ double edgeOf(int level, int32_t finest_cell) {
   return static_cast<double>(int64_t{kChunkCells} * finest_cell << level);
 }
 
-/// Splits the nodes that viewers want split. Each node tests only the viewers near enough to want detail in it: these
-/// are found once for a virtual node, and filtered from level to level.
+/// Splits the nodes that viewers need split. A node is tested only against the viewers near enough to need detail in
+/// it. They are searched once for each virtual node, and filtered from level to level.
 class TargetBuilder {
  public:
-  /// near: the distance within which all levels are split; 0: each level has its own.
+  /// near: the distance within which all levels are split; 0: each level has its own distance.
   TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, double near,
                 const ChunkSet* finest)
       : tree_(tree), viewers_(viewers), settings_(settings), near_(near), finest_(finest) {}
@@ -43,15 +43,15 @@ class TargetBuilder {
   };
 
   static int32_t placeOf(double p) {
-    // The world has at most 2^26 chunks on an axis.
+    // The clamp keeps the result within the world, which has at most 2^26 chunks on an axis.
     return static_cast<int32_t>(std::clamp(std::floor(p), -67108864.0, 67108863.0));
   }
 
-  /// The virtual nodes in which the viewer may want something split.
+  /// Finds the virtual nodes in which the viewer may need a split.
   void listNear(uint32_t number, std::vector<NearViewer>& near_nodes) const {
     const LodViewer& viewer = viewers_[number];
     const double edge = edgeOf(settings_.top + 1, settings_.finest_cell);
-    // The nodes below may be wanted from farther away.
+    // Nodes of lower levels may be needed at a larger distance than the virtual node itself.
     const double far = std::max(splitDistance(settings_.top + 1), splitDistance(settings_.top)) * viewer.reach;
     std::array<int32_t, 3> first{}, last{};
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -65,7 +65,7 @@ class TargetBuilder {
     }
   }
 
-  /// The distance within which a node of this level must be split.
+  /// Returns the distance, in units, within which a node of this level must be split.
   double splitDistance(int level) const {
     if (near_ > 0) return near_;
     if (level > settings_.top) return settings_.view_distance;
@@ -77,7 +77,7 @@ class TargetBuilder {
     return distanceToChunk(of.position, node, settings_.finest_cell) < within * of.reach;
   }
 
-  /// Whether one of the askers from this index on wants the node split.
+  /// True if one of the viewers in askers_, from index `first` on, needs the node split.
   bool wanted(const ChunkKey& node, size_t first) const {
     if (node.level == 1 && finest_ != nullptr && !finest_->contains(node)) return false;
     const double within = splitDistance(node.level);
@@ -105,10 +105,10 @@ class TargetBuilder {
   const LodSettings& settings_;
   double near_;
   const ChunkSet* finest_;
-  std::vector<uint32_t> askers_;  ///< viewers of the current node, after those of its ancestors
+  std::vector<uint32_t> askers_;  ///< viewers of the current node, stacked after those of its ancestors
 };
 
-/// near: as TargetBuilder's.
+/// near: same as for TargetBuilder.
 Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings, double near, const ChunkSet* finest) {
   Octree tree(settings.top, settings.finest_cell);
   TargetBuilder(tree, viewers, settings, near, finest).build();
@@ -116,7 +116,7 @@ Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings,
   return tree;
 }
 
-/// An upper bound of the number of cubes with this edge that a ball meets.
+/// Returns an upper bound of the number of cubes with this edge that a ball meets.
 double cubesInBall(double radius, double edge) {
   constexpr double kHalfDiagonal = 0.8660254;
   return 4.0 / 3.0 * 3.141592653589793 * std::pow(radius / edge + kHalfDiagonal, 3);

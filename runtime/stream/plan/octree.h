@@ -1,10 +1,10 @@
 #pragma once
 // The octree of drawn chunks. It keeps two rules under which seams close the surface.
 //
-// Nodes have chunk keys. A node of level l is split if finer chunks are drawn in its place. The coarsest meshes have
-// level `top`. One level above are the virtual nodes, which fill the whole world and have no mesh; their field is the
-// domain's own state, the same everywhere. An unsplit virtual node is an outer neighbour of the drawn chunks: the seam
-// towards it closes the outer faces by the rule that joins two levels.
+// Nodes have chunk keys. A node of level l is split if finer chunks are drawn instead of it. The coarsest meshes have
+// level `top`. One level above are the VIRTUAL nodes, which fill the whole world and have no mesh; their field is the
+// domain's own state, the same everywhere. An unsplit virtual node is an outer neighbour of the drawn chunks: a seam
+// towards it closes their outer faces in the same way as a seam between two levels.
 //
 // The rules (mesh/seam.h): the levels of chunks that share a face differ by at most one, and around an edge of a
 // level's grid split and unsplit nodes never alternate crosswise.
@@ -16,7 +16,7 @@
 
 namespace sgm {
 
-/// A value: copies are independent.
+/// Has value semantics: copies are independent.
 class Octree {
  public:
   /// top: coarsest level with meshes, 0..kMaxLevel. finest_cell: edge of a level-0 cell in units; only virtual nodes
@@ -25,50 +25,52 @@ class Octree {
 
   int top() const { return top_; }
   bool isSplit(const ChunkKey& node) const { return split_.contains(node); }
-  /// Whether this chunk is drawn.
+  /// True if this chunk is drawn.
   bool isLeaf(const ChunkKey& node) const { return node.level <= top_ && isSplit(parentOf(node)) && !isSplit(node); }
-  /// The chunk drawn at a place, units; of the top level if the virtual node there is not split.
+  /// Returns the chunk that is drawn at a place (in units); the chunk of the top level there if its virtual node is not
+  /// split.
   ChunkKey leafAt(Int3 place) const;
-  /// Whether split() would accept the node.
+  /// True if split() would split the node: it has a virtual node inside the world.
   bool canSplit(const ChunkKey& node) const;
   bool empty() const { return split_.empty(); }
 
   /// Splits a node and all its ancestors. If canSplit() is false, returns false and changes nothing.
   bool split(ChunkKey node);
-  /// Unsplits a node and all its descendants.
+  /// Removes the split of a node and of all its descendants.
   void merge(const ChunkKey& node);
 
-  /// The drawn chunks, by virtual node, then in the order of childOf().
+  /// Returns the drawn chunks, sorted by virtual node, then in the order of childOf().
   std::vector<ChunkKey> leaves() const;
-  /// The split nodes, coarsest first, then by place.
+  /// Returns the split nodes, coarsest first, then by position.
   std::vector<ChunkKey> splitNodes() const;
 
   friend bool operator==(const Octree& a, const Octree& b) { return a.top_ == b.top_ && a.split_ == b.split_; }
 
  private:
   int top_;
-  int32_t finest_cell_;                            ///< units
-  int32_t first_virtual_ = 0, last_virtual_ = -1;  ///< coordinates, on every axis, of virtual nodes inside the world
+  int32_t finest_cell_;  ///< edge of a level-0 cell in units
+  /// range of coordinates, on every axis, of the virtual nodes inside the world
+  int32_t first_virtual_ = 0, last_virtual_ = -1;
   ChunkSet split_;
 };
 
-/// A broken rule next to a split node: `needed` should be split, too. Around an edge it would also help to split
-/// `or_else` or to unsplit `across`; for two faces all three are the same node.
+/// A violation of a rule next to a split node. Splitting `needed` repairs it. Around an edge, it is also repaired by
+/// splitting `or_else` or by merging `across`; for two faces, all three are the same node.
 struct BrokenRule {
   ChunkKey needed, or_else, across;
 };
 
-/// Appends the rules that a split node breaks.
+/// Appends the violations of rules next to a split node.
 void findBrokenRules(const Octree& tree, const ChunkKey& node, std::vector<BrokenRule>& broken);
 
-/// Splits further nodes until both rules hold; if the world's end prevents that, merges the finer side.
+/// Splits further nodes until both rules hold. Where the end of the world prevents a split, merges the finer side.
 void refineToRules(Octree& tree);
 
-/// The faces of a drawn chunk that border a coarser one, including virtual nodes: their seams are drawn.
-/// Bit (1 << Face).
+/// Returns the faces of a drawn chunk that border a coarser chunk or a virtual node, where a seam is drawn: bit (1 <<
+/// Face).
 uint8_t coarserFaces(const Octree& tree, const ChunkKey& leaf);
 
-/// The blocks around a drawn chunk that belong to coarser chunks, including virtual nodes.
+/// Returns the blocks around a drawn chunk that belong to coarser chunks or virtual nodes.
 Neighbourhood coarserBlocks(const Octree& tree, const ChunkKey& leaf);
 
 }  // namespace sgm

@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-/// Seconds: an upper bound of the rounding error after adding and subtracting the same values.
+/// Seconds: an upper bound of the rounding error that remains after the same values are added and subtracted.
 constexpr double kRounding = 1e-9;
 
 }  // namespace
@@ -25,7 +25,7 @@ void PlanTurns::leave(Member& member) noexcept {
     if (member.plans_) expected_ -= member.expected_;
     --members_;
   }
-  // Another world may be waiting for the workers that are free now.
+  // Another world may be waiting for the workers that became free.
   startDue();
 }
 
@@ -47,7 +47,7 @@ void PlanTurns::startDue(Clock::time_point now) {
     next.is_free_ = busy_ < workers;
     ++busy_;
     expected_ += next.expected_;
-    // The member may leave once the mutex is released.
+    // Copies are used, because the member may leave once the mutex is released.
     const std::shared_ptr<void> owner = next.owner;
     const auto begin = next.begin;
     lock.unlock();
@@ -61,7 +61,7 @@ void PlanTurns::pass(Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - passed_until_).count();
   if (seconds <= 0) return;
   passed_until_ = now;
-  // Pays also for plans that have begun: no world waits for a plan that a job system does not run.
+  // The credit also covers plans that have begun but are not run: no world waits for a plan that a job system delays.
   credit_ = std::min(std::max(expected_, credit_), credit_ + kTrickle * seconds);
 }
 
@@ -72,7 +72,7 @@ void PlanTurns::endPlan(Member& member, double seconds) noexcept {
   expected_ -= member.expected_;
   if (seconds <= 0) return;
   member.expected_ = seconds;
-  // A plan on an idle worker pays at most its own cost, whatever the credit was.
+  // A plan that ran on an idle worker reduces the credit to at most its own cost as debt, whatever the credit was.
   credit_ = member.is_free_ ? std::min(credit_, std::max(credit_ - seconds, -seconds)) : credit_ - seconds;
 }
 

@@ -8,27 +8,28 @@ namespace sgm {
 
 namespace {
 
-/// The share of the memory limit up to which unused surfaces are kept.
+/// The share of the memory limit that surfaces may take before unused ones are dropped.
 constexpr double kKeptShare = 0.6;
-/// Shares of the memory limit that the used surfaces take: above the first, detail is lowered; below the second, it is
-/// raised again. Their ratio exceeds the effect of one step, so that detail does not oscillate.
+/// Shares of the memory limit. If used surfaces take more than the first, detail is lowered; if they take less than the
+/// second, it is raised again. Their ratio exceeds the effect of one change, so that detail does not oscillate.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
-/// Above this share edits wait, since drawn chunks have no room for both their old and new version.
+/// If drawn surfaces take more than this share, edits wait, since there is no memory for the old and the new version of
+/// chunks.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
-/// The least factor on the requested reach, if it cannot be planned for.
+/// The smallest factor on the requested distances; it is lowered if a plan would have too many chunks.
 constexpr double kLeastReach = 1e-6;
-/// The share of the finest distance that is near, if there are no colliders.
+/// The share of the finest distance in which chunks count as near, if there are no colliders.
 constexpr double kNearShare = 2.0 / 3;
-/// Plans between two counts of the wanted chunks, while memory is not short.
+/// The number of plans between two counts of the wanted chunks, while memory is not scarce.
 constexpr uint64_t kPlansToTally = 16;
-/// With this many nodes needed to stand on (half a second of work and more), a coarse picture of all comes first. It
-/// has cells of level kPictureLevel, and so a 64th of the chunks.
+/// If more nodes than this are needed to stand on (half a second of work or more), a coarse picture of everything is
+/// meshed first. Its cells have level kPictureLevel, so that it has a 64th of the chunks.
 constexpr size_t kCrowd = 1024;
 constexpr int kPictureLevel = 3;
-/// Up to twice as many chunks as wanted are kept, and this many more.
+/// Records are kept for twice as many chunks as are wanted, plus this number.
 constexpr size_t kKeptBeside = 1024;
-/// Plans between two changes of detail.
+/// The minimum number of plans between two changes of detail.
 constexpr uint64_t kPlansToSettle = 20;
 
 }  // namespace
@@ -102,7 +103,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
     KnownChunk& record = store_.at(leaf);
     if (edits_drawn_ == edits_.number) {
       record = knownOfDrawn(leaf);
-    } else {  // it is unknown which chunks are out of date
+    } else {  // it is unknown which chunks are out of date, so all are marked
       record.edited = edits_.number;
       record.ever_drawn = true;
     }
@@ -118,7 +119,7 @@ KnownChunk Planner::knownOfDrawn(const ChunkKey& leaf) const {
 }
 
 void Planner::learnApplied(uint64_t number) {
-  // A step may be taken while a better one is being planned in its place.
+  // The engine may take a step while a better one is being planned to replace it.
   const auto taken =
       std::find_if(offered_.begin(), offered_.end(), [number](const auto& frame) { return frame->number == number; });
   if (taken == offered_.end()) return;
@@ -127,7 +128,7 @@ void Planner::learnApplied(uint64_t number) {
   offered_.clear();
   step_ = nullptr;
   changed_ = true;
-  // If the step was taken late, some of its records may have been forgotten.
+  // If the engine took the step late, some records of its chunks may have been dropped.
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
     KnownChunk& record = store_.at(leaf);
     record.ever_drawn = true;
@@ -156,14 +157,14 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
       continue;
     }
     if (chunk.error) {
-      // Memory may become available; any other error would recur.
+      // Memory may become available, but any other error would recur, so the chunk counts as failed.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
       record.failed = true;
       ++stats_.failed;
       plan.failed.push_back({chunk.request.key, std::move(*chunk.error)});
       continue;
     }
-    // After a restart two results may arrive: the later one does not include the earlier one.
+    // After a restart, two results may arrive for a chunk; the later one does not extend the earlier one.
     if (chunk.request.body ? record.body : record.surface != chunk.before) continue;
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
@@ -218,7 +219,8 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
     places.push_back(viewer.position);
     reach = std::max(reach, viewer.reach);
   }
-  // A node is split as a whole: some of its chunks lie farther away than the node itself.
+  // The radius is larger than the distance, because nodes are split as a whole: some chunks lie farther away than the
+  // node.
   const double radius = lod.finest_distance * reach + 2.0 * kChunkCells * lod.finest_cell;
   const VoidLookup voids = [this](const ChunkKey& key) -> const VoidComponents* {
     const KnownChunk* record = store_.find(key);
@@ -252,7 +254,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   const bool moves = tree && *tree != applied_->tree;
   if (!tree || (!moves && edits_drawn_ == edits_.number)) return nullptr;
   auto frame = std::make_shared<DrawnFrame>(drawFrame(*tree, [this](const ChunkKey& key, uint8_t seams) {
-    // Keep the engine's surface if it has all drawn content.
+    // Keeps the engine's surface if it contains everything that is drawn.
     std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
     const KnownChunk& record = *store_.find(key);
     const bool same = drawn != nullptr && (record.edited <= edits_drawn_ ||
@@ -263,7 +265,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   step->from = applied_->number;
   step->changes = changesBetween(*applied_, *frame);
   if (!moves && step->changes.empty()) {
-    edits_drawn_ = edits_.number;  // they changed nothing that is drawn
+    edits_drawn_ = edits_.number;  // the edits changed nothing that is drawn
     return nullptr;
   }
   frame->number = ++frames_;
@@ -296,7 +298,7 @@ void Planner::requestCoarse(std::vector<WorkItem>& queue) {
   for (const OctreeNode& node : target_nodes_) {
     if (node.key.level < kPictureLevel || drawn.isSplit(node.key) || drawn.isLeaf(node.key)) continue;
     any = true;
-    // With the seams for the chunks that are drawn around it.
+    // Includes the seams towards the chunks that are drawn around it now.
     request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::coarse, queue);
   }
   if (!any) return;
@@ -309,7 +311,7 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   if (near_nodes_.size() > kCrowd) requestCoarse(queue);
   for (const OctreeNode& node : near_nodes_) {
     if (node.split || drawn.isSplit(node.key)) continue;
-    // A stand-in for finer chunks is worth its time only if the drawn chunk is coarser still.
+    // Standing in for finer chunks is only useful if the drawn chunk is coarser still.
     const bool stands_in = target_.isSplit(node.key);
     if (!stands_in || !drawn.isLeaf(parentOf(node.key))) request(node.key, node.faces, Rank::near, queue);
   }
@@ -317,8 +319,8 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
     if (!node.split) {
       request(node.key, node.faces, Rank::other, queue);
     } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
-      // The tree goes from the drawn one to the target in steps: a node to be split that is not even drawn whole stands
-      // in until everything in it is ready.
+      // The tree changes from the drawn one to the target in steps. If a node will be split but is not even drawn as a
+      // whole, it stands in until everything in it is ready.
       request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::other, queue);
     }
   }

@@ -1,4 +1,4 @@
-// How a plan takes up edits and returns to earlier ones.
+// How a plan adopts edits, and how it returns to an earlier state.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-/// Twice the share of memory that the drawn chunks may take when postponed edits are taken up.
+/// Twice the share of memory that drawn chunks may take when postponed edits are first tried again.
 constexpr double kFirstRoom = 0.5;
 
 }  // namespace
@@ -17,12 +17,12 @@ void Planner::takeUpEdits(PlanInput& input) {
   const bool fails = !outdated_.empty() && std::all_of(outdated_.begin(), outdated_.end(),
                                                        [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
   if (fails) {
-    // The world continues to stream as it is drawn. The next edit, an undo for instance, may fix the failure.
+    // The world continues with the drawn state. The next edit, such as an undo, may remove the failure.
     edits_failed_ = edits_.number;
     giveEditsBack();
   }
   if (edits_drawn_ != edits_.number) return;
-  // The first frame includes the first edits, so that they appear soon; edits with every plan would delay it for ever.
+  // The first frame includes edits once, so that they appear soon; edits in every plan would delay that frame forever.
   const bool is_first = applied_->tree.empty() && awaited_;
   if (is_first && edited_first_) return;
   if (input.edits.number == edits_.number) postponed_ = false;
@@ -63,8 +63,8 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
                          });
     if (!touched) return;
     if (record.body) ++stats_.outdated;
-    // The old voids stay until the new ones exist. An unknown chunk leads nowhere (reachability.h), so without them the
-    // chunks behind it would lose the finest level for a while.
+    // The old voids stay until the new ones exist. A chunk with unknown voids leads nowhere (reachability.h), so
+    // otherwise the chunks behind it would lose the finest level for a while.
     record.surface = nullptr;
     record.body = record.failed = false;
     record.seams = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kUnreached = std::numeric_limits<uint32_t>::max();
 
-/// Flood fill from one viewer, over the cube of chunks around its ball.
+/// A flood fill from one viewer over the cube of chunks around its ball.
 class VoidFlood {
  public:
   VoidFlood(const std::array<double, 3>& viewer, double radius, int32_t finest_cell, const VoidLookup& voids)
@@ -54,17 +54,18 @@ class VoidFlood {
  private:
   struct Chunk {
     const VoidComponents* voids = nullptr;
-    uint64_t entered = 0;  ///< bit i: voids[i] was reached
+    uint64_t entered = 0;  ///< bit i is set if voids[i] was reached
     uint32_t steps = kUnreached;
     bool asked = false, inside = false;
   };
   struct Void {
     Int3 at;
     int number = 0;
-    uint32_t steps = 0;  ///< to this void; another void of its chunk may be nearer
+    uint32_t steps = 0;  ///< number of steps to this void; another void of the same chunk may be nearer
   };
 
-  /// The world's last chunk is cut off by its end and omitted, as is everything beyond.
+  /// Returns the chunk coordinate of a position. The last chunk of the world is cut off by the world's end; it is
+  /// omitted, as is everything beyond.
   int32_t placeOf(double units) const {
     const double first = -std::floor(2147483648.0 / static_cast<double>(edge_));
     const double last = std::floor(2147483647.0 / static_cast<double>(edge_)) - 1;
@@ -72,7 +73,7 @@ class VoidFlood {
   }
   ChunkKey keyAt(Int3 at) const { return {0, {first_.x + at.x, first_.y + at.y, first_.z + at.z}}; }
 
-  /// Null outside of the ball.
+  /// Returns the chunk at these coordinates; null outside of the ball.
   Chunk* chunkAt(Int3 place) {
     const Int3 at{place.x - first_.x, place.y - first_.y, place.z - first_.z};
     if (std::min({at.x, at.y, at.z}) < 0 || at.x >= size_.x || at.y >= size_.y || at.z >= size_.z) return nullptr;
@@ -138,8 +139,8 @@ class VoidFlood {
   const int64_t edge_;
   const VoidLookup& voids_;
   Int3 first_, size_, home_;
-  std::vector<Chunk> chunks_;  ///< z fastest, as keys are ordered
-  std::vector<Void> open_;     ///< breadth first
+  std::vector<Chunk> chunks_;  ///< z varies fastest, as in the order of keys
+  std::vector<Void> open_;     ///< queue of the breadth-first search
 };
 
 }  // namespace

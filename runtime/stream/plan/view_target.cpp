@@ -45,7 +45,7 @@ class ViewTree {
     return true;
   }
 
-  /// Whether the cone from the camera to the picture's corners meets the ball around the node.
+  /// True if the cone from the camera to the picture's corners meets the ball around the node.
   bool inSight(const ChunkKey& node) const {
     const auto edge = static_cast<double>(edgeOf(node.level));
     double along = 0, square = 0, length = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFastest = 10000.0 * kUnitsPerMetre;
 constexpr int kStepsOfChunk = 8;
-/// How much longer a chunk straight behind a viewer waits than one straight ahead.
+/// The factor by which a chunk straight behind a viewer is less urgent than one straight ahead.
 constexpr double kBehind = 3;
 
 bool finite(const Vector3& v) {
@@ -31,7 +31,7 @@ Vector3 ahead(const Viewer& viewer) {
   return p;
 }
 
-/// The distance from the chunk's box to the path from `from` to `to`, sampled at three places.
+/// Returns the distance from the chunk's box to the path from `from` to `to`, sampled at three positions.
 double distanceToWay(const Vector3& from, const Vector3& to, const ChunkKey& key, int32_t finest_cell) {
   double least = distanceToChunk(from, key, finest_cell);
   if (from == to) return least;
@@ -90,7 +90,7 @@ double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& se
   const Vector3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
                         (key.at.z + 0.5) * edge - viewer.position[2]};
   const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
-  // Near the viewer there is no behind: it may turn.
+  // Near the viewer no chunk counts as behind, because the viewer may turn.
   if (lengths == 0 || away <= all_around) return waits;
   return waits * (1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A camera, or another centre of streaming, and its priorities for chunks.
+// A camera or another centre of streaming, and the priorities of chunks for it.
 
 #include <array>
 #include <span>
@@ -12,40 +12,42 @@ namespace sgm {
 
 struct Viewer {
   std::array<double, 3> position{};   ///< units
-  std::array<double, 3> direction{};  ///< view direction, of any length; all 0: all directions
+  std::array<double, 3> direction{};  ///< view direction of any length; all 0: looks in all directions
   std::array<double, 3> velocity{};   ///< units a second
-  double fov = 0;                     ///< vertical field of view, radians, below pi; 0: kUsualFov
+  double fov = 0;                     ///< vertical field of view in radians, below pi; 0: kUsualFov
   double weight = 1;                  ///< above 0: factor on the distances for detail
   friend bool operator==(const Viewer&, const Viewer&) = default;
 };
 
-/// The vertical field of view, radians, for which LodSettings' distances hold: a narrower one sees the same detail from
-/// farther away.
+/// The vertical field of view, in radians, for which the distances of LodSettings hold. A narrower field of view shows
+/// the same detail from farther away.
 inline constexpr double kUsualFov = 1.2217304763960306;  // 70 degrees
 
-/// Detail is wanted where a moving viewer will be after this many seconds, before it arrives.
+/// In seconds: detail is prepared where a moving viewer will be after this time.
 inline constexpr double kLookAhead = 0.5;
 
-/// Errors: invalid_argument for values that are not finite, a weight outside of 0.01..100 or a field of view outside of
-/// 0..3 radians; range for a position outside of the world or a velocity above 10,000 m/s.
+/// Checks a viewer. Errors: invalid_argument if a value is not finite, the weight is outside of 0.01..100 or the field
+/// of view outside of 0..3 radians; range if the position lies outside of the world or the velocity is above 10,000
+/// m/s.
 Result<void> checkViewer(const Viewer& viewer);
 
-/// The places that want detail: each viewer, and where it will be soon. Positions are rounded to an eighth of a level-0
-/// chunk, so that small movements change nothing.
+/// Returns the positions that need detail: that of each viewer, and where it will be after kLookAhead. Positions are
+/// rounded to an eighth of a level-0 chunk, so that small movements do not change the target.
 std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSettings& settings);
 
-/// A viewer with precomputed values.
+/// A viewer with precomputed values for urgencyFor().
 struct SeenBy {
   explicit SeenBy(const Viewer& viewer);
 
   Viewer viewer;
-  std::array<double, 3> soon;  ///< its position after kLookAhead
-  double reach;                ///< as LodViewer::reach
+  std::array<double, 3> soon;  ///< the viewer's position after kLookAhead
+  double reach;                ///< same as LodViewer::reach
 };
 
-/// Smaller is more urgent: the chunk's distance from the viewer's path during kLookAhead, divided by the distance
-/// within which the chunk's level is wanted, so that the largest on screen comes first. Chunks behind a viewer wait
-/// longer, unless they are nearer than `all_around` (units), where bodies may fall. At least 0.
+/// Returns how urgent a chunk is for a viewer, at least 0; smaller is more urgent. It is the chunk's distance from the
+/// viewer's path during kLookAhead, divided by the distance within which the chunk's level is needed: so the chunk that
+/// is largest on screen comes first. Chunks behind a viewer are less urgent, unless they are nearer than `all_around`
+/// (units), where bodies may fall on them.
 double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& settings, double all_around = 0);
 
 }  // namespace sgm

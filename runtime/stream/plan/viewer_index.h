@@ -1,5 +1,5 @@
 #pragma once
-// A spatial index of viewers: finds a chunk's urgency and distance without testing all of them.
+// A spatial index of viewers. It finds a chunk's urgency and distance without a test of all viewers.
 
 #include <array>
 #include <cstdint>
@@ -16,20 +16,20 @@ class ViewerIndex {
   ViewerIndex(std::span<const Viewer> viewers, const LodSettings& settings, double all_around = 0);
 
   bool empty() const { return seen_.empty(); }
-  /// The least urgencyFor() of all viewers. Infinite without viewers.
+  /// Returns the smallest urgencyFor() of all viewers; infinite without viewers.
   double urgency(const ChunkKey& key) const;
-  /// Units from the chunk's box to the nearest viewer; infinite without viewers.
+  /// Returns the distance in units from the chunk's box to the nearest viewer; infinite without viewers.
   double distance(const ChunkKey& key) const;
 
  private:
   struct Node {
-    std::array<double, 3> low, high;  ///< bounds of the paths
-    double reach;                     ///< the largest
-    uint32_t first, count;            ///< viewers
-    uint32_t second_child;            ///< index; the first child follows the node; 0: leaf
+    std::array<double, 3> low, high;  ///< bounds of the viewers' paths
+    double reach;                     ///< the largest reach of the node's viewers
+    uint32_t first, count;            ///< range of the node's viewers
+    uint32_t second_child;            ///< index; the first child follows its parent; 0: the node is a leaf
   };
   uint32_t build(uint32_t first, uint32_t count);
-  /// The least `value` of any viewer. bound(node): a lower bound for the viewers in the node.
+  /// Returns the smallest `value` of any viewer. bound(node): returns a lower bound for the viewers in the node.
   template <class Bound, class Value>
   double least(const Bound& bound, const Value& value) const;
 
