@@ -13,11 +13,12 @@ constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
 constexpr uint32_t kTileVersion = 3;
 
-/// A part that is about to be written.
+/// The encoded content of a part that is about to be written.
 struct Made {
   ContentId id;
   std::pmr::vector<std::byte> content;
-  std::optional<std::pmr::vector<std::byte>> frame;  ///< nullopt if the content is to be inlined
+  /// compressed; nullopt if the content will be inlined in the record
+  std::optional<std::pmr::vector<std::byte>> frame;
 };
 
 struct MadeChunk {

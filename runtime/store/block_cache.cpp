@@ -24,7 +24,7 @@ std::pair<std::shared_ptr<BlockCache::Block>, bool> BlockCache::find(const Key& 
     throw;
   }
   if (blocks_.size() > kMostBlocks) {
-    // Threads that wait for an evicted block still get it.
+    // Threads that already wait for an evicted block still get it, because they own a reference.
     blocks_.erase(used_.back());
     used_.pop_back();
   }
@@ -96,7 +96,8 @@ Result<std::pmr::vector<std::byte>> BlockCache::read(uint64_t file, uint64_t fil
   if (bytes == 0) return content;
   Wanted wanted{file, offset / kBlock, {}, {}};
   const auto giveUp = [&] {
-    // No thread may wait for a block that is not being fetched.
+    // After an error, the blocks that this thread has claimed are marked as failed: no thread may wait for a block that
+    // nobody fetches.
     for (size_t i = 0; i < wanted.is_mine.size(); ++i) {
       if (wanted.is_mine[i]) fail(wanted, i, outOfMemory());
     }

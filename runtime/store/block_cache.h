@@ -1,5 +1,5 @@
 #pragma once
-// Caches blocks of files that are far away.
+// Caches blocks of files that are on a server.
 
 #include <condition_variable>
 #include <cstddef>
@@ -17,23 +17,24 @@
 
 namespace sgm::store {
 
-/// Keeps the most recently read blocks. A thread that needs a block waits if another thread is fetching it.
+/// Caches the most recently read blocks. If a thread needs a block that another thread is fetching, it waits for it.
 /// Thread-safe.
 class BlockCache {
  public:
-  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; the last block of a file is shorter
+  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; the last block of a file may be shorter
   static constexpr size_t kMostBlocks = 256;
-  static constexpr size_t kMostAtOnce = 4;  ///< blocks of one fetch: few, so that much of a slow download stays if it
-                                            ///< is cut off
+  /// maximum number of blocks per fetch: small, so that little of a slow download is lost if it is interrupted
+  static constexpr size_t kMostAtOnce = 4;
 
-  /// Fetches bytes of a file, from the start of a block to the end of one.
+  /// Fetches bytes of a file. The range begins at the start of a block and ends at the end of a block.
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;
 
-  /// memory: thread-safe; must outlive the cache.
+  /// memory: must be thread-safe and outlive the cache.
   explicit BlockCache(std::pmr::memory_resource* memory) : memory_(memory), blocks_(memory), used_(memory) {}
 
-  /// Reads from a file of this size that the caller has numbered; offset and bytes lie in it. Adjacent blocks are
-  /// fetched together. Errors: those of fetch; they are not cached. Throws std::bad_alloc.
+  /// Reads a range of bytes of a file, fetching missing blocks. file: a number that identifies the file, chosen by the
+  /// caller; file_bytes: its size. The range must lie in the file. Adjacent missing blocks are fetched together.
+  /// Errors: those of fetch; errors are not cached. Throws std::bad_alloc.
   Result<std::pmr::vector<std::byte>> read(uint64_t file, uint64_t file_bytes, uint64_t offset, size_t bytes,
                                            const Fetch& fetch, std::pmr::memory_resource* memory);
 
@@ -43,19 +44,19 @@ class BlockCache {
     std::optional<Error> error;
     bool is_done = false;
   };
-  using Key = std::pair<uint64_t, uint64_t>;  ///< file and block
+  using Key = std::pair<uint64_t, uint64_t>;  ///< number of the file, and of the block in it
   struct Entry {
     std::shared_ptr<Block> block;
     std::pmr::list<Key>::iterator used;
   };
-  /// The adjacent blocks of one read.
+  /// The adjacent blocks that one read needs.
   struct Wanted {
     uint64_t file, first;
     std::vector<std::shared_ptr<Block>> blocks;
-    std::vector<bool> is_mine;  ///< this thread must still fetch the block
+    std::vector<bool> is_mine;  ///< for each block: true if this thread must fetch it
   };
 
-  /// Returns the block, and whether the caller must fetch it. The caller holds the lock.
+  /// Returns the block, and true if the caller must fetch it. Precondition: the caller holds the lock.
   std::pair<std::shared_ptr<Block>, bool> find(const Key& key);
   void claim(Wanted& wanted, size_t count);
   void fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fetch);
@@ -66,7 +67,7 @@ class BlockCache {
   std::mutex mutex_;
   std::condition_variable finished_;
   std::pmr::map<Key, Entry> blocks_;
-  std::pmr::list<Key> used_;  ///< most recently used first
+  std::pmr::list<Key> used_;  ///< keys of all cached blocks, most recently used first
 };
 
 }  // namespace sgm::store

@@ -1,10 +1,11 @@
 #pragma once
-// Checks that every drawable frame of a store is closed: not frame by frame, which are too many, but border by border.
+// Checks that every frame that can be drawn from a store is closed. There are too many frames to check each; instead,
+// each pair of borders that may meet is checked.
 //
-// Every frame of an octree's leaves is closed if these pairs fit: the bodies of two neighbours of one level, at their
-// common face; a seam and its own chunk's body, at its face; a seam and the coarser chunk's body, in a quarter of the
-// coarser chunk's face; and the ends of all seams that may meet along one edge of their chunks, some of which are in a
-// frame.
+// Every frame, that is, the leaves of an octree, is closed if these pairs of borders fit: the bodies of two neighbours
+// of one level, at their common face; a seam and the body of its own chunk, at the seam's face; a seam and the coarser
+// chunk's body, in a quarter of the coarser chunk's face; and the ends of all seams that may meet along an edge of
+// their chunks (any of these may be in a frame).
 
 #include <array>
 #include <functional>
@@ -16,45 +17,46 @@
 
 namespace sgm::store {
 
-/// A sum over the directed edges in a border: a hash of each edge minus the hash of its reverse. The sums of two sides
-/// that fit add up to 0.
+/// A hash of a border: the sum, over its directed edges, of the hash of each edge minus the hash of the reversed edge.
+/// The sums of two borders that fit add up to 0.
 using EdgeSum = uint64_t;
 
-/// The sums of a part's borders, each in the coordinates of the part's chunk or of the finer chunk: so they depend on
-/// the part's bytes alone.
+/// The sums of a part's borders. Each is in the coordinates of the part's own chunk, or of the finer chunk at the
+/// border, so that it depends only on the part's bytes.
 struct BorderSums {
-  std::array<EdgeSum, 6> own{};  ///< of a body by face; of a seam, over its face, at its own chunk's body
-  std::array<std::array<EdgeSum, 4>, 6> quarters{};  ///< of a body by face, in the coordinates of its finer neighbours'
-                                                     ///< seams
-  EdgeSum coarser = 0;                               ///< of a seam, at the coarser chunk's body
-  std::array<EdgeSum, 4> ends{};                     ///< of a seam: at the low and high border along u, then along v
-  EdgeSum stray = 0;                                 ///< of a seam, all other edges: 0 unless it has a hole
+  std::array<EdgeSum, 6> own{};  ///< body: by face; seam: only at its face, towards the body of its own chunk
+  /// body: by face and quarter, in the coordinates of the seams of the finer neighbours there
+  std::array<std::array<EdgeSum, 4>, 6> quarters{};
+  EdgeSum coarser = 0;            ///< seam: towards the body of the coarser chunk
+  std::array<EdgeSum, 4> ends{};  ///< seam: at the low and the high border along u, then along v
+  EdgeSum stray = 0;              ///< seam: all other edges; 0 unless the seam has a hole
   friend bool operator==(const BorderSums&, const BorderSums&) = default;
 };
 
-/// part: 0 for a body, 1 + Face for a seam. Throws std::bad_alloc.
+/// Computes the sums of a part. part: 0 for a body, 1 + Face for a seam. Throws std::bad_alloc.
 BorderSums bordersOf(const PackedMesh& mesh, int part);
 
-/// Takes the chunks of one region in any order, each once. Keeps only borders whose other side is still to come.
+/// Receives the chunks of one region in any order, each once. Stores only borders whose other side has not arrived yet.
 class Closure {
  public:
   /// Receives the description of a problem.
   using Tell = std::function<void(const std::string&)>;
 
-  /// region: must outlive it.
+  /// region: must outlive this object.
   Closure(const BakedRegion& region, Tell tell) : region_(region), tell_(std::move(tell)) {}
 
-  /// Adds a chunk's body and seams; null for a part without triangles. Throws std::bad_alloc.
+  /// Adds the sums of a chunk's body and seams; null for a part without triangles. Throws std::bad_alloc.
   void add(const ChunkKey& chunk, const std::array<const BorderSums*, 7>& parts);
-  /// Call when all chunks of the region have been added.
+  /// Reports the borders that remain open. Call it when all chunks of the region have been added.
   void finish();
-  /// The number of borders with edges whose two sides were compared.
+  /// Returns the number of borders with edges that were compared from both sides.
   uint64_t borders() const { return borders_; }
 
  private:
+  /// The pairs of borders that must fit: two bodies; a seam and the coarser body; ends of seams along an edge.
   enum class Kind : uint8_t { bodies, levels, ends };
-  /// bodies: the lower chunk, and the axis. levels: the finer chunk, and its face. ends: the chunk whose lowest edge
-  /// along an axis it is, and that axis.
+  /// Identifies a border. bodies: the lower chunk and the axis; levels: the finer chunk and its face; ends: the chunk
+  /// whose lowest edge along an axis it is, and that axis.
   struct Border {
     Kind kind;
     uint8_t number;
@@ -65,9 +67,9 @@ class Closure {
     size_t operator()(const Border& border) const;
   };
   struct Sides {
-    EdgeSum sum = 0;  ///< of the two sides; for ends: the sum that each must have
+    EdgeSum sum = 0;  ///< bodies, levels: sum of the two sides so far; ends: the sum that each end must have
     int count = 0;
-    bool differ = false;  ///< for ends
+    bool differ = false;  ///< ends only: true if two ends have different sums
   };
 
   void addBodies(const ChunkKey& chunk, const BorderSums& body);

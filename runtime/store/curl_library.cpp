@@ -6,7 +6,7 @@ namespace sgm::store {
 
 Result<CurlTable> loadCurl() {
   void* library = platform::openLibrary("libcurl.so.4");
-  // Debian has two more variants with the same functions, but other TLS libraries.
+  // Debian has two further builds of libcurl with the same functions, but other TLS libraries.
   for (const char* name : {"libcurl-gnutls.so.4", "libcurl-nss.so.4"}) {
     if (library == nullptr) library = platform::openLibrary(name);
   }

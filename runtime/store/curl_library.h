@@ -1,5 +1,5 @@
 #pragma once
-// Loads libcurl when a server is first read from: other programs do not need it.
+// Loads libcurl when a server is first accessed: programs that use no server do not need it.
 
 #include <curl/curl.h>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::store {
 
-/// libcurl's functions. They allocate from libcurl's own heap.
+/// Pointers to libcurl's functions. These allocate from libcurl's own heap, not from the caller's memory resources.
 struct CurlTable {
   decltype(&::curl_global_init) global_init = nullptr;
   decltype(&::curl_easy_init) easy_init = nullptr;
@@ -18,7 +18,8 @@ struct CurlTable {
   decltype(&::curl_easy_strerror) easy_strerror = nullptr;
 };
 
-/// unsupported: libcurl is missing or damaged. It stays loaded until the process ends.
+/// Loads libcurl, which stays loaded until the process ends. Error: unsupported if libcurl is missing or lacks a
+/// function.
 Result<CurlTable> loadCurl();
 
 }  // namespace sgm::store

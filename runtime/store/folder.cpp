@@ -26,7 +26,7 @@ Error lockError(const Folder& store, const fs::path& path, int number) {
   return ioError(path, number);
 }
 
-constexpr uint64_t kMostFormat = 64;  ///< bytes
+constexpr uint64_t kMostFormat = 64;  ///< maximum size of the format file, in bytes
 
 std::string formatText() { return "sgm store " + std::to_string(kStoreVersion) + "\n"; }
 
@@ -35,7 +35,7 @@ std::string placeName(const TileKey& tile) {
          std::to_string(tile.at.z);
 }
 
-/// The files of a folder.
+/// Access to the files of a folder.
 class FolderFiles final : public StoreFiles {
  public:
   explicit FolderFiles(fs::path root) : root_(std::move(root)) {}
@@ -91,7 +91,7 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / kFormatFile;
   std::error_code error;
   if (!fs::exists(format, error)) {
-    // Another worker may be about to create the file, or may have been killed meanwhile.
+    // Another worker may be about to create the format file, or may have been killed before it did.
     for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
       if (name != kFormatFile && name.rfind("format.sgm-part", 0) != 0)
@@ -113,11 +113,11 @@ Result<StoreLock> StoreLock::take(const Folder& store, std::chrono::milliseconds
   constexpr std::chrono::milliseconds kBetweenLooks{100};
   const auto until = std::chrono::steady_clock::now() + patience;
   const fs::path path = store.root() / kFormatFile;
-  // Network file systems only lock files that are open for writing.
+  // Network file systems can lock a file only if it is open for writing.
   const int file = platform::openFile(path, platform::kRead | platform::kWrite);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
-  // Do not wait for ever: the holder may hang, perhaps on another machine.
+  // The wait is limited: the process that holds the lock may hang, perhaps on another machine.
   while (platform::lockFile(file) != 0) {
     if ((errno == EWOULDBLOCK || errno == EACCES) && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(kBetweenLooks);

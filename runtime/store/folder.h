@@ -2,12 +2,12 @@
 // The layout of a store's files.
 //
 //   STORE/format              "sgm store 1"
-//   STORE/worlds/KEY.sgmi     the index of a world (index.h); KEY.json: the same for people
+// STORE/worlds/KEY.sgmi     the index of a world (index.h); KEY.json: the same information as text
 //   STORE/packs/3f/NAME.sgmp  contents (tile_record.h); named by a hash of its bytes, and never changed
 //   STORE/baking/JOB/         unfinished results of workers for a region: tiles L_X_Y_Z.tile with .pack, and the plan
 //
-// Each file appears whole or not at all (base/file_writer.h), and equal names mean equal bytes: any number of processes
-// may work in one store, including readers.
+// Each file appears completely or not at all (base/file_writer.h), and equal names mean equal bytes: several processes
+// may work in one store at the same time, including readers.
 
 #include <chrono>
 #include <filesystem>
@@ -25,12 +25,13 @@ inline constexpr int kStoreVersion = 1;
 inline constexpr const char* kFormatFile = "format";
 std::string worldFileName(const ContentId& key);
 std::string packFileName(const ContentId& name);
-/// The files of the folder at this path; does not access it.
+/// Returns access to the files of the folder at this path; does not access the folder.
 std::unique_ptr<StoreFiles> folderFiles(const std::filesystem::path& root);
-/// io; bad_input: not a store of this version. Other errors as StoreFiles::open.
+/// Checks that the files are those of a store. Errors: io; bad_input if they are not a store of this version; others as
+/// StoreFiles::open.
 Result<void> checkFormat(StoreFiles& files);
 
-/// The suffix of a job's folder that was merged into a world and is about to be removed.
+/// The suffix of the folder of a job whose tiles were merged into a world. The folder is about to be removed.
 inline constexpr const char* kMergedEnding = ".merged";
 
 class Folder {
@@ -43,22 +44,23 @@ class Folder {
   std::filesystem::path pack(const ContentId& name) const { return root_ / packFileName(name); }
   std::filesystem::path baking(const ContentId& job) const { return root_ / "baking" / nameOf(job); }
 
-  /// Creates the store if it is missing. io; bad_input: the folder holds something else, or a store of another version.
+  /// Creates the store if it is missing. Errors: io; bad_input if the folder contains something else, or a store of
+  /// another version.
   Result<void> make() const;
-  /// io; bad_input: not a store of this version.
+  /// Checks the store's version. Errors: io; bad_input if the folder is not a store of this version.
   Result<void> check() const;
 
  private:
   std::filesystem::path root_;
 };
 
-/// A lock for processes that change the content of a store; readers and workers need none.
+/// A lock for processes that change the content of a store. Readers and baking workers do not need it.
 class StoreLock {
  public:
   static constexpr std::chrono::minutes kPatience{10};
 
-  /// Waits for the lock, at most this long. busy: another process still holds it. io; unsupported: the file system has
-  /// no locks.
+  /// Waits for the lock, at most for `patience`. Errors: busy if another process still holds it; io; unsupported if the
+  /// file system has no locks.
   static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = kPatience);
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
@@ -72,10 +74,11 @@ class StoreLock {
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
-/// A regular file opened for reading. Replacing the file does not change what it reads. Thread-safe.
+/// A regular file that is open for reading. If the file is replaced, this object still reads the old content.
+/// Thread-safe.
 class OpenFile final : public StoredFile {
  public:
-  /// io.
+  /// Error: io.
   static Result<std::shared_ptr<const OpenFile>> open(const std::filesystem::path& path);
   ~OpenFile() override;
   OpenFile(const OpenFile&) = delete;
@@ -93,18 +96,18 @@ class OpenFile final : public StoredFile {
   uint64_t size_;
 };
 
-/// idOf the whole file, read in pieces. io.
+/// Returns idOf the whole file, which is read in pieces. Error: io.
 Result<ContentId> idOfFile(const StoredFile& file);
-/// Whether the file has the pack's size and id. Returns false also if it cannot be read.
+/// True if the file has the size and id of the pack. False also if it cannot be read.
 bool isPack(const std::filesystem::path& path, const PackFile& pack);
 
-/// Blocks until the names of files in a folder are on disk. io.
+/// Blocks until the names of the files in a folder are on disk. Error: io.
 Result<void> syncFolder(const std::filesystem::path& folder);
-/// io.
+/// Creates a folder and its parents. Error: io.
 Result<void> makeFolder(const std::filesystem::path& folder);
-/// Reads the whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
+/// Reads a whole file. Errors: io; limit if it is larger than `most` bytes. Throws std::bad_alloc.
 Result<std::pmr::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
-/// Writes the file whole or not at all. unfinished: as in FileWriter::create(). io.
+/// Writes a file completely or not at all. unfinished: same as for FileWriter::create(). Error: io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);
 

@@ -9,7 +9,7 @@
 namespace sgm::store {
 namespace {
 
-// For other levels' cost and benefit see tests/bench/README.md.
+// tests/bench/README.md compares the time and the size of other levels.
 constexpr int kZstdLevel = 9;
 
 }  // namespace
@@ -55,7 +55,7 @@ Unpacker::~Unpacker() {
 
 std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                             std::pmr::memory_resource* memory) {
-  // Check the size before allocating.
+  // Checks the size before memory is allocated for it.
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != content_bytes) return std::nullopt;
   std::pmr::vector<std::byte> content(content_bytes, memory);
   ZSTD_DCtx* context = nullptr;
@@ -71,7 +71,7 @@ std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std:
       ++made_;
     }
   }
-  // An error's code is larger than every size.
+  // A zstd error code is larger than every valid size.
   const size_t bytes = ZSTD_decompressDCtx(context, content.data(), content.size(), frame.data(), frame.size());
   {
     const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
 #pragma once
-// Compression, ids and checksums of contents: all code that needs zstd and xxHash.
+// Compression, ids and checksums of contents. All code of the store that needs zstd and xxHash is here.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,24 +19,25 @@ namespace sgm::store {
 /// A 128-bit hash that identifies bytes.
 using ContentId = DiskKey;
 
-/// unsupported: this build has neither (SGM_DISK_CACHE=OFF); then no function below may be called.
+/// Error: unsupported if this build has neither zstd nor xxHash (SGM_DISK_CACHE=OFF). Then no function below may be
+/// called.
 Result<void> available();
 
-/// xxHash128.
+/// Returns the xxHash128 of the bytes.
 ContentId idOf(std::span<const std::byte> bytes);
-/// A 64-bit checksum that detects damage.
+/// Returns a 64-bit checksum, to detect damage.
 uint64_t checksumOf(std::span<const std::byte> bytes);
 
-/// Compresses to one zstd frame. It is made once for many readers, so it may take long. The same zstd gives the same
-/// bytes on every machine. out_of_memory. Throws std::bad_alloc.
+/// Compresses the content to one zstd frame. It may take long, because a frame is made once for many readers. The same
+/// version of zstd gives the same bytes on every machine. Error: out_of_memory. Throws std::bad_alloc.
 Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std::pmr::memory_resource* memory);
-/// Decompresses a frame; nullopt unless it is whole and holds exactly this many bytes. Accepts any bytes. Throws
+/// Decompresses a frame; nullopt unless it is complete and contains exactly this many bytes. Accepts any bytes. Throws
 /// std::bad_alloc.
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                   std::pmr::memory_resource* memory);
 
-/// Decompresses repeatedly: reuses zstd's context, whose creation takes as long as most frames do. Contexts come from
-/// the C heap, about 100 KB for each concurrent thread. Thread-safe.
+/// Decompresses many frames. Reuses zstd's contexts, because creating one takes as long as decompressing most frames.
+/// Contexts are allocated from the C heap, about 100 KB per concurrent thread. Thread-safe.
 class Unpacker {
  public:
   Unpacker() = default;
@@ -67,7 +68,7 @@ class IdStream {
   void* state_;
 };
 
-/// 32 hexadecimal digits.
+/// Formats an id as 32 hexadecimal digits.
 std::string nameOf(const ContentId& id);
 void putId(const ContentId& id, ByteWriter& out);
 ContentId getId(ByteReader& in);

@@ -13,13 +13,13 @@
 namespace sgm::store {
 namespace {
 
-// A transfer ends if the server does not connect in 3 s, is slower than 1,000 bytes/s for 4 s, or takes 10 s in all:
-// deriving the chunk here takes milliseconds.
+// A transfer fails if the server does not accept the connection within 3 s, is slower than 1,000 bytes/s for 4 s, or
+// takes 10 s in total. Longer waits are not worthwhile: deriving the chunk on this machine takes milliseconds.
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
-/// Writing to a connection that the server has closed raises SIGPIPE, which by default ends the program, and libcurl
-/// must not set handlers in a process with several threads. So the signal is blocked and discarded here.
+/// Blocks SIGPIPE and discards it. Writing to a connection that the server has closed raises this signal, which by
+/// default ends the program; and libcurl must not install handlers in a process with several threads.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -46,7 +46,7 @@ class NoPipeSignal {
   bool was_pending_;
 };
 
-/// One response, as it arrives.
+/// A response while it arrives.
 struct Transfer {
   const CurlTable& curl;
   CURL* handle;
@@ -80,11 +80,12 @@ bool beginsAs(std::string_view line, std::string_view lower_case) {
   return true;
 }
 
-/// "Content-Range: bytes 0-99/1234"
+/// Parses a header line, such as "Content-Range: bytes 0-99/1234".
 size_t takeHeader(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   std::string_view line(data, size * count);
-  if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;  // redirections reset it
+  // a redirection starts a new response
+  if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;
   constexpr std::string_view kName = "content-range:";
   if (!beginsAs(line, kName)) return size * count;
   line.remove_prefix(kName.size());
@@ -104,7 +105,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   const size_t bytes = size * count;
   const long status = transfer.status();
-  constexpr size_t kMostOfPage = size_t{1} << 20;  // of a server's error page
+  constexpr size_t kMostOfPage = size_t{1} << 20;  // maximum size of a server's error page that is read
   const bool wanted = status == 200 || status == 206;
   if (bytes > (wanted ? transfer.count : kMostOfPage) - transfer.bytes.size()) {
     transfer.too_long = true;
@@ -120,7 +121,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   return bytes;
 }
 
-/// Converts the server's response to a part or an error.
+/// Converts the server's response to a part, or to an error.
 Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   const auto answers = [](const std::string& what) { return Error{Code::io, "the server " + what}; };
   const long status = transfer.status();
@@ -129,7 +130,7 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   if (from_start) return std::optional(HttpPart{transfer.bytes.size(), std::move(transfer.bytes)});
   if (status == 200)
     return answers("ignores range requests and sends the whole file: use another server, such as nginx or Apache");
-  // Other statuses from 500 on concern only this file.
+  // Other statuses from 500 on concern only this file, so they are not treated as a failure of the server.
   if (status == 408 || status == 429 || status == 502 || status == 503 || status == 504)
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
   if (status == 401)
@@ -149,7 +150,8 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
 Result<std::unique_ptr<HttpClient>> HttpClient::create() {
   const Result<CurlTable> curl = loadCurl();
   if (!curl) return curl.error();
-  // Once in a process, and never undone: before 7.84 neither this nor its counterpart is thread-safe.
+  // Called once in a process, and never undone: before version 7.84, neither this function nor its counterpart is
+  // thread-safe.
   static const CURLcode started = curl->global_init(CURL_GLOBAL_DEFAULT);
   CURL* const handle = started == CURLE_OK ? curl->easy_init() : nullptr;
   if (handle == nullptr) return Error{Code::out_of_memory, "libcurl cannot be started: there is too little memory"};
@@ -172,7 +174,7 @@ int HttpClient::progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_
 
 HttpClient::Connection::~Connection() {
   const std::lock_guard lock(client.mutex_);
-  // Has capacity: it was reserved when the handle was made.
+  // Cannot fail: the capacity was reserved when the handle was made.
   client.idle_.push_back(handle);
 }
 
@@ -189,7 +191,7 @@ CURL* HttpClient::take() {
   ++handles_;
   const auto set = [&](CURLoption option, auto value) { curl_.easy_setopt(handle, option, value); };
   set(CURLOPT_NOSIGNAL, 1L);
-  // Otherwise a request waits for the system's resolver, which ignores both the timeouts and stop().
+  // Without this option a request waits for the system's resolver, which ignores both the timeouts and stop().
   set(CURLOPT_QUICK_EXIT, 1L);
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
@@ -229,7 +231,7 @@ Result<std::optional<HttpPart>> HttpClient::get(const std::string& address, uint
   if (transfer.out_of_memory || code == CURLE_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == CURLE_OK || (code == CURLE_WRITE_ERROR && transfer.too_long)) return partOf(transfer);
   std::string why = words[0] != 0 ? words.data() : curl_.easy_strerror(code);
-  // OpenSSL's message if the server does not speak TLS.
+  // This is OpenSSL's message if the server does not use TLS.
   if (why.find("wrong version number") != std::string::npos) why += "; is it http:// instead of https://?";
   return Error{Code::busy, std::move(why)};
 }

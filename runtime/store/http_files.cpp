@@ -16,13 +16,13 @@ namespace {
 
 using Clock = Outage::Clock;
 
-/// The most concurrent requests to a server, and the longest wait for a free slot.
+/// The maximum number of concurrent requests to a server, and the maximum time to wait for one of them to end.
 constexpr int kMostRequests = 4;
 constexpr std::chrono::seconds kLongestWait{2};
-/// How long a file that could not be read is not requested again.
+/// A file that could not be read is not requested again for this time.
 constexpr std::chrono::seconds kFailedFor{60};
 
-/// Shared by the files of one server, which may outlive their StoreFiles.
+/// State shared by the files of one server. The files may outlive their StoreFiles.
 class Server {
  public:
   Server(std::unique_ptr<HttpClient> client, std::string address, std::string shown, Log log,
@@ -53,7 +53,7 @@ class Server {
       return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
                                  " bytes instead of " + std::to_string(file_bytes)};
     };
-    // Check before other threads wait for these blocks: they must not wait while the server is away.
+    // Checked before other threads wait for these blocks: they must not wait while the server is away.
     if (!isThere()) return away();
     auto read = blocks_.read(*number, file_bytes, offset, bytes, fetch, memory);
     if (!read && read.error().code == Code::io) {
@@ -67,13 +67,13 @@ class Server {
 
  private:
   struct FileState {
-    uint64_t number = 0;  ///< stays the same when the file is opened again, and so the cached blocks stay valid
+    uint64_t number = 0;  ///< stays the same when the file is opened again, so that its cached blocks remain valid
     Clock::time_point failed_until{};
   };
 
   Error away() const { return {Code::busy, "'" + shown_ + "' does not answer"}; }
 
-  /// nullopt if reading the file failed recently.
+  /// Returns the number of a file in the block cache; nullopt if reading the file failed recently.
   std::optional<uint64_t> numberOf(const std::string& file, uint64_t file_bytes) {
     const std::lock_guard lock(mutex_);
     const auto [at, is_new] = files_.try_emplace({file, file_bytes});
@@ -82,7 +82,7 @@ class Server {
     return at->second.number;
   }
 
-  /// Whether the server may be asked. While it is away, one caller tests it from time to time.
+  /// True if a request may be sent. While the server is away, one caller tries it from time to time.
   bool isThere() {
     const Outage::Look look = outage_.look(Clock::now());
     if (look != Outage::Look::find_out) return look == Outage::Look::there;
@@ -118,7 +118,7 @@ class Server {
     throw;
   }
 
-  /// The right to send a request; is_free is false if none became available in time.
+  /// The right to send a request. is_free is false if no right became available in time.
   struct Slot {
     Server& server;
     bool is_free;
@@ -149,7 +149,7 @@ class Server {
   std::pmr::memory_resource* const memory_;
   Outage outage_;
   BlockCache blocks_;
-  std::mutex mutex_;  ///< guards the following
+  std::mutex mutex_;  ///< guards the following members
   std::condition_variable ended_;
   int running_ = 0;
   std::map<std::pair<std::string, uint64_t>, FileState> files_;

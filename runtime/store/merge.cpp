@@ -9,9 +9,9 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// The location of a content that the store has already.
+/// Where the store already has a content.
 struct Place {
-  uint32_t pack;  ///< index of the known packs
+  uint32_t pack;  ///< index into the list of known packs
   uint32_t stored;
   uint64_t offset;
 };
@@ -24,7 +24,7 @@ class Merger {
  public:
   Merger(const Folder& store, const Bakery& bakery) : store_(store), bakery_(bakery) {}
 
-  /// Reads the contents of the store's other worlds, in the order of their names.
+  /// Reads which contents the other worlds of the store have, in the order of the worlds' names.
   Result<void> learn(std::vector<std::string>& warnings) {
     const Result<std::vector<fs::path>> worlds = worldsOf(store_);
     if (!worlds) return worlds.error();
@@ -45,7 +45,7 @@ class Merger {
     return {};
   }
 
-  /// Stores the tile's new contents, and sets the locations in its record.
+  /// Stores those contents of a tile that the store does not have, and sets all locations in the tile's record.
   Result<void> settle(TileRecord& record) {
     std::vector<size_t> fresh;
     size_t own = 0;
@@ -78,7 +78,7 @@ class Merger {
     return {};
   }
 
-  /// Blocks until the names of the packs are on disk.
+  /// Blocks until the names of the new packs are on disk.
   Result<void> sync() const {
     for (const fs::path& folder : folders_) {
       if (Result<void> synced = syncFolder(folder); !synced) return synced;
@@ -98,7 +98,7 @@ class Merger {
     return at->second;
   }
 
-  /// Whether the store has the content, in a pack whose bytes match its name.
+  /// True if the store has the content, in a pack whose bytes match its name.
   bool isKnown(const ContentId& id) {
     const auto known = known_.find(id);
     if (known == known_.end()) return false;
@@ -108,7 +108,7 @@ class Merger {
     return *trusted;
   }
 
-  /// Creates the folder of a pack. Returns whether the pack exists.
+  /// Creates the folder for a pack. Returns true if the store already has the pack.
   Result<bool> isThere(const PackFile& pack) {
     const fs::path folder = store_.pack(pack.name).parent_path();
     if (folders_.insert(folder).second) {
@@ -119,7 +119,7 @@ class Merger {
     return false;
   }
 
-  /// Moves the tile's pack into the store unchanged.
+  /// Moves the tile's pack into the store unchanged, because all of its contents are new.
   Result<PackFile> adopt(const TileKey& tile, const PackFile& pack) {
     const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
     const Result<bool> there = isThere(pack);
@@ -128,14 +128,14 @@ class Merger {
     std::error_code error;
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
-    // A damaged file has that name, or the file system has no links.
+    // Linking fails if a damaged file has that name, or if the file system has no links: then the pack is copied.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
     if (Result<void> written = writeFile(to, *bytes, bakery_.unfinished); !written) return written.error();
     return pack;
   }
 
-  /// Makes a pack of only these contents, and updates their locations.
+  /// Makes a pack of only the contents that are new (`fresh`), and updates their locations in the record.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
     const auto bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
     if (!bytes) return bytes.error();
@@ -160,12 +160,13 @@ class Merger {
   std::unordered_map<ContentId, Place, IdHash> known_;
   std::unordered_map<ContentId, uint32_t, IdHash> numbers_;
   std::vector<PackFile> packs_;
-  std::vector<std::optional<bool>> trusted_;  ///< for each pack, if it was checked
-  std::set<fs::path> folders_;                ///< folders with new packs
+  /// for each pack: whether its bytes match its name; nullopt if not checked yet
+  std::vector<std::optional<bool>> trusted_;
+  std::set<fs::path> folders_;  ///< folders that contain new packs
   uint64_t new_bytes_ = 0;
 };
 
-/// The number of tiles still to be made. A tile with a wrong pack must be made again.
+/// Returns the number of tiles that must still be made. A tile whose pack is damaged must be made again.
 uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   uint64_t missing = 0;
   for (const TileKey& tile : tiles) {
@@ -178,7 +179,8 @@ uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   return missing;
 }
 
-/// Renames the folder first, so that a late worker finds none rather than a part of it.
+/// Removes the folder of a job. Renames it first, so that a worker that is still running finds no folder instead of a
+/// part of it.
 void removeJob(const Bakery& bakery) {
   fs::path aside = bakery.folder;
   aside += kMergedEnding;

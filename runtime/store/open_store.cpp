@@ -7,21 +7,21 @@
 namespace sgm::store {
 namespace {
 
-/// The most cached tile records, each about 60 KB: a viewer sees a few hundred tiles of all levels.
+/// The maximum number of cached tile records, each about 60 KB: a viewer sees a few hundred tiles of all levels.
 constexpr size_t kMostRecords = 256;
 
-/// The most open packs: those around a viewer.
+/// The maximum number of open packs: those around a viewer.
 constexpr size_t kMostOpen = 32;
 
 }  // namespace
 
-/// Reports an error of a file, and returns it.
+/// Reports an error of a file to tell_, and returns the error.
 Error OpenStore::told(const std::string& file, std::string message) {
   tell_(file, message);
   return {Code::io, std::move(message)};
 }
 
-/// Whether this is a store of this version. A folder is checked when it is opened, a server when it is first needed.
+/// True if this is a store of this version. A folder was checked when it was opened; a server is checked at first use.
 Result<bool> OpenStore::isStore() {
   {
     const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
 #pragma once
-// A store opened for reading: its open files, and the search for parts of chunks in them.
+// A store that is open for reading: its open files, and the search for parts of chunks in them.
 
 #include <list>
 #include <map>
@@ -13,17 +13,17 @@
 namespace sgm::store {
 
 struct FoundPart {
-  uint32_t stored = 0;  ///< bytes in the store
+  uint32_t stored = 0;  ///< compressed size in the store
   std::pmr::vector<std::byte> bytes;
 };
 
 /// Caches the most recently used indexes, tile records and packs. Thread-safe.
 class OpenStore {
  public:
-  /// Receives errors of files.
+  /// Receives the errors of files.
   using Tell = std::function<void(const std::string& file, const std::string& message)>;
 
-  /// tell and memory (thread-safe) must outlive the store.
+  /// tell and memory must outlive the store; memory must be thread-safe.
   OpenStore(std::unique_ptr<StoreFiles> files, Tell tell, std::pmr::memory_resource* memory)
       : files_(std::move(files)),
         tell_(std::move(tell)),
@@ -37,17 +37,18 @@ class OpenStore {
 
   StoreFiles& files() { return *files_; }
 
-  /// Finds a part; nullopt if the store does not have it. io, also if a file is damaged or invalid (reported by tell);
-  /// busy: as StoreFiles::open. Throws std::bad_alloc.
+  /// Searches a part; nullopt if the store does not have it. Errors: io, also if a file is damaged or invalid (which is
+  /// reported to tell); busy as StoreFiles::open. Throws std::bad_alloc.
   Result<std::optional<FoundPart>> find(const ContentId& world, const ChunkKey& chunk, int part,
                                         std::pmr::memory_resource* memory);
-  /// Whether the world was searched, and the store has no data of it.
+  /// True if the world was searched and the store has no index of it.
   bool lacks(const ContentId& world);
-  /// Call if a found part is invalid: reports that, and the part is not found again.
+  /// Call this if a part that was found is invalid. Reports it; find() will not return the part again.
   void reject(const ContentId& world, const ChunkKey& chunk, int part);
 
  private:
-  using World = std::shared_ptr<const WorldFile>;  ///< null: the store has no index, or an unreadable one
+  /// null: the store has no index of the world, or the index is unreadable
+  using World = std::shared_ptr<const WorldFile>;
   using Record = std::shared_ptr<const TileRecord>;
   using Pack = std::shared_ptr<const StoredFile>;
   struct RecordKey {
@@ -57,7 +58,7 @@ class OpenStore {
   };
   struct KeptRecord {
     RecordKey key;
-    Record record;  ///< null if it cannot be read
+    Record record;  ///< null if the record cannot be read
   };
   struct OpenPack {
     ContentId name;
@@ -65,7 +66,7 @@ class OpenStore {
   };
   struct Place {
     Record record;
-    const StoredContent* content = nullptr;  ///< in the record; null: the store does not have the part
+    const StoredContent* content = nullptr;  ///< points into the record; null: the store does not have the part
   };
 
   Error told(const std::string& file, std::string message);
@@ -81,14 +82,14 @@ class OpenStore {
   const Tell tell_;
   std::pmr::memory_resource* const memory_;
   Unpacker unpacker_;
-  std::mutex opening_;  ///< held while an index is read
-  std::mutex mutex_;    ///< guards the following
+  std::mutex opening_;  ///< held while an index is read, so that it is read only once
+  std::mutex mutex_;    ///< guards the following members
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;
-  std::pmr::set<ContentId> lacking_;  ///< the worlds that the store lacks
-  std::pmr::list<KeptRecord> kept_;   ///< most recently used first
+  std::pmr::set<ContentId> lacking_;  ///< the worlds of which the store has no index
+  std::pmr::list<KeptRecord> kept_;   ///< cached tile records, most recently used first
   std::pmr::map<RecordKey, std::pmr::list<KeptRecord>::iterator> records_;
-  std::pmr::list<OpenPack> packs_;  ///< most recently used first
+  std::pmr::list<OpenPack> packs_;  ///< open packs, most recently used first
   std::pmr::set<ContentId> rejected_;
 };
 

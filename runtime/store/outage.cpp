@@ -15,7 +15,7 @@ Outage::Look Outage::look(Clock::time_point now) {
 
 bool Outage::failed(Clock::time_point begun, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  // The request began before the outage was known: it is the same outage.
+  // A request that began before the outage was known does not start another one.
   if (is_away_ && begun <= failed_at_) return false;
   const bool is_new = !is_away_;
   const bool goes_on = rest_.count() != 0 && (!is_new || now - answered_at_ < kLongestRest);
@@ -32,7 +32,7 @@ bool Outage::failed(Clock::time_point begun, Clock::time_point now) {
 
 bool Outage::answered(Clock::time_point begun, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  // An answer to a request from before the failure says nothing about the present.
+  // An answer to a request that began before the last failure does not show that the server works again.
   if (!is_away_ || begun <= failed_at_) return false;
   is_away_ = is_asked_ = false;
   answered_at_ = now;

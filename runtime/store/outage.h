@@ -1,33 +1,36 @@
 #pragma once
-// Decides whether to avoid a server that did not answer, and when to report that.
+// Decides when a server that did not answer is tried again, and when its outage is reported.
 
 #include <chrono>
 #include <mutex>
 
 namespace sgm::store {
 
-/// The state of one server. After the first failure it is away, and tested again after one second, then two, doubling
-/// up to a minute. Failures soon after an answer continue with the previous delay. Thread-safe. `begun` and `now` are
-/// the times when a request began and when its outcome was known.
+/// The state of one server. After its first failure it counts as away, and is tried again after one second, then two,
+/// doubling up to a minute. If it fails soon after it has answered, the previous delay continues. Thread-safe. `begun`
+/// and `now`: the times when a request began and when its outcome was known.
 class Outage {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kFirstRest{1}, kLongestRest{60};
 
+  /// there: send the request; away: send none; find_out: see below.
   enum class Look { there, away, find_out };
-  /// find_out: the server is away, and the caller must test it and report the outcome.
+  /// Returns what a caller may do. find_out: the server is away, and this caller must try it and report the outcome by
+  /// failed(), answered() or gaveUp().
   Look look(Clock::time_point now);
-  /// Returns whether to report the failure: once per outage, and at most once a minute.
+  /// Reports a failed request. Returns true if the failure should be logged: once per outage, and at most once a
+  /// minute.
   bool failed(Clock::time_point begun, Clock::time_point now);
-  /// Returns whether to report the end of an outage: if its beginning was reported.
+  /// Reports an answer. Returns true if the end of the outage should be logged, because its beginning was.
   bool answered(Clock::time_point begun, Clock::time_point now);
-  /// The caller that had to find out did not test the server.
+  /// Reports that the caller that got find_out did not try the server.
   void gaveUp();
 
  private:
   std::mutex mutex_;
   bool is_away_ = false, is_asked_ = false, is_told_ = false, was_ever_told_ = false;
-  std::chrono::seconds rest_{0};  ///< of the last outage
+  std::chrono::seconds rest_{0};  ///< delay before the next try, in the current or the last outage
   Clock::time_point until_, failed_at_, answered_at_, told_at_;
 };
 

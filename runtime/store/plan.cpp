@@ -16,8 +16,8 @@ constexpr uint32_t kPlanMagic = 0x4C4D4753;  // "SGML"
 constexpr uint32_t kPlanVersion = 1;
 constexpr uint64_t kMostPlan = uint64_t{1} << 28;
 
-// Microseconds of one thread, measured with samples/grammars (tests/bench/README.md): for a chunk proven uniform; for
-// one that is sampled, with its seams; and for each of its remaining instructions.
+// Microseconds of one thread, measured with samples/grammars (tests/bench/README.md): for a chunk that is proven
+// uniform; for a chunk that is sampled, with its seams; and for each instruction of its pruned program.
 constexpr double kUniform = 28, kSampled = 740, kInstruction = 6;
 
 std::vector<std::byte> encodePlan(const ContentId& job, std::span<const uint64_t> costs) {
@@ -50,7 +50,7 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t lo = first.at[axis] * edge;
-    // A block may leave the world; no chunk outside of it is wanted.
+    // A block may extend beyond the world, where no chunks are requested.
     constexpr int64_t kLow = std::numeric_limits<int32_t>::min(), kHigh = std::numeric_limits<int32_t>::max();
     box.lo[axis] = static_cast<int32_t>(std::clamp(lo, kLow, kHigh));
     box.hi[axis] = static_cast<int32_t>(std::clamp(lo + chunks * edge, kLow, kHigh));
@@ -58,7 +58,7 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   return box;
 }
 
-/// Estimates costs by the size of the field, pruned to cubes of four chunks and less.
+/// Estimates costs by the length of the field's program, pruned to cubes of at most four chunks per edge.
 class Estimate {
  public:
   Estimate(const Bakery& bakery, const TileKey& tile)
@@ -81,7 +81,7 @@ class Estimate {
   }
 
  private:
-  /// The number of the tile's chunks in the region that begin in a cube of `edge` chunks.
+  /// Returns the number of chunks, in both the tile and the region, within a cube of `edge` chunks per edge.
   size_t count(const ChunkKey& first, int edge) const {
     size_t chunks = 0;
     for (int i = 0; i < edge * edge * edge; ++i)
@@ -146,7 +146,8 @@ Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileK
 }
 
 std::pair<size_t, size_t> tilesOfShard(std::span<const uint64_t> costs, size_t shard, size_t shards) {
-  // A tile belongs to the shard of its middle. The added 1 gives even a tile without cost a middle.
+  // A tile belongs to the shard that contains the middle of its cost. 1 is added so that even a tile without cost has a
+  // middle.
   const double all = static_cast<double>(std::accumulate(costs.begin(), costs.end(), uint64_t{0}) + costs.size());
   const auto firstOf = [&](size_t number) {
     if (number == shards) return costs.size();

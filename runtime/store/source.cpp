@@ -18,7 +18,7 @@ class StoreSource final : public BakedParts {
   Result<void> open(const std::string& place) {
     Result<std::unique_ptr<StoreFiles>> files = storeFiles(place, log_, memory_);
     if (!files && files.error().code == Code::unsupported) {
-      // As with a server that does not answer: the world is the same without it.
+      // Not an error, like a server that does not answer: the world is the same without it.
       if (log_) log_("'" + shownPlace(place) + "': " + files.error().message + "; chunks are derived instead");
       return {};
     }
@@ -29,7 +29,7 @@ class StoreSource final : public BakedParts {
     const auto tell = [this](const std::string& file, const std::string& message) { this->tell(file, message); };
     const bool is_far = (*files)->isFar();
     auto store = std::make_unique<OpenStore>(std::move(*files), tell, memory_);
-    // Near stores come first: a part is the same in all stores.
+    // Nearby stores come first, which is correct because a part is the same in all stores that have it.
     const auto first_far =
         std::find_if(stores_.begin(), stores_.end(), [](const auto& other) { return other->files().isFar(); });
     stores_.insert(is_far ? stores_.end() : first_far, std::move(store));
@@ -61,7 +61,7 @@ class StoreSource final : public BakedParts {
   }
 
   void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) override {
-    // In all stores, since the part is the same in each.
+    // Rejects the part in all stores, because it is the same in each.
     for (const auto& store : stores_) {
       if (reach == Reach::far || !store->files().isFar()) store->reject(world, chunk, part);
     }
@@ -85,7 +85,8 @@ class StoreSource final : public BakedParts {
   }
 
  private:
-  /// Reports, only the first time, that no store has data of a world: animated parameters ask for many worlds.
+  /// Reports that no store has data of a world. Only the first such world is reported: animated parameters request
+  /// many.
   void tellIfLacking(const DiskKey& world) {
     if (has_told_lack_ || !log_ || stores_.empty()) return;
     const auto lacks = [&](const auto& store) { return store->lacks(world); };
@@ -110,7 +111,7 @@ class StoreSource final : public BakedParts {
   std::pmr::memory_resource* const memory_;
   std::vector<std::unique_ptr<OpenStore>> stores_;
   std::atomic<bool> has_told_lack_ = false;
-  mutable std::mutex mutex_;  ///< guards the following
+  mutable std::mutex mutex_;  ///< guards the following members
   std::set<std::string> told_;
   BakedStats stats_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Combines stores as the source of a streamed world.
+// Combines several stores into one source of baked parts for a streamed world.
 
 #include <span>
 
@@ -8,12 +8,13 @@
 
 namespace sgm::store {
 
-/// Returns each part from the first store that has it, folders before servers. places: as in storeFiles(). A world's
-/// index is found by its identity at the first query; so a store without data of the world costs nothing, and a server
-/// gets no earlier request. A faulty file is reported and loses only its own content, which is derived instead. It is
-/// reported once if no store has data of a world. A server is treated the same if this build or machine cannot read
-/// from servers. memory must be thread-safe and outlive the source. io, bad_input: a folder is not a store of this
-/// version, or an address is invalid; unsupported: as available().
+/// Opens a source that returns each part from the first store that has it; folders are searched before servers. places:
+/// paths and addresses as for storeFiles(). The index of a world is searched at the first query for that world: a store
+/// that does not have the world costs nothing, and a server gets no earlier request. A faulty file is reported; the
+/// content of the file is derived instead. If no store has a world, that is reported once. If this build or machine
+/// cannot read from servers, that is reported, and servers are ignored. memory must be thread-safe and outlive the
+/// source. Errors: io and bad_input if a folder is not a store of this version, or an address is invalid; unsupported
+/// as available().
 Result<std::shared_ptr<BakedParts>> openStores(std::span<const std::string> places, Log log,
                                                std::pmr::memory_resource* memory);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The record of a tile: the locations of its chunks' parts, and their measures.
+// The record of a tile: where the parts of its chunks are stored, and their measures.
 
 #include "chunk/chunk_part.h"
 #include "measure/chunk_measures.h"
@@ -8,29 +8,30 @@
 
 namespace sgm::store {
 
-/// Contents without triangles, and others as small, are stored in the record itself: there are only a few different
-/// ones, most chunks share them, and no reader should need a file for each.
+/// A value of StoredContent::pack: the content is stored in the record itself. Contents without triangles, and others
+/// as small, are inlined: there are only a few different ones, most chunks share them, and no reader should have to
+/// open a file for each.
 inline constexpr uint32_t kInlined = 0xFFFFFFFF;
-inline constexpr size_t kMostInlined = 256;  ///< bytes
+inline constexpr size_t kMostInlined = 256;  ///< in bytes
 
-/// A part encoded by encodeChunkPart.
+/// Where a content, the output of encodeChunkPart, is stored.
 struct StoredContent {
-  ContentId id;         ///< idOf the content
-  uint32_t bytes = 0;   ///< of the content
-  uint32_t stored = 0;  ///< of its frame
-  uint32_t pack = 0;    ///< index of the file in TileRecord::packs, or kInlined
-  uint64_t offset = 0;  ///< in that file, or in TileRecord::inlined
+  ContentId id;         ///< idOf the uncompressed content
+  uint32_t bytes = 0;   ///< size of the content
+  uint32_t stored = 0;  ///< size of its compressed frame
+  uint32_t pack = 0;    ///< index in TileRecord::packs, or kInlined
+  uint64_t offset = 0;  ///< offset in that pack, or in TileRecord::inlined
   friend bool operator==(const StoredContent&, const StoredContent&) = default;
 };
 
-/// A file of consecutive frames after a head; named by a hash of its bytes.
+/// A pack: a file that consists of a head and successive frames. Its name is a hash of its bytes.
 struct PackFile {
   ContentId name;
   uint64_t bytes = 0;
   friend bool operator==(const PackFile&, const PackFile&) = default;
 };
 
-/// Behind "SGMP" and the version, 4 bytes each.
+/// size of a pack's head: "SGMP" and the version, 4 bytes each
 inline constexpr uint64_t kPackHead = 8;
 inline constexpr uint32_t kPackVersion = 1;
 std::vector<std::byte> packHead();
@@ -41,15 +42,16 @@ struct TileRecord {
 
   TileKey key;
   std::pmr::vector<PackFile> packs;
-  std::pmr::vector<StoredContent> contents;  ///< each once, in the order of its first use by chunks and parts
+  /// the different contents, in the order in which chunks and parts first use them
+  std::pmr::vector<StoredContent> contents;
   std::pmr::vector<std::byte> inlined;
-  /// By chunk and part: 0 if it was not baked, else the content's index plus one.
+  /// By chunk and part: index into `contents` plus one; 0 if the part was not baked.
   std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
   uint32_t chunks = 0;       ///< number of baked chunks
-  uint64_t plain_bytes = 0;  ///< of all parts, as if each were stored by itself
+  uint64_t plain_bytes = 0;  ///< total size of all parts, if each were stored separately and uncompressed
 
-  /// The content of a chunk's part; null if it was not baked.
+  /// Returns the content of a part; null if it was not baked. chunk: its number in the tile.
   const StoredContent* contentOf(size_t chunk, int part) const {
     const uint16_t number = this->part(chunk, part);
     return number == 0 ? nullptr : &contents[number - 1u];
@@ -59,7 +61,7 @@ struct TileRecord {
 };
 
 std::vector<std::byte> encodeTile(const TileRecord& record);
-/// Accepts any bytes; nullopt if encodeTile cannot have made them, or an index in them is invalid.
+/// Decodes a record. Accepts any bytes; nullopt if encodeTile cannot have made them, or an index in them is invalid.
 std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes,
                                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

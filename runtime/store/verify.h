@@ -1,5 +1,5 @@
 #pragma once
-// Checks a store's content, and removes files that no world needs.
+// Checks the content of a store, and removes files that no world needs.
 
 #include <span>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::store {
 
-/// The first few descriptions of problems, and their number.
+/// The number of problems, and descriptions of the first few.
 struct Problems {
   static constexpr size_t kMostTold = 20;
   std::vector<std::string> told;
@@ -21,12 +21,12 @@ struct Problems {
 
 struct Verified {
   uint64_t tiles = 0, chunks = 0, contents = 0, packs = 0, bytes = 0;
-  uint64_t borders = 0;  ///< between chunks and levels, with edges
+  uint64_t borders = 0;  ///< number of borders with edges between chunks, or between levels, that were checked
   Problems problems;
 };
 
-/// Reads everything that a world needs. Checks that records and packs are whole; that each content exists, matches its
-/// id and can be decoded; and that bodies and seams fit at every common border, so that all drawable frames are closed
+/// Reads everything that a world needs, and checks it: records and packs are complete; each content exists, matches its
+/// id and can be decoded; bodies and seams fit at every common border, so that all frames that can be drawn are closed
 /// (closure.h). Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
@@ -35,17 +35,18 @@ struct Compared {
   Problems problems;
 };
 
-/// Makes this many chunks of the world anew and compares them. The seed selects them, preferring chunks with triangles;
-/// fewer if few have any. Errors: those of meshing; bad_input (verify says more).
+/// Meshes `chunks` chunks of the world again and compares them with the stored ones. They are selected by `seed`,
+/// preferring chunks with triangles; fewer are compared if few have triangles. Errors: those of meshing; bad_input
+/// (verify reports details).
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
 
 struct Cleaned {
-  uint64_t packs = 0, bytes = 0;  ///< removed
-  uint64_t unfinished = 0;        ///< bakes that are not merged; they stay
+  uint64_t packs = 0, bytes = 0;  ///< number and size of the removed packs
+  uint64_t unfinished = 0;        ///< number of bakes that are not merged yet; they are not removed
 };
 
-/// Removes packs that no world of the store needs, and the rest of merged bakes. busy, unsupported: as StoreLock.
-/// Errors: of reading any index, before anything is removed; io.
+/// Removes packs that no world of the store needs, and the rest of merged bakes. Errors: busy and unsupported as
+/// StoreLock; errors of reading an index, before anything is removed; io.
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory,
                       std::chrono::milliseconds patience = StoreLock::kPatience);
 

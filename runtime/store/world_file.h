@@ -1,5 +1,5 @@
 #pragma once
-// The file of a world's index.
+// Opens the file of a world's index.
 
 #include <filesystem>
 #include <functional>
@@ -11,26 +11,27 @@
 namespace sgm::store {
 
 struct WorldFile {
-  std::string name;  ///< for people
+  std::string name;  ///< name of the file, for messages
   WorldIndex index;
-  std::shared_ptr<const StoredFile> file;  ///< as it was when opened, even if it was replaced since
+  /// the file as it was when it was opened, even if it has been replaced since
+  std::shared_ptr<const StoredFile> file;
 
-  /// Errors: io, and those of readIndex, with the file's name and what to do.
+  /// Opens an index. Errors: io, and those of readIndex; messages contain the file's name and say what to do.
   static Result<WorldFile> open(const std::filesystem::path& path);
   static Result<WorldFile> of(std::string name, std::shared_ptr<const StoredFile> file,
                               std::pmr::memory_resource* memory = std::pmr::get_default_resource());
-  /// Errors: as above. Throws std::bad_alloc.
+  /// Reads the record of a tile. Errors: same as open. Throws std::bad_alloc.
   Result<TileRecord> record(const TileEntry& tile, std::pmr::memory_resource* memory) const;
-  /// Calls f for every record, up to the first error of reading or of f. Throws std::bad_alloc.
+  /// Calls f for every record, until reading or f returns an error. Throws std::bad_alloc.
   Result<void> forRecords(std::pmr::memory_resource* memory, const std::function<Result<void>(TileRecord&&)>& f) const;
 };
 
-/// Totals of a world, added up tile by tile.
+/// Totals over all tiles of a world.
 struct WorldSummary {
   uint64_t tiles = 0, chunks = 0;
-  uint64_t contents = 0;  ///< different ones, including inlined ones
+  uint64_t contents = 0;  ///< number of different contents, including inlined ones
   uint64_t packs = 0, pack_bytes = 0;
-  uint64_t plain_bytes = 0;  ///< if each part were stored by itself
+  uint64_t plain_bytes = 0;  ///< total size if each part were stored separately and uncompressed
   measure::SurfaceSums measured;
 
   void add(const TileRecord& record);
@@ -39,12 +40,12 @@ struct WorldSummary {
   std::set<ContentId> contents_, packs_;
 };
 
-/// Errors: those of the records.
+/// Adds up the totals of a world. Errors: those of reading its records.
 Result<WorldSummary> summaryOf(const WorldFile& world, std::pmr::memory_resource* memory);
-/// Whether the store has all packs of the world, as far as their sizes tell. Errors: as above.
+/// True if the store has all packs of the world in their right sizes. Errors: same as above.
 Result<bool> hasPacks(const Folder& store, const WorldFile& world, std::pmr::memory_resource* memory);
 
-/// The indexes in a store, by name. io.
+/// Returns the paths of the indexes in a store, sorted by name. Error: io.
 Result<std::vector<std::filesystem::path>> worldsOf(const Folder& store);
 
 }  // namespace sgm::store

@@ -14,9 +14,9 @@
 namespace sgm {
 namespace {
 
-// The least share of a set: thousands of chunks, so that random keys fill all sets alike, and listing takes 10 ms.
+// The minimum share of a set: thousands of chunks, so that random keys fill all sets evenly; listing them takes 10 ms.
 constexpr uint64_t kLeastShare = uint64_t{16} << 20;
-constexpr uint64_t kSlack = 8;  // divisor: this share is freed, or written between two listings
+constexpr uint64_t kSlack = 8;  // 1 / kSlack of a set's share is freed by a listing, or written between two listings
 
 class FileCache final : public DiskCache {
  public:
@@ -34,7 +34,7 @@ class FileCache final : public DiskCache {
     const int error = folder_.read(key, file);
     if (error == 0) {
       if (auto content = unpackDiskEntry(key, file, memory)) {
-        folder_.touch(key);  // touching fails in a read-only folder, which is no problem
+        folder_.touch(key);  // this fails in a read-only folder, which is no problem
         count(&DiskCacheStats::hits);
         return content;
       }
@@ -83,18 +83,18 @@ class FileCache final : public DiskCache {
   }
 
  private:
-  /// Some shards, and their share of the limit.
+  /// A group of shards (folders) and their share of the limit.
   struct Set {
     std::mutex mutex;
-    uint64_t bytes = 0;    ///< of the entries at the last listing, and stored since
-    uint64_t writing = 0;  ///< of entries being written
+    uint64_t bytes = 0;    ///< size of the entries at the last listing, plus those stored since
+    uint64_t writing = 0;  ///< size of the entries that are being written
     uint64_t allowed = 0;  ///< bytes that may be written before the next listing
   };
 
   size_t setSize() const { return DiskFolder::kShards / sets_; }
   Set& setOf(const DiskKey& key) { return all_sets_[DiskFolder::shardOf(key) / setSize()]; }
 
-  /// Reserves bytes of a set while an entry is written; false if there is no room.
+  /// Reserves bytes of a set while an entry is written. Returns false if the set has no space for it.
   class Room {
    public:
     Room(FileCache& cache, Set& set, uint64_t bytes) : cache_(cache), set_(set), bytes_(bytes) {
@@ -115,7 +115,7 @@ class FileCache final : public DiskCache {
     }
     explicit operator bool() const { return held_; }
 
-    /// The entry is written.
+    /// Counts the reserved bytes as stored, after the entry was written.
     void fill() {
       const std::lock_guard lock(set_.mutex);
       cache_.setBytes(set_, set_.bytes + bytes_);
@@ -130,7 +130,7 @@ class FileCache final : public DiskCache {
     bool held_ = false, filled_ = false;
   };
 
-  /// Lists the entries of a set, and removes the longest unused ones if this many more bytes would exceed its share.
+  /// Lists the entries of a set. If `bytes` more bytes would exceed its share, removes the least recently used entries.
   void makeRoom(Set& set, uint64_t bytes) {
     std::pmr::vector<DiskFile> files(memory_);
     uint64_t total = set.writing;
@@ -166,10 +166,10 @@ class FileCache final : public DiskCache {
     ++(stats_.*what);
   }
 
-  /// A missing file was never stored, or another process has removed it.
+  /// Returns the error, except for a missing file: it was never stored, or another process has removed it.
   static int unlessGone(int error) { return error == ENOENT ? 0 : error; }
 
-  /// Returns whether it is an error; counts it, and reports the first one.
+  /// Returns true if `error` is an error. Counts errors, and reports the first one.
   bool failed(const char* what, int error) {
     if (error == 0) return false;
     bool first = false;
@@ -188,8 +188,8 @@ class FileCache final : public DiskCache {
   const Log log_;
   std::pmr::memory_resource* const memory_;
   const uint64_t sets_, share_;
-  std::array<Set, DiskFolder::kShards> all_sets_;  ///< only the first sets_ are used
-  mutable std::mutex mutex_;                       ///< guards stats_; locked last
+  std::array<Set, DiskFolder::kShards> all_sets_;  ///< only the first sets_ elements are used
+  mutable std::mutex mutex_;                       ///< guards stats_; always locked last
   DiskCacheStats stats_;
 };
 
@@ -202,7 +202,7 @@ Result<std::unique_ptr<DiskCache>> DiskCache::open(const std::filesystem::path& 
   }
   if (folder.empty()) return Error{Code::invalid_argument, "a disk cache needs a folder"};
   std::error_code why;
-  // The process may change its current folder later.
+  // An absolute path, because the process may change its current folder later.
   const std::filesystem::path place = std::filesystem::absolute(folder, why);
   if (!why) std::filesystem::create_directories(place, why);
   if (!why && !std::filesystem::is_directory(place, why) && !why)

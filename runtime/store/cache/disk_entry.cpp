@@ -22,7 +22,7 @@ struct EntryHeader {
 };
 static_assert(sizeof(EntryHeader) == 48);
 
-// Level 3 makes the cave's chunks half a percent smaller, but takes a quarter longer.
+// Level 3 would make the chunks of the sample grammar `cave` half a percent smaller, but take a quarter longer.
 constexpr int kZstdLevel = 1;
 
 }  // namespace
@@ -64,7 +64,7 @@ std::optional<std::pmr::vector<std::byte>> unpackDiskEntry(const DiskKey& key, s
   if (header != expected) return std::nullopt;
   std::pmr::vector<std::byte> content(static_cast<size_t>(header.content_bytes), memory);
   const size_t unpacked = ZSTD_decompress(content.data(), content.size(), payload.data(), payload.size());
-  // An error's code is larger than every size.
+  // A zstd error code is larger than every valid size.
   if (unpacked != content.size()) return std::nullopt;
   return content;
 }

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::string_view kPart = ".part";
 constexpr size_t kDigits = 32;
-constexpr time_t kLeftAfterSeconds = 60;  // no process takes this long for one entry
+// a file that was not finished after this time is abandoned: no process takes this long for an entry
+constexpr time_t kLeftAfterSeconds = 60;
 
 bool isLeft(const platform::FileStatus& part) {
   return part.changed_ns / 1'000'000'000 + kLeftAfterSeconds < std::time(nullptr);
@@ -31,8 +32,8 @@ int send(int file, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// The key in an entry's name without the suffix. Accepts only names as fileName() makes them: lower-case digits, no
-/// sign.
+/// Returns the key of an entry from its file name without suffix; nullopt if fileName() cannot have made the name, for
+/// example if it contains upper-case digits or a sign.
 std::optional<DiskKey> keyOfName(std::string_view name, size_t shard) {
   if (name.size() != kDigits || name.find_first_not_of("0123456789abcdef") != name.npos) return std::nullopt;
   DiskKey key;
@@ -87,14 +88,14 @@ int DiskFolder::write(const DiskKey& key, std::span<const std::byte> file) const
     opened = create();
   }
   if (opened < 0 && errno == EEXIST) {
-    // Another process is writing the entry, and may be done by now.
+    // EEXIST: another process is writing the entry, or has just finished it.
     if (platform::statusAt(part, there, false) != 0 || !isLeft(there) || platform::removeFile(part) != 0) return EEXIST;
     opened = create();
   }
   if (opened < 0) return errno;
-  // From here on no other process writes it.
+  // This process has the temporary file now, so no other process writes the entry.
   int error = platform::statusAt(name, there, false) == 0 ? EEXIST : send(opened, file);
-  // Some file systems report only here that they are full.
+  // Some file systems report only when a file is closed that they are full.
   if (platform::closeFile(opened) != 0 && error == 0) error = errno;
   if (error == 0 && platform::replaceFile(part, name) != 0) error = errno;
   if (error != 0) platform::removeFile(part);
@@ -117,7 +118,7 @@ int DiskFolder::list(size_t shard, std::pmr::vector<DiskFile>& files, uint64_t& 
     const std::optional<DiskKey> key = keyOfName(name, shard);
     if (!key) continue;
     platform::FileStatus there;
-    if (platform::statusAt(entry->path(), there, false) != 0) continue;  // another process has removed it
+    if (platform::statusAt(entry->path(), there, false) != 0) continue;  // another process has removed the file
     if (!part) {
       files.push_back({there.changed_ns, *key, there.bytes});
     } else if (!isLeft(there) || platform::removeFile(entry->path()) != 0) {
