@@ -29,7 +29,8 @@ Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest re
   return std::shared_ptr<Backend>(std::move(*made));
 }
 
-/// Returns CUDA if it meshes for the external device that draws; else that device if it is hardware; else the CPU.
+/// Returns CUDA if it can store meshes in the memory of the external device; otherwise that device if it is hardware;
+/// otherwise the CPU.
 Result<std::shared_ptr<Backend>> makeBeside(sgm_runtime& runtime) {
   Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
   if (cuda) return cuda;
@@ -61,7 +62,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const bool device = request.automatic || request.kind != BackendKind::cpu;
   const std::scoped_lock lock(shared.mutex);
   const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
-  // One GPU, one context: AUTO prefers the backend that was requested by name.
+  // A GPU should have only one CUDA context, so AUTO uses the backend that was requested by name, if there is one.
   if (request.automatic && !shared.automatic && shared.cuda) shared.automatic = shared.cuda;
   std::shared_ptr<Backend>& kept = request.automatic                   ? shared.automatic
                                    : request.kind == BackendKind::cuda ? shared.cuda
@@ -73,7 +74,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
   if (device && !on_cpu) kept = backend;
-  // A later request by name gets the same backend.
+  // A later request by name gets the same backend, for the same reason.
   if (request.automatic && backend->capabilities().kind == BackendKind::cuda && !shared.cuda) shared.cuda = backend;
   shared.none = shared.none || (request.automatic && on_cpu);
   return backend;
@@ -81,8 +82,8 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 
 namespace {
 
-/// Releases a backend that was only queried, in favour of an external one; not one that a field uses or that is
-/// external.
+/// Releases a backend that was only queried, so that an external one can replace it. Error: busy if a field uses the
+/// backend, or if it is external itself.
 Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool lent) {
   const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
     return kept && kept->capabilities().kind == kind;
@@ -131,12 +132,13 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
   BackendRequest request = requestFor(BackendKind::cuda);
   request.lent_context = std::move(context);
   Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
-  // A device that was never the runtime's cannot be lost.
+  // The code device_lost is reserved for a device that the runtime has used; here it only means that it cannot be used.
   if (!made)
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.lent_context = true;
-  // The first external hardware device is the automatic choice; CUDA for the device that draws has priority.
+  // The automatic choice stays if it is an external hardware device, or CUDA with meshes in the external device's
+  // memory.
   if (shared.drawing || !shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The barrier between C callers and C++: argument checks that return codes, and a guard that catches all exceptions.
+// The barrier between C callers and C++: checks of arguments that return codes, and a guard that catches all
+// exceptions.
 
 #include <exception>
 #include <new>
@@ -23,7 +24,8 @@ inline sgm_result fail(sgm_error* error, const Error& e) noexcept {
   return fail(error, resultOf(e.code), e.message, e.line, e.column);
 }
 
-/// SGM_OK, or the reason why a descriptor cannot be read: null, another version's size, or an unknown extension.
+/// Returns SGM_OK, or the reason why a descriptor cannot be read: it is null, has the size of another version, or an
+/// unknown extension. name: of the descriptor, for the message.
 template <class Desc>
 sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
   if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
@@ -41,7 +43,7 @@ inline sgm_result nullArgument(sgm_error* error, const char* name) {
   return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
 }
 
-/// Sets a stride of 0 to the element's size. Returns SGM_OK, or the reason why the stride is invalid.
+/// If a stride is 0, sets it to the element's size. Returns SGM_OK, or the reason why the stride is invalid.
 template <class Element>
 sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
   if (stride == 0) stride = sizeof(Element);
@@ -51,7 +53,7 @@ sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
                   std::to_string(alignof(Element)));
 }
 
-/// Runs a function's body and converts exceptions to a result: none may reach C.
+/// Runs the body of a C function and converts exceptions to a result, because no exception may reach C.
 template <class Body>
 sgm_result guarded(sgm_error* error, Body&& body) noexcept {
   try {

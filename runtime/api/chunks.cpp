@@ -47,7 +47,7 @@ sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request
   return grid ? SGM_OK : fail(error, grid.error());
 }
 
-/// Holds the finished meshes; destroys them unless they are handed over.
+/// Owns the finished meshes, and destroys them unless they were passed to the caller.
 class MadeMeshes {
  public:
   MadeMeshes(size_t count, std::pmr::memory_resource* memory) : meshes_(count, nullptr, memory) {}
@@ -106,7 +106,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     MadeMeshes made(desc->count, memory);
     std::pmr::vector<std::optional<sgm::Error>> errors(desc->count, memory);
     const auto finish = [&](size_t i) {
-      // Release each chunk after copying it: a batch may be large.
+      // Each chunk is released after it was copied, because a batch may be large.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
       const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
@@ -122,7 +122,8 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // With many requests, take some in a row: most chunks are empty, and take less time than scheduling them.
+    // With many requests, a job takes several in a row: most chunks are empty, and take less time than scheduling a
+    // job.
     const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
     sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {
       for (size_t i = row * in_a_row; i < std::min<size_t>((row + 1) * in_a_row, desc->count); ++i) finish(i);

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of one chunk's collider, counted by reference.
+// The handle of the collider of one chunk; reference-counted.
 
 #include <memory>
 

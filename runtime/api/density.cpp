@@ -8,10 +8,10 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMostPoints = 16384;         // on one axis
-constexpr uint64_t kMostInVolume = 1ull << 33;  // in a volume
+constexpr uint32_t kMostPoints = 16384;         // maximum number of points on an axis
+constexpr uint64_t kMostInVolume = 1ull << 33;  // maximum number of points in a volume
 
-/// Converts a pitch from bytes to values; 0 becomes the least pitch.
+/// Converts a pitch from bytes to values; 0 becomes the minimum pitch.
 sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least, const char* name, size_t& pitch) {
   if (bytes == 0) {
     pitch = least;
@@ -98,7 +98,7 @@ sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* de
     if (world == nullptr) return nullArgument(error, "world");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkLevel(world->finest_cell, desc->level, error); r != SGM_OK) return r;
-    // Keep this field even if another one is set meanwhile.
+    // This field is used until the end, even if another one is set meanwhile.
     const std::shared_ptr<const sgm::WorldField> field = world->world->field();
     return sampleVolume(error, world->world->queryField(desc->level), *field, world->runtime, *desc);
   });

@@ -2,7 +2,8 @@
 
 #include <utility>
 
-// Without this, uses of a destroyed handle would stay undetected until its memory is freed.
+// AddressSanitizer is told that the memory of destroyed handles must not be used: otherwise it would not detect such
+// uses until the memory is freed.
 #if defined(__SANITIZE_ADDRESS__)
 #define SGM_WATCHES_ADDRESSES 1
 #elif defined(__has_feature)

@@ -1,5 +1,6 @@
 #pragma once
-// The head in front of every handle. Its memory outlives the handle for a while, to detect a double destroy.
+// The head in front of every handle. Its memory stays allocated for a while after the handle is destroyed, so that
+// destroying the handle twice is detected.
 
 #include <atomic>
 #include <cstddef>
@@ -11,22 +12,24 @@ struct sgm_runtime;
 
 namespace sgm::api {
 
-/// Lies directly before its handle, and so can be found for any kind of handle. Aligned for all kinds.
+/// The head lies directly before its handle, so that it can be found from any kind of handle. Aligned for all kinds.
 struct alignas(std::max_align_t) HandleHead {
   sgm_runtime& runtime;
   size_t size;                        ///< bytes of head and handle together
-  std::atomic<uint32_t> owners{1};    ///< 0: the handle is destroyed
-  HandleHead* ended_after = nullptr;  ///< the next destroyed one
+  std::atomic<uint32_t> owners{1};    ///< number of owners; 0: the handle is destroyed
+  HandleHead* ended_after = nullptr;  ///< the next handle in the list of destroyed ones
 };
 
-/// Size of head and handle: the header states this limit for destroyed handles.
+/// The maximum size of head and handle together. The public header states it as the memory that a destroyed handle
+/// holds.
 inline constexpr size_t kMostHandleSize = 512;
 
 /// Adds an owner. Returns false and does nothing if the handle is destroyed.
+/// Adds an owner. Returns false, and changes nothing, if the handle is destroyed.
 bool gainOwner(HandleHead& head) noexcept;
 
-/// Removes an owner. Returns the number of owners before: if 1, the caller must destroy the handle; if 0, it was
-/// destroyed already, and nothing happened.
+/// Removes an owner. Returns the previous number of owners: if it is 1, the caller must destroy the handle; if it is 0,
+/// the handle was already destroyed, and nothing changes.
 uint32_t loseOwner(HandleHead& head) noexcept;
 
 /// The most recently destroyed handles of a runtime, without their content. They form an intrusive list, so that
@@ -40,9 +43,9 @@ class EndedHandles {
   EndedHandles& operator=(const EndedHandles&) = delete;
   ~EndedHandles();
 
-  /// Takes over the memory of a destroyed handle, and frees the oldest one if there are too many.
+  /// Takes ownership of the memory of a destroyed handle. Frees the oldest one if there are too many.
   void add(HandleHead* head) noexcept;
-  /// Bytes held of `memory`.
+  /// Returns the bytes of the runtime's memory that the destroyed handles hold.
   uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of a field: a world, and the backend that meshes it.
+// The handle of a field: a world's field, and the backend that meshes it.
 
 #include <memory>
 
@@ -10,7 +10,7 @@
 
 namespace sgm::api {
 
-/// The content of a field, owned by its handle and by the worlds that stream it.
+/// The content of a field. Its handle and the worlds that stream it own it together.
 struct FieldContent {
   FieldContent(WorldFieldSettings settings, std::pmr::memory_resource* memory, std::shared_ptr<Backend> backend_in)
       : world(std::move(settings), memory), backend(std::move(backend_in)) {}
@@ -19,7 +19,7 @@ struct FieldContent {
   std::shared_ptr<Backend> backend;
 };
 
-/// The field, with ownership of all its parts.
+/// Returns the field; the pointer shares ownership of the whole content.
 inline std::shared_ptr<const WorldField> worldField(const std::shared_ptr<FieldContent>& content) {
   return {content, &content->world};
 }
@@ -36,16 +36,17 @@ struct sgm_field {
 
 namespace sgm::api {
 
-/// Units per metre, for doubles that the interface takes in metres.
+/// Units per metre, as a double, because the interface takes positions and lengths in metres.
 inline constexpr double kUnits = SGM_UNITS_PER_METRE;
-/// The limit for chunks of a region or of a search, if the caller names none.
+/// The maximum number of chunks of a region or a search, unless the caller sets another limit.
 inline constexpr uint64_t kDefaultMostChunks = 65536;
 inline constexpr int32_t kLargestFinestCell = 1 << 20;
-/// The largest cell of any level: the rounding of vertices to units allows no larger one (mesh/vertex.h).
+/// The maximum cell edge of any level, in units: with larger cells, vertices could not be rounded to units in 32 bits
+/// (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;
 
-/// SGM_OK if a field with this finest cell, in units, has cells at the level; else INVALID_ARGUMENT (invalid level) or
-/// RANGE (its cells are too large).
+/// Returns SGM_OK if a field with this finest cell, in units, has the level; otherwise INVALID_ARGUMENT (the level is
+/// invalid) or RANGE (its cells would be too large).
 sgm_result checkLevel(int32_t finest_cell, int32_t level, sgm_error* error);
 
 }  // namespace sgm::api

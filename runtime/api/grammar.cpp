@@ -26,7 +26,8 @@ const sgm::Diagnostic* firstError(const std::vector<sgm::Diagnostic>& diagnostic
   return nullptr;
 }
 
-/// Reports the first error as one line. An import's error names its file, to which line and column refer.
+/// Reports the first error as one line. If it is in an import, the message names that file, to which line and column
+/// refer.
 sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string_view root) {
   std::string message = d.message;
   if (d.file != root) message = "in " + d.file + ": " + message;
@@ -34,7 +35,7 @@ sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string
   return fail(error, SGM_ERR_GRAMMAR, message, d.line, d.column);
 }
 
-/// A name of the program as a C string with the program's lifetime.
+/// Returns a name of the program as a C string, which is valid as long as the program.
 const char* nameAt(const std::pmr::vector<std::pmr::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }

@@ -15,7 +15,8 @@ struct sgm_grammar {
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;
-  std::shared_ptr<sgm::api::NoteLog> notes;  ///< shared by all its fields: a parameter may change many times a second
+  /// shared by all fields of the grammar, because a parameter may change many times a second
+  std::shared_ptr<sgm::api::NoteLog> notes;
 };
 
 struct sgm_diagnostics {

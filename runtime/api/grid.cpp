@@ -9,8 +9,8 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMostSamples = 16384;        // on one axis
-constexpr uint64_t kMostTogether = 1ull << 33;  // in a grid
+constexpr uint32_t kMostSamples = 16384;        // maximum number of samples on an axis
+constexpr uint64_t kMostTogether = 1ull << 33;  // maximum number of samples in a grid
 constexpr double kSmallestCell = 1e-30, kLargestCell = 1e30;
 
 sgm_result checkGrid(const sgm_grid_desc& desc, GridSamples& grid, sgm_error* error) {

@@ -14,46 +14,46 @@
 namespace sgm::api {
 namespace {
 
-/// The largest number of vertices and of indices.
+/// The maximum number of vertices and of indices.
 constexpr uint64_t kMostNumbers = std::numeric_limits<uint32_t>::max();
 
-/// The listed edges and cells of a slab.
+/// The crossed edges and the active cells of a slab of planes.
 struct Lists {
   explicit Lists(std::pmr::memory_resource* memory) : edges(memory), cells(memory) {}
   RawArray<uint32_t> edges;
   RawArray<uint64_t> cells;
 };
 
-/// The memory of one thread. It is reused from slab to slab, since memory that is fresh or was written by another
-/// processor costs more than the work in it.
+/// The memory of one thread. It is reused for successive slabs, because using memory that is fresh, or that another
+/// processor has written, takes longer than the work itself.
 struct Worker {
   explicit Worker(std::pmr::memory_resource* memory)
       : signs(memory), uniform(memory), numbers(memory), offsets(memory) {}
-  RawArray<uint64_t> signs, uniform;  ///< of a slab's planes and the one above them
+  RawArray<uint64_t> signs, uniform;  ///< signs of the planes of a slab, and of the first plane of the slab above
   RawArray<uint32_t> numbers, offsets;
-  std::vector<std::unique_ptr<Lists>> free;  ///< under the mesher's lock
+  std::vector<std::unique_ptr<Lists>> free;  ///< unused lists; guarded by the mesher's lock
 };
 
-/// The planes first..last - 1, and the layers above them.
+/// A slab of the grid: the planes first..last - 1, and the layers of cells above them.
 struct Slab {
   size_t first, last;
   Worker* worker = nullptr;
   std::unique_ptr<Lists> lists{};
-  int readers;  ///< of the lists: itself and the slab above, until they are meshed
+  int readers;  ///< number of slabs that still read the lists: this one and the slab above, until they are meshed
   bool listed = false, meshed = false;
 };
 
-/// The number of planes in a slab. Each slab shares a plane with the one below, which costs more for thin slabs; with
-/// thick ones the samples have left the cache when vertices are placed.
+/// Returns the number of planes in a slab. Each slab shares a plane with the slab below, which makes thin slabs
+/// expensive; but with thick slabs, the samples are no longer in cache when vertices are placed.
 size_t thicknessOf(const std::array<size_t, 3>& size, size_t threads) {
   constexpr size_t kThinnest = 4, kSamples = size_t{1} << 19, kWorthSharing = 8;
   const size_t in_cache = std::max(kThinnest, kSamples / (size[0] * size[1]));
   return threads == 1 ? in_cache : std::min(in_cache, std::max(kWorthSharing, size[2] / (threads * 4) + 1));
 }
 
-/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. First a slab
-/// is listed. It is meshed when all slabs below are listed, too, which gives the place of its part in the mesh;
-/// `settled_` counts these slabs.
+/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. A slab is
+/// first LISTED: its crossed edges and cells are counted. When all slabs below are listed, too, it is SETTLED: the
+/// position of its part in the mesh is known, and it can be meshed. `settled_` is the number of settled slabs.
 class GridMesher {
  public:
   GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory, const MeshKernels& kernels)
@@ -101,23 +101,25 @@ class GridMesher {
   std::pmr::memory_resource* memory_;
   const MeshKernels& kernels_;
   GridJob job_;
-  const size_t thick_;  ///< planes of every slab except the last
+  const size_t thick_;  ///< number of planes of every slab except the last
   std::vector<Slab> slabs_;
-  /// The first plane of each slab, which the slab below needs, too: the first of the two threads reads it for both.
+  /// The signs of the first plane of each slab, which the slab below needs, too: the first thread that needs it reads
+  /// it for both.
   RawArray<uint64_t> shared_signs_, shared_uniform_;
   std::pmr::vector<std::atomic<uint8_t>> shared_;
-  /// By plane, and twice by the layer above it: counts of a listed slab, sums once it is settled.
+  /// By plane, and twice by the layer of cells above it: counts while a slab is listed; sums over all lower ones once
+  /// it is settled.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
   std::atomic<bool> finite_{true}, stopped_{false};
-  std::atomic<size_t> next_{0}, settled_{0};  ///< slabs
-  std::mutex mutex_;                          ///< guards the following, which slabs share, and settling
+  std::atomic<size_t> next_{0}, settled_{0};  ///< next slab to be taken; number of settled slabs
+  std::mutex mutex_;                          ///< guards the following members, and settling
   GridBounds bounds_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
-/// Reserves memory for the mesh by an estimate from sampled rows. They are scattered over y and z, so that surfaces
-/// parallel to the grid are hit as often as others.
+/// Reserves memory for the mesh, by an estimate from sampled rows. The rows are scattered over y and z, so that
+/// surfaces parallel to the grid's axes are sampled as often as others.
 void GridMesher::expect() {
   constexpr double kGolden = 0.6180339887498949;
   const size_t size_x = grid_.size[0], rows = std::min<size_t>(grid_.size[1], 3);
@@ -150,7 +152,7 @@ void GridMesher::expect() {
   provide(expected(sum.vertices), expected(sum.triangles), 0);
 }
 
-/// Resizes the arrays to this size, and keeps the meshed part of the slabs before `meshed`.
+/// Resizes the arrays, and keeps the meshed parts of the slabs before `meshed`.
 void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   uint64_t had_vertices = 0, had_triangles = 0;
   if (meshed > 0) {
@@ -165,7 +167,7 @@ void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   job_.indices = mesh_.indices.data();
 }
 
-/// Wakes threads that wait for slabs that will never be settled.
+/// After an error, wakes threads that wait for slabs which will never be settled.
 void GridMesher::stop() {
   const std::lock_guard lock(mutex_);
   stopped_.store(true);
@@ -173,7 +175,7 @@ void GridMesher::stop() {
   settled_.notify_all();
 }
 
-/// Reads the signs of a plane, row by row. A value that is not finite stops all work.
+/// Reads the signs of a plane, row by row. A value that is not finite stops all threads.
 void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   bool finite = true;
   for (size_t y = 0; y < grid_.size[1]; ++y)
@@ -183,7 +185,7 @@ void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   stop();
 }
 
-/// As readSigns, but a plane that two slabs need is read only once.
+/// Same as readSigns, but a plane that two slabs need is read only once.
 void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   if (z % thick_ != 0) return readSigns(z, signs, uniform);
   const size_t slab = z / thick_, words = job_.lattice.words * grid_.size[1], rows = 2 * grid_.size[1];
@@ -201,7 +203,8 @@ void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
 }
 
 void GridMesher::list(Slab& slab, Worker& worker) {
-  // Space is allocated for some rows at a time: the number of crossings in a plane is unknown, and planes can be large.
+  // Memory is allocated for some rows at a time: the number of crossings in a plane is unknown, and planes can be
+  // large.
   constexpr size_t kRows = 16;
   const size_t size_x = grid_.size[0], size_y = grid_.size[1], words = job_.lattice.words * size_y, rows = 2 * size_y;
   uint64_t vertices = 0, cells = 0;
@@ -245,7 +248,7 @@ void GridMesher::list(Slab& slab, Worker& worker) {
   }
 }
 
-/// Turns the counts of a listed slab, and of slabs that have waited for it, into sums.
+/// Converts the counts of a listed slab, and of the slabs above that have waited for it, to sums.
 void GridMesher::settle(Slab& slab) {
   const std::lock_guard lock(mutex_);
   if (stopped_.load()) return;
@@ -261,12 +264,12 @@ void GridMesher::settle(Slab& slab) {
   settled_.notify_all();
 }
 
-/// Call with the lock held, when one reader of a slab's lists is done.
+/// Call this when one of the readers of a slab's lists has finished. Precondition: the lock is held.
 void GridMesher::release(Slab& slab) {
   if (--slab.readers == 0) slab.worker->free.push_back(std::move(slab.lists));
 }
 
-/// Waits until all slabs below are settled and there is space.
+/// Waits until all slabs below are settled and memory is reserved; then meshes the slab.
 void GridMesher::meshInTurn(size_t number, Worker& worker) {
   for (size_t settled; (settled = settled_.load()) <= number;) settled_.wait(settled);
   const Slab& slab = slabs_[number];
@@ -318,8 +321,8 @@ void GridMesher::shareOut() {
   shared_uniform_.allocate(2 * grid_.size[1] * slabs_.size());
 }
 
-/// Takes slabs in order. So the slabs below a listed one have been taken by some thread, and listing them needs nothing
-/// of the slabs above.
+/// The work of a thread. Slabs are taken in ascending order: so when a slab is listed, all slabs below have been taken
+/// by some thread, and listing never waits for slabs above.
 void GridMesher::work(Worker& worker) {
   try {
     for (size_t number; !stopped_.load() && (number = next_.fetch_add(1)) < slabs_.size();) {
@@ -335,7 +338,7 @@ void GridMesher::work(Worker& worker) {
 
 Result<GridMesh> GridMesher::run() {
   shareOut();
-  // Otherwise most slabs are listed before one is meshed, and then the total size is known.
+  // With few slabs, most are listed before one is meshed, so that the size of the mesh is known without an estimate.
   if (slabs_.size() > workers_.size()) expect();
   parallelFor(jobs_, workers_.size(), [&](size_t i) { work(*workers_[i]); });
   if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
@@ -356,7 +359,7 @@ Result<GridMesh> GridMesher::run() {
   mesh_.normals.cut(vertices * 3);
   mesh_.indices.cut(triangles * 3);
   for (size_t axis = 0; axis < 3 && vertices > 0; ++axis) {
-    // Computed as for vertices: rounding keeps their order.
+    // Computed like the positions of vertices; rounding preserves the order of values.
     mesh_.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
     mesh_.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
   }
@@ -367,7 +370,7 @@ Result<GridMesh> GridMesher::run() {
 
 Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory,
                           const MeshKernels& kernels) {
-  // Offsets within a plane and its neighbours have 32 bits. Only very large strides exceed that.
+  // Offsets within a plane and its neighbours must fit 32 bits, which only very large strides exceed.
   constexpr size_t kFarthest = std::numeric_limits<int32_t>::max();
   if (grid.stride_y <= kFarthest / grid.size[1] && grid.stride_z <= kFarthest / 4)
     return GridMesher(grid, jobs, memory, kernels).run();

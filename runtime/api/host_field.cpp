@@ -28,7 +28,7 @@ sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& pr
   return SGM_OK;
 }
 
-/// Converts the result of a callback: whatever the result, the call is not repeated.
+/// Converts the result of a callback to an internal code. No code makes the library call the callback again.
 Code codeOf(sgm_result result) {
   switch (result) {
     case SGM_ERR_INVALID_ARGUMENT:

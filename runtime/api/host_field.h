@@ -1,5 +1,5 @@
 #pragma once
-// Converts a host's fields to the library's.
+// Converts the host fields of the C interface to internal ones.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace sgm::api {
 
-/// Reads the descriptor's fields. Returns SGM_OK, or the problem of one of them. Throws std::bad_alloc.
+/// Converts the descriptor's host fields. Returns SGM_OK, or the problem of one of them. Throws std::bad_alloc.
 sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program& program,
                      std::vector<HostField>& hosts);
 

@@ -32,7 +32,8 @@ Result<std::string> readTextFile(const fs::path& path, size_t limit) {
   std::error_code why;
   const fs::file_status status = fs::status(path, why);
   if (status.type() == fs::file_type::not_found) return ioError(path, "no such file");
-  if (!fs::exists(status)) return ioError(path, systemMessage(why));  // no permission for a folder, or circular links
+  // for example, a folder cannot be read, or links are circular
+  if (!fs::exists(status)) return ioError(path, systemMessage(why));
   if (fs::is_directory(status)) return ioError(path, "it is a folder");
   std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) return ioError(path, systemMessage(errno));

@@ -1,5 +1,6 @@
 #pragma once
-// Sources of imported text: the caller's callback, then a folder on disk that no import may leave.
+// Sources of imported texts: the caller's callback, or else a folder on disk. No import can read files outside of the
+// folder.
 
 #include <filesystem>
 #include <optional>
@@ -12,7 +13,7 @@
 
 namespace sgm::api {
 
-/// Reads imports from regular files inside one folder. Links that lead out of it are refused.
+/// Reads imports from regular files in one folder. Rejects links that lead out of it.
 class FolderImports final : public ImportResolver {
  public:
   explicit FolderImports(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -22,7 +23,7 @@ class FolderImports final : public ImportResolver {
   std::filesystem::path folder_;
 };
 
-/// The C interface's imports: the callback (may be null) first, then the folder (may be null).
+/// The imports of the C interface: asks the callback first (may be null), then the folder (may be null).
 class CallerImports final : public ImportResolver {
  public:
   CallerImports(sgm_import_function function, void* user, const char* folder);
@@ -37,7 +38,7 @@ class CallerImports final : public ImportResolver {
 /// Reads a whole file of at most limit bytes. Errors: io (with the system's reason), limit.
 Result<std::string> readTextFile(const std::filesystem::path& path, size_t limit);
 
-/// One line (from 1) of the file with that name, without its line feed; "" if it does not exist.
+/// Returns a line of the file with this name, without its line end; "" if it does not exist. line: from 1.
 std::string sourceLine(const std::vector<SourceFile>& files, std::string_view file, int line);
 
 }  // namespace sgm::api

@@ -26,8 +26,8 @@ void systemRelease(void*, void* memory, size_t, size_t alignment) {
 
 sgm_allocator systemAllocator() { return {systemAllocate, systemRelease, nullptr}; }
 
-/// Size classes are eighths of powers of two: blocks are reused for nearly equal sizes, and untouched pages cost
-/// nothing.
+/// Returns the size class. Classes are eighths of powers of two, so that a block is reused for nearly equal sizes; the
+/// pages that a smaller block does not touch cost nothing.
 size_t KeptBlocks::numberOf(size_t size) {
   const auto octave = static_cast<size_t>(std::bit_width(size - 1)) - 1;  // 2^octave < size <= 2^(octave + 1)
   const size_t step = (size_t{1} << octave) / kSteps;
@@ -45,7 +45,7 @@ bool KeptBlocks::keeps(size_t size, size_t alignment) {
 
 void* KeptBlocks::fromSystem(size_t size, size_t alignment) {
   if (void* memory = system_.allocate(system_.user, size, alignment)) return memory;
-  // Memory kept only for speed must not cause a failure.
+  // The stored blocks must not cause a failure, so they are freed before the second attempt.
   dropAll();
   return system_.allocate(system_.user, size, alignment);
 }

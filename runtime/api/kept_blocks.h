@@ -1,5 +1,5 @@
 #pragma once
-// System memory with a pool of large blocks: the default of a runtime without an allocator from the caller.
+// Memory from the system, with a pool of large blocks: the default of a runtime whose caller supplies no allocator.
 
 #include <array>
 #include <cstddef>
@@ -11,44 +11,46 @@
 
 namespace sgm::api {
 
-/// malloc and free.
+/// Returns an allocator that uses malloc and free.
 sgm_allocator systemAllocator();
 
-/// malloc returns large blocks to the system and takes fresh ones from it, page by page. For a mesh of a million
-/// triangles this takes half as long as meshing, and threads wait for each other there. So released blocks stay here
-/// for the next use of their size; all are freed if the system runs out of memory. Thread-safe.
+/// Reuses large blocks. malloc returns large blocks to the system and gets new ones from it, page by page. For a mesh
+/// of a million triangles, that takes half as long as meshing, and threads wait for each other there. So released
+/// blocks are stored here for the next request of their size; all of them are freed if the system runs out of memory.
+/// Thread-safe.
 class KeptBlocks {
  public:
-  /// Takes memory from `system`, whose user must outlive the object.
+  /// Allocates from `system`, whose user pointer must outlive this object.
   explicit KeptBlocks(const sgm_allocator& system = systemAllocator()) : system_(system) {}
   KeptBlocks(const KeptBlocks&) = delete;
   KeptBlocks& operator=(const KeptBlocks&) = delete;
   ~KeptBlocks();
 
-  static constexpr size_t kSmallest = size_t{1} << 14;  ///< least size of a kept block, bytes
+  static constexpr size_t kSmallest = size_t{1} << 14;  ///< minimum size of a block that is stored for reuse, in bytes
   static constexpr size_t kLargest = size_t{1} << 26;
-  /// Limit for all kept bytes; the size unused for longest is freed first.
+  /// Limit for all stored blocks in bytes. Beyond it, blocks of the size that was unused for longest are freed first.
   static constexpr size_t kMost = size_t{1} << 27;
 
-  /// Like sgm_allocator's functions.
+  /// Same as the functions of sgm_allocator.
   void* allocate(size_t size, size_t alignment);
   void release(void* memory, size_t size, size_t alignment);
 
-  /// The number of bytes kept now.
+  /// Returns the total size of the blocks that are stored now.
   size_t bytes();
 
-  /// These functions as a table; the object must outlive its use.
+  /// Returns these functions as a table, which must not be used after this object is destroyed.
   sgm_allocator allocator();
 
  private:
-  static constexpr size_t kSteps = 8;  ///< size classes between a power of two and the next
+  static constexpr size_t kSteps = 8;  ///< number of size classes from one power of two to the next
   static constexpr size_t kSizes = 12 * kSteps + 1;
   static_assert(kSmallest << (kSizes / kSteps) == kLargest);
 
-  /// Blocks of one size class, newest last: the newest is most likely in cache.
+  /// The stored blocks of one size class, the most recent last. The most recent one is used first: it is most likely in
+  /// cache.
   struct Shelf {
     std::vector<void*> blocks;
-    uint64_t used = 0;  ///< the clock_ at its last use
+    uint64_t used = 0;  ///< value of clock_ at the last use
   };
 
   static size_t numberOf(size_t size);
@@ -65,7 +67,7 @@ class KeptBlocks {
   std::mutex mutex_;
   std::array<Shelf, kSizes> shelves_;
   uint64_t clock_ = 0;
-  size_t bytes_ = 0;  ///< of all kept blocks
+  size_t bytes_ = 0;  ///< total size of all stored blocks
 };
 
 }  // namespace sgm::api

@@ -87,7 +87,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
 
 namespace {
 
-/// Copies as much as there is room for, and sets the total number.
+/// Copies as many elements as the caller's array can hold, and sets *count to the total number.
 template <class T>
 sgm_result copyOut(std::span<const T> from, T* to, size_t stride, size_t* count) {
   const size_t room = *count;

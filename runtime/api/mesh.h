@@ -1,5 +1,5 @@
 #pragma once
-// The handle of one chunk's mesh: body and seams in one vertex array and one index array, counted by reference.
+// The handle of the mesh of one chunk: body and seams in one vertex array and one index array; reference-counted.
 
 #include <memory>
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr size_t kMostTold = 64;
 
-/// The message without its numbers: the amount by which a shape is too large differs from cell to cell.
+/// Returns the message without its numbers: for example, the amount by which a shape is too large differs from cell to
+/// cell.
 std::string kindOf(std::string message) {
   message.erase(std::remove_if(message.begin(), message.end(), [](char c) { return c >= '0' && c <= '9'; }),
                 message.end());
@@ -25,7 +26,7 @@ bool NoteLog::isNew(const DeriveNote& note, bool& last) {
 void NoteLog::tell(const GrammarChunk& cell) {
   for (const DeriveNote& note : cell.notes) {
     bool last = false;
-    // A note without a place only counts notes that the cell has not kept.
+    // A note without a place only states how many notes of the cell were dropped.
     if (note.line == 0 || !isNew(note, last)) continue;
     if (last) {
       runtime_.log(SGM_LOG_WARNING, "notes at further places in the grammar are not logged");

@@ -1,5 +1,5 @@
 #pragma once
-// Logs the omissions of derivation to the runtime's sink.
+// Logs what derivation has left out, to the runtime's log function.
 
 #include <mutex>
 #include <set>
@@ -11,8 +11,8 @@
 
 namespace sgm::api {
 
-/// Logs each kind of note at each place of the grammar once, as a warning, up to a limit: an endless world would repeat
-/// the same for every cell. Thread-safe.
+/// Logs each kind of note at each place of the grammar once, as a warning, up to a maximum number: an endless world
+/// would repeat the same notes for every cell. Thread-safe.
 class NoteLog {
  public:
   explicit NoteLog(const sgm_runtime& runtime) : runtime_(runtime) {}
@@ -20,7 +20,7 @@ class NoteLog {
   void tell(const GrammarChunk& cell);
 
  private:
-  /// Whether to log the note; sets `last` at the first note beyond the limit.
+  /// Returns true if the note must be logged. Sets `last` to true at the first note beyond the maximum.
   bool isNew(const DeriveNote& note, bool& last);
 
   const sgm_runtime& runtime_;

@@ -10,7 +10,7 @@ namespace {
 
 std::array<double, 3> vectorOf(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Writes the point, or that there is none, or the error. Keeps out's struct_size and next.
+/// Writes the point, or that none was found, or the error. Keeps out's struct_size and next.
 sgm_result writePoint(const sgm::Result<std::optional<sgm::SurfacePoint>>& asked, sgm_surface_point& out,
                       sgm_error* error) {
   if (!asked) return fail(error, asked.error());
@@ -29,7 +29,7 @@ sgm_result writePoint(const sgm::Result<std::optional<sgm::SurfacePoint>>& asked
   return SGM_OK;
 }
 
-/// SGM_OK if desc and out are valid.
+/// Returns SGM_OK if desc and out are valid.
 template <class Desc, class Out>
 sgm_result checkQuestion(sgm_error* error, const Desc* desc, const Out* out) {
   if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
@@ -72,7 +72,7 @@ sgm_result findWalkable(const sgm::QueryField& field, const sgm_walk_desc* desc,
   return SGM_OK;
 }
 
-/// The common frame of queries, for fields and worlds.
+/// The code that all queries have in common, for fields and worlds.
 template <class Owner, class Field, class Question, class Desc, class Out>
 sgm_result ask(Owner* owner, const char* name, const Field& field, const Question& question, const Desc* desc, Out* out,
                sgm_error* error) {

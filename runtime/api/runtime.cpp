@@ -36,7 +36,7 @@ sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
 }  // namespace
 
 void* CallerMemory::do_allocate(size_t size, size_t alignment) {
-  // Containers may request zero bytes; the caller's allocator need not support that.
+  // Containers may request zero bytes, which the caller's allocator need not support.
   const size_t bytes = size == 0 ? 1 : size;
   const uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   void* memory = limit_ != 0 && live > limit_ ? nullptr : allocator_.allocate(allocator_.user, bytes, alignment);
@@ -80,7 +80,7 @@ void CallerJobs::submit(void (*function)(void*), void* argument, int priority) {
     ++waiting_;
   }
   if (jobs_.submit(jobs_.user, runAccepted, job.get(), priority) != 0) {
-    static_cast<void>(job.release());  // runAccepted owns it, and may have deleted it already
+    static_cast<void>(job.release());  // runAccepted owns the job, and may have deleted it already
   } else {
     runAccepted(job.release());
   }
@@ -94,7 +94,7 @@ CallerJobs::~CallerJobs() {
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
 
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept {
-  char message[128];  // does not allocate: memory may have run out
+  char message[128];  // on the stack, because memory may have run out
   std::snprintf(message, sizeof message, "%s: this handle was already destroyed; nothing was done", function);
   head.runtime.log(SGM_LOG_ERROR, message);
   return SGM_ERR_INVALID_ARGUMENT;
@@ -147,7 +147,7 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
 sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
   if (runtime == nullptr) return SGM_OK;
   if (const uint64_t alive = runtime->children.load(std::memory_order_acquire); alive != 0) {
-    char message[128];  // does not allocate: memory may have run out
+    char message[128];  // on the stack, because memory may have run out
     std::snprintf(message, sizeof message, "sgm_runtime_destroy: handles of this runtime that were not destroyed: %llu",
                   static_cast<unsigned long long>(alive));
     runtime->log(SGM_LOG_ERROR, message);
@@ -162,7 +162,7 @@ sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
 sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak) {
   if (runtime == nullptr) return SGM_ERR_INVALID_ARGUMENT;
   if (live != nullptr) {
-    // The two counters may change in between: never report less than 0.
+    // The two counters may change between the two reads, so the difference is clamped to 0.
     const uint64_t ended = runtime->ended.bytes(), held = runtime->memory.live();
     *live = held > ended ? held - ended : 0;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// The runtime handle: the caller's memory, threads, log and profiler, adapted to internal interfaces, and the number of
-// children.
+// The runtime handle: adapts the caller's memory, threads, log and profiler to internal interfaces, and counts the
+// handles that exist.
 
 #include <atomic>
 #include <condition_variable>
@@ -26,7 +26,7 @@ struct BorrowedDevice;
 
 namespace sgm::api {
 
-/// The caller's allocator as a memory resource: counts bytes, enforces the limit, and throws std::bad_alloc.
+/// Makes the caller's allocator a memory resource that counts bytes, enforces the limit, and throws std::bad_alloc.
 class CallerMemory final : public std::pmr::memory_resource {
  public:
   CallerMemory(const sgm_allocator& allocator, uint64_t limit) : allocator_(allocator), limit_(limit) {}
@@ -43,7 +43,7 @@ class CallerMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> live_{0}, peak_{0};
 };
 
-/// The caller's job system, adapted. Its destructor waits until every accepted job has run: even a job with nothing
+/// Adapts the caller's job system. The destructor waits until every accepted job has run: even a job that has nothing
 /// left to do may hold memory of the runtime.
 class CallerJobs final : public JobSystem {
  public:
@@ -66,21 +66,22 @@ class CallerJobs final : public JobSystem {
   sgm_job_system jobs_;
   std::mutex mutex_;
   std::condition_variable ended_;
-  uint64_t waiting_ = 0;  ///< accepted, but not finished
+  uint64_t waiting_ = 0;  ///< number of jobs that were accepted but have not finished
 };
 
-/// A path from the caller, in UTF-8; empty for null.
+/// Converts a UTF-8 path from the caller; empty for null.
 inline std::filesystem::path pathOf(const char* utf8) {
   return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
 }
 
-/// Device backends, shared by all fields of a runtime: opening one takes long, and its memory is large.
+/// The device backends of a runtime, shared by all its fields: opening one takes long, and it needs much memory.
 struct DeviceBackends {
   std::mutex mutex;
-  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until requested
-  bool lent = false, lent_context = false;           ///< whether `vulkan`, or `cuda`, is the engine's
-  bool none = false;                                 ///< `automatic` has found no device
-  /// The external device whose memory holds CUDA's meshes, or null.
+  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until first requested
+  /// true if `vulkan` uses an external device; true if `cuda` uses an external context
+  bool lent = false, lent_context = false;
+  bool none = false;  ///< true if the automatic choice has found no device
+  /// The external device in whose memory CUDA stores meshes; null if there is none.
   std::shared_ptr<const vulkan::BorrowedDevice> drawing;
 };
 
@@ -95,14 +96,14 @@ struct sgm_runtime {
   }
   void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
-  sgm_allocator allocator;    ///< frees the runtime itself, which contains `memory`
-  sgm::api::KeptBlocks kept;  ///< used if the caller passed no allocator
+  sgm_allocator allocator;    ///< also frees the runtime itself, which contains `memory`
+  sgm::api::KeptBlocks kept;  ///< used if the caller supplied no allocator
   sgm::api::CallerMemory memory;
   sgm::api::EndedHandles ended{&memory};
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
-  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< shared by all worlds
+  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< shared by all worlds of the runtime
   std::filesystem::path pipeline_folder;       ///< empty: pipelines are not cached
   sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
@@ -112,8 +113,8 @@ namespace sgm::api {
 
 inline HandleHead& headOf(void* handle) { return static_cast<HandleHead*>(handle)[-1]; }
 
-/// Creates a handle behind its head in the runtime's memory, counted as the runtime's child, with one owner. Throws
-/// std::bad_alloc and the constructor's exceptions.
+/// Creates a handle behind its head, in the runtime's memory. It is counted as a child of the runtime, and has one
+/// owner. Throws std::bad_alloc and what the constructor throws.
 template <class Handle, class... Arguments>
 Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   constexpr size_t kSize = sizeof(HandleHead) + sizeof(Handle);
@@ -132,17 +133,18 @@ Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   return handle;
 }
 
-/// Returns INVALID_ARGUMENT and logs that the handle was already destroyed when this function was called.
+/// Returns INVALID_ARGUMENT, and logs that `function` was called with a handle that was already destroyed.
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept;
 
-/// Adds an owner to a handle; ignores null. INVALID_ARGUMENT, and no change, if the handle is destroyed.
+/// Adds an owner to a handle; ignores null. If the handle is destroyed, returns INVALID_ARGUMENT and changes nothing.
 inline sgm_result acquireHandle(void* handle, const char* function) noexcept {
   if (handle == nullptr || gainOwner(headOf(handle))) return SGM_OK;
   return refuseEnded(headOf(handle), function);
 }
 
-/// Removes an owner of a handle, and destroys it with its last owner; ignores null. INVALID_ARGUMENT, and no change, if
-/// the handle is already destroyed. Its content is freed at once, the memory of the handle later (EndedHandles).
+/// Removes an owner of a handle, and destroys the handle with its last owner; ignores null. If the handle is already
+/// destroyed, returns INVALID_ARGUMENT and changes nothing. The content is freed at once, the memory of the handle
+/// itself later (EndedHandles).
 template <class Handle>
 sgm_result releaseHandle(Handle* handle, const char* function) noexcept {
   if (handle == nullptr) return SGM_OK;

@@ -11,8 +11,8 @@ using namespace sgm::api;
 
 namespace {
 
-/// Hash sums with an index as key, like those of mesh parts; restarts every 2^32 words under a new number, so that no
-/// index recurs.
+/// Hashes words with their index, as for mesh parts. Every 2^32 words, the index starts again and a new number is mixed
+/// in, so that no key occurs twice.
 class WordHash {
  public:
   void add(uint32_t word) {

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of a welded mesh in floats.
+// The handle of a welded mesh whose positions and normals are floats.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 #include "texture/unwrapped.h"
 
 struct sgm_surface {
-  /// The surface of a grid.
+  /// Makes the surface of a grid.
   sgm_surface(sgm_runtime& runtime_in, sgm::api::GridMesh&& mesh)
       : runtime(runtime_in),
         positions(std::move(mesh.positions)),
@@ -20,7 +20,7 @@ struct sgm_surface {
         texture(&runtime_in.memory),
         bounds_min(mesh.bounds_min),
         bounds_max(mesh.bounds_max) {}
-  /// The surface of a region; to be filled in.
+  /// Makes an empty surface, for the mesh of a region.
   explicit sgm_surface(sgm_runtime& runtime_in)
       : runtime(runtime_in),
         positions(&runtime_in.memory),
@@ -32,9 +32,9 @@ struct sgm_surface {
         of_grid(false) {}
 
   sgm_runtime& runtime;
-  sgm::RawArray<float> positions, normals;  ///< three a vertex
-  sgm::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
-  sgm::RawArray<uint32_t> indices;          ///< three a triangle
+  sgm::RawArray<float> positions, normals;  ///< three floats per vertex
+  sgm::RawArray<uint16_t> materials, tags;  ///< one per vertex; empty for a grid
+  sgm::RawArray<uint32_t> indices;          ///< three per triangle
   sgm::Unwrapped texture;                   ///< empty if not requested
   std::array<float, 3> bounds_min{}, bounds_max{};
   bool of_grid = true;
@@ -42,5 +42,5 @@ struct sgm_surface {
   sgm::IntBox extent{{0, 0, 0}, {0, 0, 0}};
   int32_t cell_units = 0;
   uint64_t chunk_count = 1;
-  uint64_t hash = 0;  ///< of a region
+  uint64_t hash = 0;  ///< content hash of a region's mesh; 0 for a grid
 };

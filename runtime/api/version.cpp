@@ -1,6 +1,6 @@
 #include "sgm/sgm.h"
 
-// Values from the build; the version itself is only in the header.
+// Makes text of macros that the build defines; the version itself is only in the header.
 #define SGM_TEXT_OF(x) #x
 #define SGM_TEXT(x) SGM_TEXT_OF(x)
 #define SGM_VERSION_TEXT SGM_TEXT(SGM_VERSION_MAJOR) "." SGM_TEXT(SGM_VERSION_MINOR) "." SGM_TEXT(SGM_VERSION_PATCH)

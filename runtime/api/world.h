@@ -14,18 +14,19 @@ struct sgm_world {
 
   sgm_runtime& runtime;
   std::shared_ptr<sgm::Backend> backend;
-  const int32_t finest_cell;          ///< of all its fields, units
-  std::unique_ptr<sgm::World> world;  ///< ends before its backend
+  const int32_t finest_cell;          ///< cell edge of level 0 of all its fields, in units
+  std::unique_ptr<sgm::World> world;  ///< destroyed before its backend
 };
 
 namespace sgm::api {
 
-/// Returns the error; SGM_ERR_DATA if external data other than a grammar is invalid.
+/// Fills `error` and returns its code: SGM_ERR_DATA if the data is invalid and is not a grammar.
 inline sgm_result failData(sgm_error* error, const Error& e) {
   return fail(error, e.code == Code::bad_input ? SGM_ERR_DATA : resultOf(e.code), e.message);
 }
 
-/// Returns and logs the error: games often ignore the results of a frame's calls.
+/// Fills `error`, logs it, and returns its code: games often ignore the results of the functions that they call every
+/// frame.
 inline sgm_result failLogged(const sgm_world& world, sgm_error* error, const Error& e) {
   world.runtime.log(SGM_LOG_WARNING, e.message);
   return failData(error, e);
