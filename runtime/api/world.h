@@ -20,7 +20,8 @@ struct sgm_world {
 
 namespace sgm::api {
 
-/// Fills `error` and returns its code: SGM_ERR_DATA if the data is invalid and is not a grammar.
+/// Fills `error` and returns its code: SGM_ERR_DATA for Code::bad_input, because the invalid data is not a grammar
+/// here.
 inline sgm_result failData(sgm_error* error, const Error& e) {
   return fail(error, e.code == Code::bad_input ? SGM_ERR_DATA : resultOf(e.code), e.message);
 }

@@ -13,10 +13,10 @@ struct DeviceCounters {
   std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
 };
 
-/// Opening a device costs more than a batch, so after this many failures in a row it is given up.
+/// Opening a device takes longer than a batch, so after this many failures in a row it is not opened again.
 constexpr unsigned kMostInVain = 8;
 
-/// Shared by the backend and its batches, which must not outlive it.
+/// State that the backend shares with its batches. The batches must not outlive it.
 struct DeviceShared {
   OpenSession open;
   std::unique_ptr<Backend> cpu;
@@ -24,13 +24,13 @@ struct DeviceShared {
   Profiler profiler;
   DeviceCounters counters;
   std::mutex mutex;
-  std::shared_ptr<DeviceSession> session;  ///< null: lost, and not reopened
+  std::shared_ptr<DeviceSession> session;  ///< null: the device was lost, and is not open
   WarnOf warn;
   std::string name;
-  /// The number of losses and failed openings since the device's last success.
+  /// The number of losses and failed openings since the last batch that succeeded.
   std::atomic<unsigned> in_vain{0};
 
-  /// Leaves a lost session: the next batch reopens the device.
+  /// Drops a session whose device is lost: the next batch opens the device again.
   void leave(const std::shared_ptr<DeviceSession>& lost, const Error& why) noexcept {
     {
       const std::scoped_lock lock(mutex);
@@ -44,7 +44,7 @@ struct DeviceShared {
       warn(name + " was lost, and the CPU continues: " + why.message);
       if (in_vain.load() == kMostInVain) warn(name + " is no longer used: it was lost repeatedly");
     } catch (const std::bad_alloc&) {
-      // No memory for a message; the counter still shows the loss.
+      // There is no memory for the message; the counter still shows the loss.
     }
   }
 };
@@ -64,13 +64,13 @@ class DeviceBatch final : public ChunkBatch {
     releaseSlots();
   }
 
-  /// Submits as many jobs as the device accepts; the CPU does the rest when the batch is waited for.
+  /// Submits as many jobs as the device accepts; the CPU does the rest when a thread waits for the batch.
   void submit() {
     const ProfileScope scope(shared_.profiler, zone::kMesh);
     const bool prompt = std::any_of(jobs_.begin(), jobs_.end(), [](const ChunkJob& job) { return job.prompt; });
     size_t first = 0;
     while (session_ && first < jobs_.size()) {
-      // If anything throws, the destructor returns the slot, in which the device may be working.
+      // The slot is stored first: if anything throws, the destructor waits for the device and returns the slot.
       slots_.reserve(slots_.size() + 1);
       slots_.push_back(session_->takeSlot());
       DeviceSlot& slot = *slots_.back();
@@ -87,7 +87,7 @@ class DeviceBatch final : public ChunkBatch {
   }
 
   bool poll() override {
-    // A waiting thread holds the lock until the end.
+    // A waiting thread holds the lock until the end of the batch, so the lock is only tried.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return false;
     if (ended_) return true;
@@ -126,7 +126,7 @@ class DeviceBatch final : public ChunkBatch {
     if (error.code == Code::device_lost) shared_.leave(session_, error);
   }
 
-  /// For poll() and wait(), whose callers cannot catch exceptions.
+  /// Runs `work` and stores its exception: callers of poll() and wait() cannot catch exceptions.
   template <class Work>
   void guarded(const Work& work) noexcept {
     try {
@@ -136,7 +136,7 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Waits for the slot. Returns whether its results may be read; if false, the device may still use it.
+  /// Waits for the slot. Returns true if its results may be read; if false, the device may still be using it.
   bool awaitSlot(DeviceSlot& slot) {
     if (!slot.submitted) return false;
     const Result<void> ended = session_->await(slot);
@@ -196,7 +196,7 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Returns whether the device works in the slot again.
+  /// Reads the slot's results. Returns true if the device works in the slot again.
   bool readSlot(DeviceSlot& slot) {
     const auto done = [&](size_t job) {
       finished(slot.first + job);
@@ -225,10 +225,10 @@ class DeviceBatch final : public ChunkBatch {
     rest_ = std::move(*batch);
   }
 
-  /// Waits for meshes that stay, and takes the CPU's results for the other jobs.
+  /// Waits for meshes that stay on the device, and takes the CPU's results for the other jobs.
   void end() {
     ended_ = true;
-    // Return slots first: meshes that stay should not wait for work submitted between them and their copies.
+    // Slots are returned first: otherwise copies of meshes that stay would wait for work of other batches.
     releaseSlots();
     const std::unique_ptr<ChunkBatch> rest = std::move(rest_);
     if (!rest) return;
@@ -247,9 +247,9 @@ class DeviceBatch final : public ChunkBatch {
   AfterChunk after_chunk_;
   std::vector<ChunkMesh> meshes_;
   std::vector<bool> done_;
-  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< after reading: those in which the device still works
-  std::unique_ptr<ChunkBatch> rest_;                ///< jobs that the device has not done, on the CPU
-  std::vector<size_t> numbers_;                     ///< indices of these jobs
+  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< after reading: only those in which the device still works
+  std::unique_ptr<ChunkBatch> rest_;                ///< the jobs that the device has not done, on the CPU
+  std::vector<size_t> numbers_;                     ///< indices of the jobs in rest_
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
   bool read_ = false, ended_ = false, skipped_ = false;
@@ -286,7 +286,7 @@ class DeviceBackend final : public Backend {
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
   uint32_t batch() const override {
-    // A thread that holds this lock for long is opening a device.
+    // A thread that holds this lock for long is opening the device, so the lock is only tried.
     const std::unique_lock lock(shared_.mutex, std::try_to_lock);
     return lock && shared_.session ? shared_.session->batch() : 1;
   }
@@ -299,7 +299,7 @@ class DeviceBackend final : public Backend {
   }
 
  private:
-  /// Returns the session, or a new one after a loss; null if there is none.
+  /// Returns the session; after a loss, opens a new one. Null if the device cannot be opened.
   std::shared_ptr<DeviceSession> session() {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session || shared_.in_vain.load() >= kMostInVain) return shared_.session;

@@ -1,5 +1,5 @@
 #pragma once
-// Memory on the drawing device for meshes that another API's device makes on the same GPU.
+// Memory of the device that draws, for meshes that a device of another API writes on the same GPU.
 
 #include <array>
 #include <cstdint>
@@ -12,21 +12,21 @@
 
 namespace sgm {
 
-/// The size of a part; a part without indices gets no place.
+/// The sizes of a part; a part without indices needs no memory.
 struct PartSize {
   uint32_t vertices = 0, indices = 0;
 };
 using PartSizes = std::array<PartSize, kMeshParts>;  ///< in the order of DeviceParts
 
-/// The place to which a part is written, in bytes from the beginning of its block.
+/// Where a part is to be written: offsets in bytes from the beginning of its block.
 struct PartPlace {
   size_t chunk = 0, part = 0;
   SharedBlock* block = nullptr;
   uint64_t vertices = 0, indices = 0;
 };
 
-/// Parts with a place but no content yet. If it is destroyed while `writing`, the end of the writing is unknown: its
-/// memory is not reused before the store's end.
+/// Parts that have memory but no content yet. If the object is destroyed while `writing`, it is unknown when the
+/// writing ends: the memory is then not reused before the store is destroyed.
 class Placement {
  public:
   Placement() = default;
@@ -34,28 +34,29 @@ class Placement {
   Placement(const Placement&) = delete;
   Placement& operator=(const Placement&) = delete;
 
-  std::vector<DeviceParts> chunks;  ///< all null for a chunk without memory
+  std::vector<DeviceParts> chunks;  ///< all parts are null for a chunk that got no memory
   std::vector<PartPlace> parts;
-  // For the writer:
-  bool writing = false;                           ///< set before the first byte is written
-  std::vector<std::shared_ptr<const void>> held;  ///< objects needed for writing, until it is done
+  // The following members are for the writer.
+  bool writing = false;                           ///< must be set before the first byte is written
+  std::vector<std::shared_ptr<const void>> held;  ///< objects that must exist until the writing ends
 };
 
-/// Thread-safe. Its parts keep it alive.
+/// Thread-safe. The parts in it keep it alive.
 class MeshStore {
  public:
   virtual ~MeshStore() = default;
   virtual const DeviceId& device() const = 0;
-  /// Whether the drawing device is lost: then nothing is placed any more.
+  /// True if the drawing device is lost: then no memory is given out any more.
   virtual bool lost() const = 0;
-  /// Throws std::bad_alloc.
+  /// Allocates memory for parts. Throws std::bad_alloc.
   virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
-  /// Call after all content was written, and the writing was waited for: makes it readable for the drawing device. If
-  /// it fails, the parts of the placement are on no device. Errors: out_of_memory, device_lost.
+  /// Makes content readable for the drawing device. Call after all content was written, and after waiting for the
+  /// writes. If it fails, the parts of the placement are on no device. Errors: out_of_memory, device_lost.
   virtual Result<void> publish(Placement& placement) noexcept = 0;
-  /// As Backend::upload(), by the drawing device; its loss is not the other device's, and reported as unsupported.
+  /// Same as Backend::upload(), on the drawing device. If that device is lost, the error is unsupported, because the
+  /// other device is not lost.
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;
-  /// Bytes of living parts.
+  /// Returns the size of the existing parts in bytes.
   virtual uint64_t bytes() = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Assembles a chunk's mesh from a device's results in host memory. For all kinds of devices.
+// Assembles a chunk's mesh from the results of a device of any kind, in host memory.
 
 #include <bit>
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace sgm {
 
-/// A body or a seam as a device leaves it; without vertices it does not exist.
+/// A body or a seam as a device returns it; it does not exist if it has no vertices.
 struct MadePart {
   const Vertex* vertices = nullptr;
   const uint32_t* indices = nullptr;
   uint32_t vertex_count = 0, index_count = 0;
   ContentHash hash;
-  PartSums sums = {};  ///< for ChunkJob::sums_only, instead of the rest
+  PartSums sums = {};  ///< for ChunkJob::sums_only; the other members are then empty
 };
 
-/// signsOfRow(y + 33 z): the signs of 33 samples, x from bit 0 on; called only if a body is wanted. partOf(p): by index
-/// in DeviceParts. Throws std::bad_alloc.
+/// Fills the mesh of a chunk. signsOfRow(y + 33 z): returns the signs of the row's 33 samples, x from bit 0 on; called
+/// only if a body is requested. partOf(p): returns the part with index p in DeviceParts. Throws std::bad_alloc.
 template <class SignsOfRow, class PartOf>
 void readChunk(const ChunkJob& job, const SignsOfRow& signsOfRow, const PartOf& partOf, ChunkMesh& mesh) {
   constexpr uint32_t kRows = uint32_t{kChunkSamples} * kChunkSamples;

@@ -12,7 +12,7 @@ namespace sgm {
 
 namespace {
 
-// Scratch is reused from job to job: once every thread has one, a chunk allocates only its mesh.
+// Working memory is reused from job to job: once every thread has some, a chunk allocates only its mesh.
 class ScratchPool {
  public:
   explicit ScratchPool(std::pmr::memory_resource* memory) : memory_(memory) {}
@@ -34,7 +34,7 @@ class ScratchPool {
   std::vector<std::unique_ptr<ChunkScratch>> free_;
 };
 
-// Shared by the batch and its submitted jobs; the last owner destroys it.
+// State that the batch shares with its submitted jobs; the last owner destroys it.
 struct BatchState {
   BatchState(const ChunkKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
              AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in,
@@ -50,8 +50,8 @@ struct BatchState {
     for (size_t i = 0; i < count; ++i) meshes.emplace_back(memory_in);
   }
 
-  // Takes jobs until none is left. A thread that arrives when enough are working returns at once: the others finish its
-  // jobs, too.
+  // Runs jobs until none is left. Returns at once if enough threads are working, because they run this thread's jobs,
+  // too.
   void run() {
     if (working.fetch_add(1) < workers) {
       for (size_t i; (i = next.fetch_add(1)) < count;) {
@@ -69,7 +69,7 @@ struct BatchState {
     working.fetch_sub(1);
   }
 
-  // Must not throw: the exception would pass through the caller's job system, which may be written in C.
+  // Must not throw: an exception would pass through the caller's job system, which may be written in C.
   void mesh(size_t i) noexcept {
     try {
       std::unique_ptr<ChunkScratch> scratch = pool->take();
@@ -78,7 +78,7 @@ struct BatchState {
         meshChunk(kernels, jobs[i], *scratch, meshes[i]);
       }
       pool->give(std::move(scratch));
-      // Release here, rather than by one thread for all of them at the end.
+      // The programs are released here, by all threads, and not at the end by one thread.
       jobs[i].field.reset();
       jobs[i].coarse.reset();
       if (after_chunk && !after_chunk()) cancelled.store(true);
@@ -100,7 +100,7 @@ struct BatchState {
   std::atomic<size_t> next{0}, ended{0};
   std::atomic<unsigned> working{0};
   std::atomic<bool> cancelled{false}, skipped{false};
-  std::exception_ptr error;  // the first one
+  std::exception_ptr error;  // the first exception that a job has thrown
   std::mutex mutex;
   std::condition_variable done;
 };
@@ -116,7 +116,8 @@ class CpuBatch final : public ChunkBatch {
   ~CpuBatch() override {
     cancel();
     wait();
-    // A job that the job system runs later still owns the state, but finds nothing to do: free its memory now.
+    // The job system may run some jobs later. They still own the state but find nothing to do, so its memory is freed
+    // now.
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
@@ -170,7 +171,7 @@ class CpuBackend final : public Backend {
         share.release();
       }
     } catch (const std::bad_alloc&) {
-      // Continue with fewer threads: the waiting one does the rest.
+      // Some jobs could not be submitted: fewer threads work, and the waiting one does the rest.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes chunks on the job system's threads, one job a chunk.
+// Meshes chunks on the threads of the job system, one job per chunk.
 
 #include <string_view>
 
@@ -7,7 +7,8 @@
 
 namespace sgm {
 
-/// unsupported: this build has no such instruction set, or this processor does not support it.
+/// instruction_set: a name of findKernels(), or empty for the widest. Error: unsupported if this build does not contain
+/// the instruction set, or the processor does not support it.
 Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set, JobSystem& jobs,
                                                 std::pmr::memory_resource* memory, const Profiler& profiler);
 

@@ -8,7 +8,7 @@
 #include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/instruction_sets.h"
 
-// These lie between the supported sets; such processors use the next lower one.
+// Instruction sets between the supported ones; processors that have them use the next lower supported set.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"
@@ -44,7 +44,7 @@ constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAt
 #endif
 #if HWY_TARGETS & HWY_AVX3
 constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
-// Evaluates like AVX-512, but lists with other instructions (extract/list_vbmi2.h).
+// Evaluates with AVX-512 instructions; only the lists of meshing use other instructions (extract/list_vbmi2.h).
 constexpr FieldKernels kVbmi2{"avx512-vbmi2", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
 #endif
 

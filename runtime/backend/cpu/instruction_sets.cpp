@@ -12,7 +12,7 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 const FieldKernels& bestKernels() {
-  // Querying the processor costs more than a small evaluation, and the answer is constant.
+  // The result is stored: querying the processor takes longer than a small evaluation, and never changes.
   static const FieldKernels& best = []() -> const FieldKernels& {
     const FieldKernels* widest = &scalarKernels();
     for (const InstructionSet& set : instructionSets()) {

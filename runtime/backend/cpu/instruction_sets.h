@@ -1,5 +1,5 @@
 #pragma once
-// The instruction sets with evaluators in this build, and those that this processor supports.
+// Lists the instruction sets for which this build has evaluators, and those that this processor supports.
 
 #include <string_view>
 #include <vector>
@@ -9,20 +9,22 @@
 namespace sgm {
 
 struct InstructionSet {
-  const FieldKernels* kernels;  ///< meshes are made by findMeshKernels(kernels->name) (extract/mesh_kernels.h)
+  /// the evaluator; findMeshKernels(kernels->name) returns the kernels for meshing (extract/mesh_kernels.h)
+  const FieldKernels* kernels;
   bool runs_here;
 };
 
-/// Scalar first, then the vector sets from narrow to wide.
+/// Returns all sets of this build: scalar first, then the vector sets from narrow to wide.
 std::vector<InstructionSet> instructionSets();
 
-/// The widest that this processor supports; all give the same bits.
+/// Returns the evaluator of the widest set that this processor supports; all evaluators give the same bits.
 const FieldKernels& bestKernels();
 
-/// By name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null if it is not built or not supported here.
+/// Returns an evaluator by name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null if this build does not
+/// contain it, or this processor does not support it.
 const FieldKernels* findKernels(std::string_view name);
 
-/// Without scalar; empty in a scalar build.
+/// Returns the vector sets of this build; empty in a scalar build.
 std::vector<InstructionSet> wideInstructionSets();
 
 }  // namespace sgm

@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// Evaluates normals and labels at scratch.mesh's points first..last - 1, into the same indices.
+/// Evaluates normals and labels at points first..last - 1 of scratch.mesh, and writes them to the same indices.
 void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, size_t first, size_t last,
                         ChunkScratch& scratch) {
   if (first == last) return;
@@ -26,7 +26,7 @@ void growAttributes(MeshScratch& s, size_t count) {
   s.label.grow(0, count);
 }
 
-// A vertex lies on an edge that begins at a sample of its brick, so the brick's program is sufficient there.
+// The program of a brick is valid for its vertices: a vertex lies on an edge that begins at a sample of its brick.
 void fillBody(const ChunkKernels& kernels, ChunkScratch& s, MeshPart& body) {
   std::array<uint32_t, kBrickCount + 1> start;
   kernels.mesh.sort(s.mesh, body.vertices.size(), start);
@@ -67,7 +67,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   for (int a = 0; a < 3; ++a) plane.hi[a] += kChunkCells * job.grid.cell;
   (faceIsHigh(face) ? plane.lo : plane.hi)[axis] = (faceIsHigh(face) ? plane.hi : plane.lo)[axis];
 
-  // The body is done, so s.whole and s.octant are free.
+  // The body is finished, so s.whole and s.octant can be reused.
   prune(job.coarse->view(), plane, s.pruning, s.octant);
   const bool coarse_uniform = s.octant.solid() || s.octant.empty();
   CoarseFace coarse;
@@ -79,8 +79,9 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   polygonizeSeam(face, s.samples, coarse, job.grid, job.coarser, seam);
   if (seam.vertices.empty() || job.sums_only) return;
 
-  // Evaluate each vertex with the field of its own level. All lie in the face's plane, even lateral ones, so a program
-  // pruned to the plane suffices. A plane proven uniform leaves no program; then a lateral vertex takes the whole one.
+  // Each vertex is evaluated with the field of its own level. All vertices of a seam lie in the plane of its face, even
+  // lateral ones, so a program pruned to the plane suffices. If the plane is proven uniform, pruning leaves no program;
+  // then lateral vertices are evaluated with the whole program.
   auto attributesOf = [&](bool own_level, const FieldProgram& field, PrunedProgram& pruned, bool pruned_already) {
     MeshScratch& m = s.mesh;
     const size_t most = seam.vertices.size();
@@ -108,7 +109,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   kernels.mesh.hash(seam);
 }
 
-/// Fills a chunk without its seams.
+/// Makes a chunk without its seams. uniform: the chunk is proven solid or void.
 void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
   mesh.solid_samples = kernels.mesh.count(s.samples);
@@ -120,7 +121,7 @@ void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, Chu
   kernels.mesh.hash(mesh.body);
 }
 
-/// Replaces the meshes by their sums.
+/// Replaces the meshes by the sums over them, for ChunkJob::sums_only.
 void keepSums(ChunkMesh& mesh) {
   const auto keep = [&](MeshPart& part, PartSums& sums) {
     sums = sumsOf(part.vertices, part.indices);

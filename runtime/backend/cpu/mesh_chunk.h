@@ -1,5 +1,6 @@
 #pragma once
-// Meshes one chunk in cache, from its field programs to packed meshes: bound, sample, polygonize, attribute, hash.
+// Meshes one chunk from its field programs, small enough to stay in cache: bounds the field, samples, polygonizes,
+// evaluates attributes, hashes.
 
 #include <array>
 
@@ -17,10 +18,10 @@ struct ChunkKernels {
   const MeshKernels& mesh;
 };
 
-/// Of the widest set that this processor supports.
+/// Returns the kernels of the widest set that this processor supports.
 inline ChunkKernels bestChunkKernels() { return {bestKernels(), bestMeshKernels()}; }
 
-/// Working memory of one thread; grows once, then is reused from chunk to chunk.
+/// Working memory of one thread; allocated once, then reused for further chunks.
 struct ChunkScratch {
   explicit ChunkScratch(std::pmr::memory_resource* memory)
       : samples(memory), evaluation(memory), pruning(memory), whole(memory), octant(memory), mesh(memory) {
@@ -31,15 +32,15 @@ struct ChunkScratch {
   EvalScratch evaluation;
   PruneScratch pruning;
   PrunedProgram whole, octant;
-  std::vector<PrunedProgram> bricks;  ///< x fastest; programs for the bricks' samples and vertices
+  std::vector<PrunedProgram> bricks;  ///< pruned programs for the samples and vertices of each brick; x fastest
   MeshScratch mesh;
 };
 
-/// Pure except for scratch. Throws only std::bad_alloc.
+/// Meshes one chunk. Pure except for scratch. Throws only std::bad_alloc.
 void meshChunk(const ChunkKernels& kernels, const ChunkJob& job, ChunkScratch& scratch, ChunkMesh& mesh);
 
-/// Computes only the samples of a chunk. Returns false if the chunk is proven uniform (then only the signs are filled).
-/// If `faces`, bit (1 << Face), is not 0, only the samples in these faces are guaranteed.
+/// Computes only the samples of a chunk. Returns false if the chunk is proven uniform; then only the signs are filled.
+/// faces: if not 0, only the samples in these faces, bit (1 << Face), are guaranteed to be computed.
 bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
                  uint8_t faces = 0);
 

@@ -48,7 +48,7 @@ void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const Ch
                kSide, first});
 }
 
-/// Whether the box has samples in one of the faces.
+/// True if the box has samples in one of the faces.
 bool touches(const SampleBox& b, uint8_t faces) {
   for (int f = 0; f < 6; ++f) {
     const auto axis = static_cast<size_t>(f >> 1);
@@ -68,7 +68,8 @@ bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const Ch
   if (scratch.whole.solid()) fillSigns(samples, all);
   if (scratch.whole.solid() || scratch.whole.empty()) return false;
 
-  // A uniform brick is proven with one more sample around it, so no edge that leaves it changes sign.
+  // Bricks are bounded together with one more sample on each side, so if a brick is uniform, no edge that leaves it
+  // changes sign.
   for (int octant = 0; octant < 8; ++octant) {
     SampleBox half;
     for (size_t a = 0; a < 3; ++a) {

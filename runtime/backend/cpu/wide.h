@@ -18,7 +18,7 @@ FN float uniformFloat(uint u) {
   return f;
 }
 
-// A mask with the width of float lanes, for comparisons of any type.
+// A mask whose lanes are as wide as floats, used for comparisons of all types.
 struct Bool {
   hn::Mask<RealTag> m;
 };
@@ -115,17 +115,17 @@ FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(Uin
 FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
-// For each lane the entry of `table` at its index, 0 to kLanes - 1.
+// Returns for each lane the entry of `table` at the lane's index, 0 to kLanes - 1.
 FN Real lookUp(Real table, Int index) { return hn::TableLookupLanes(table.v, hn::IndicesFromVec(RealTag(), index.v)); }
 #if HWY_TARGET == HWY_AVX3
 #define SGM_LANE_TABLES
-// For each lane the entry of a table of 16 at the lowest four bits of its index.
+// Returns for each lane the entry of a table of 16 floats at the lowest four bits of the lane's index.
 FN Real lookUp16(const float* table, Uint index) {
   return hn::Vec<RealTag>{_mm512_permutexvar_ps(index.v.raw, _mm512_loadu_ps(table))};
 }
 #endif
 #define SGM_ROWS
-// Rows of 8 lanes: the first; with 16 lanes, the second after it.
+// Loads rows of 8 words: the first one; with 16 lanes also the second one behind it.
 FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
 #if HWY_TARGET == HWY_AVX3
   const hn::Half<UintTag> half;
@@ -148,7 +148,7 @@ FN uint64_t maskOf(Bool b) {
   return bits;
 #endif
 }
-// Bit i: whether integer i of `count` is negative. Reads whole vectors.
+// Returns a word in which bit i is set if p[i] is negative, for i < count. Reads whole vectors.
 FN uint64_t signMask(const uint32_t* p, size_t count) {
   uint64_t mask = 0;
   for (size_t i = 0; i < count; i += kLanes)

@@ -1,5 +1,5 @@
 #pragma once
-// Opens a backend by its kind: the only code that knows all of them.
+// Opens a backend by its kind. No other code knows all kinds.
 
 #include <filesystem>
 #include <functional>
@@ -23,20 +23,24 @@ struct BorrowedContext;
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
-  int device = -1;         ///< index in the list of its kind; -1: the first, or fastest, usable one
+  bool automatic = false;  ///< kind is ignored: chooses CUDA, or else a hardware Vulkan device, or else the CPU
+  /// index in the list of devices of its kind; -1: the first usable one (CUDA), or the fastest one (Vulkan)
+  int device = -1;
   /// CPU: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that this processor supports.
   std::string instruction_set;
-  std::shared_ptr<const vulkan::BorrowedDevice> lent =
-      nullptr;  ///< Vulkan: the engine's device; null: create one. CUDA: the device where meshes stay, with
-                ///< external_memory; or null
-  std::shared_ptr<const cuda::BorrowedContext> lent_context = nullptr;  ///< CUDA: same as above
-  std::filesystem::path pipeline_folder = {};  ///< Vulkan: folder of the pipeline cache, or empty
-  /// Receive one-line notices about slow work and about missing features. Any thread; may be null.
+  /// Vulkan: the engine's device; null: a new one is created. CUDA: the device in whose memory meshes stay, which needs
+  /// external_memory; or null
+  std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;
+  /// CUDA: the engine's context; null: a new one is used
+  std::shared_ptr<const cuda::BorrowedContext> lent_context = nullptr;
+  std::filesystem::path pipeline_folder = {};  ///< Vulkan: folder of the pipeline cache; empty: not cached
+  /// Receive one-line notices about slow work (inform) and about missing features (warn). Called from any thread; may
+  /// be null.
   std::function<void(const std::string&)> inform = nullptr, warn = nullptr;
 };
 
-/// jobs and memory must outlive the backend. unsupported: not built or not usable here; the message gives the reason.
+/// Opens a backend. jobs and memory must outlive it. Error: unsupported if the backend is not in this build, or not
+/// usable on this machine; the message gives the reason.
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
                                              std::pmr::memory_resource* memory, const Profiler& profiler = {});
 

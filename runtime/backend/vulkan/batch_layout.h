@@ -1,6 +1,6 @@
 #pragma once
-// The words of a batch, as the mesher's shaders read and write them: shaders/mesher/batch.glsl in C++; see there for
-// each word.
+// The layout of a batch's words, as the mesher's shaders read and write them: shaders/mesher/batch.glsl in C++, where
+// each word is explained.
 
 #include <cstdint>
 
@@ -21,7 +21,7 @@ struct Seam {
 };
 static_assert(sizeof(Seam) == 8 * sizeof(uint32_t));
 
-/// Boxes that are pruned together, with one program.
+/// A set of boxes that are pruned together from one program: the bricks of a chunk, or planes for seams.
 struct PruneJob {
   enum Kind : uint32_t { bricks, own_planes, coarse_planes };
   uint32_t headers, records, kind, chunk, first_seam, seam_count, lists;
@@ -47,35 +47,36 @@ struct Part {
 };
 static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 
-/// After all parts, if sums are requested.
+/// The sums of a part; they follow all parts, if sums are requested.
 struct Sums {
-  uint32_t area[2], cross[3][2], six_volumes[2];  ///< low words first
+  uint32_t area[2], cross[3][2], six_volumes[2];  ///< 64-bit numbers, the low word first
 };
 static_assert(sizeof(Sums) == 10 * sizeof(uint32_t));
 
-/// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords for each of max_cells.
+/// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords words for each of max_cells.
 struct Sizes {
   uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;
-  // The sizes that pruning, sampling and attributes need in addition (shaders/mesher/items.glsl).
+  // Sizes for pruning, sampling and attributes (shaders/mesher/items.glsl).
   uint32_t chunk_count = 0, jobs = 0, items = 0, sampled = 0, entries = 0, units = 0;
 };
 static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 
-/// The largest number for which the 32-bit sums of a batch cannot overflow, whatever its signs are.
+/// The largest number of parts for which the 32-bit sums of a batch cannot overflow, even in the worst case of signs.
 inline constexpr uint32_t kMaxParts = 8192;
 
-inline constexpr uint32_t kItemWords = 8;    ///< of a brick or a plane (shaders/mesher/items.glsl)
-inline constexpr uint32_t kBricks = 64;      ///< of a chunk
-inline constexpr uint32_t kMostSlices = 16;  ///< the most slices for sampling an item
-inline constexpr uint32_t kUnitWords = 4;    ///< of attributes
+inline constexpr uint32_t kItemWords = 8;    ///< words of an item: a brick or a plane (shaders/mesher/items.glsl)
+inline constexpr uint32_t kBricks = 64;      ///< bricks in a chunk
+inline constexpr uint32_t kMostSlices = 16;  ///< the maximum number of slices into which sampling divides an item
+/// words of a unit: a group of vertices whose attributes are evaluated together
+inline constexpr uint32_t kUnitWords = 4;
 
-// Words in scratch, rounded up: every offset is a multiple of four.
-inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< a chunk's samples
-inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< its signs
-inline constexpr uint32_t kRowsWords = 5384;                 ///< the census of its rows
-inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< a seam's samples
-inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< its signs
-inline constexpr uint32_t kSeamCountWords = 392;             ///< the census of a seam
+// Numbers of words in scratch, rounded up, so that every offset is a multiple of four.
+inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< the samples of a chunk
+inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< the signs of a chunk
+inline constexpr uint32_t kRowsWords = 5384;                 ///< the counts per row of a chunk
+inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< the samples of a seam's coarser level
+inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< the signs of a seam's coarser level
+inline constexpr uint32_t kSeamCountWords = 392;             ///< the counts of a seam
 inline constexpr uint32_t kCellWords = 4;                    ///< an active cell
 
 }  // namespace sgm::batch

@@ -11,21 +11,21 @@ namespace {
 constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(batch::Seam) / 4,
                    kJobWords = sizeof(batch::PruneJob) / 4, kHeadWords = sizeof(batch::Head) / 4,
                    kPartWords = sizeof(batch::Part) / 4;
-constexpr uint32_t kJobsOfChunk = 3;  // bricks, planes, and planes of the coarser level
-// A shader reads records and headers as whole vectors, also past the last one.
+constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: bricks, planes, and planes of the coarser level
+// Shaders read records and headers as whole vectors, also past the last one: this many words must follow them.
 constexpr uint32_t kBeyond = 256;
-// The limits: 65,535 workgroups for units, and 20 bits for the indices of items.
+// The limits are 65,535 workgroups for units, and 20 bits for the indices of items.
 constexpr size_t kMostChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
-/// The job sees only the domain, the same on both sides of every seam.
+/// True if the job's programs contain only the domain, which has the same sign on both sides of every seam.
 bool isUniform(const ChunkJob& job) {
   const auto bare = [](const FieldProgram& program) { return program.groups.empty(); };
   return bare(*job.field) && (seamsOf(job) == 0 || (bare(*job.coarse) && job.coarse->initial == job.field->initial));
 }
 
-/// Allocates offsets in scratch, multiples of four.
+/// Allocates offsets in scratch, which are multiples of four.
 class Places {
  public:
   uint32_t take(uint64_t words) {
@@ -65,7 +65,7 @@ class Planner {
     plan.meshes = plan.sums = false;
   }
 
-  /// Adds job i; returns false and changes nothing if scratch is too small for it.
+  /// Adds job i. Returns false, having changed nothing, if scratch is too small for it; must: adds it even then.
   bool add(uint32_t i, uint32_t most_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
@@ -115,7 +115,7 @@ class Planner {
   }
 
  private:
-  /// Appends the program or, if it exceeds a shader's limits, its part pruned to the chunk.
+  /// Appends the program to the tapes; if it exceeds a limit of the shaders, the program pruned to the chunk.
   bool append(const FieldProgram& program, const ChunkJob& job, Tape& tape) {
     if (appendTape(program.view(), plan_.tape_scratch, plan_.words, tape)) return true;
     IntBox box{job.grid.origin, job.grid.origin};
@@ -125,7 +125,7 @@ class Planner {
     if (!solid && !plan_.pruned.empty()) {
       return appendTape(plan_.pruned.view(), plan_.tape_scratch, plan_.words, tape);
     }
-    // Pruning a uniform chunk leaves no program; but a seam's vertices there need the whole program.
+    // Pruning a uniform chunk would leave no program, but the vertices of a seam there need the whole program.
     if (seamsOf(job) > 0) return false;
     ProgramView uniform;
     uniform.initial = solid ? -kFar : kFar;
@@ -133,7 +133,8 @@ class Planner {
     return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
   }
 
-  /// Each unit except an item's last has at least as many vertices as a subgroup has invocations.
+  /// Upper bound of the words for units: each unit except an item's last one has at least as many vertices as a
+  /// subgroup has invocations, at least 8.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {

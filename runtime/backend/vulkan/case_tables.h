@@ -12,7 +12,7 @@ using uint = uint32_t;
 
 }  // namespace case_layout
 
-/// case_layout::kTableWords words, the same on every call.
+/// Returns case_layout::kTableWords words, the same on every call.
 std::vector<uint32_t> caseTables();
 
 }  // namespace sgm

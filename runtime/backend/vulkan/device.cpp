@@ -155,7 +155,7 @@ Result<void> Device::openDevice() {
   instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-  // A family without graphics computes concurrently with drawing.
+  // A queue family without graphics is preferred, because it computes concurrently with drawing.
   bool drawing = true;
   for (uint32_t i = 0; i < count && drawing; ++i) {
     const VkQueueFlags flags = families[i].queueFlags;

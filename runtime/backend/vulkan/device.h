@@ -1,5 +1,5 @@
 #pragma once
-// The device of the Vulkan backend: its own, or the engine's (external).
+// The device of the Vulkan backend: created by the library, or the engine's (external).
 
 #include <algorithm>
 #include <functional>
@@ -12,39 +12,39 @@
 
 namespace sgm::vulkan {
 
-/// May replace entries of the device's table before any of them is called; tests use it to make calls fail.
+/// May replace entries of the device's function table before the first call; tests use it to make calls fail.
 using ReplaceCalls = std::function<void(DeviceTable&)>;
 
 struct OwnDevice {
-  int index = -1;         ///< in the order of listDevices(); -1: the fastest usable kind
-  bool software = false;  ///< for index -1: accept a software device if there is no hardware
+  int index = -1;         ///< index in listDevices(); -1: the usable device of the fastest type
+  bool software = false;  ///< if index is -1: accept a software device if there is no hardware device
   Validation validation = Validation::none;
-  std::shared_ptr<MessageLog> log = nullptr;  ///< as InstanceOptions::log
+  std::shared_ptr<MessageLog> log = nullptr;  ///< same as InstanceOptions::log
   std::function<void(InstanceTable&)> replace_instance_calls = nullptr;
   ReplaceCalls replace_calls = nullptr;
 };
 
-/// An engine's device. All handles must outlive the Device that borrows them.
+/// An engine's device. All handles must outlive the Device that uses them.
 struct BorrowedDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
-  uint32_t family = 0;            ///< the queue's
+  uint32_t family = 0;            ///< queue family of the queue
   std::vector<uint32_t> readers;  ///< families of other queues that read meshes
-  /// Called around every use of the queue, on the submitting thread; set both or neither. null: only the library uses
-  /// the queue.
+  /// Called before and after every use of the queue, on the submitting thread. Set both or neither; null: only the
+  /// library uses the queue.
   void (*lock)(void* user) = nullptr;
   void (*unlock)(void* user) = nullptr;
   void* user = nullptr;
-  // The features that the engine has enabled, which Vulkan does not report:
+  // Features that the engine has enabled; Vulkan does not report which are.
   uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;    ///< the feature timelineSemaphore
-  bool memory_budget = false;          ///< the extension VK_EXT_memory_budget
-  bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd
-  uint64_t resident_cap = UINT64_MAX;  ///< limit for meshes that stay in its memory, bytes
-  /// Serialises the library's own uses of the queue.
+  bool memory_budget = false;          ///< the extension VK_EXT_memory_budget is enabled
+  bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd is enabled
+  uint64_t resident_cap = UINT64_MAX;  ///< limit in bytes for meshes that stay in the device's memory
+  /// Serialises the library's own uses of the queue among each other.
   std::shared_ptr<std::mutex> queue_mutex = std::make_shared<std::mutex>();
   ReplaceCalls replace_calls = nullptr;
 };
@@ -52,11 +52,13 @@ struct BorrowedDevice {
 /// An open device with one queue. Thread-safe. Must outlive everything created with it.
 class Device {
  public:
-  /// Errors: unsupported (no loader, driver or device, or a missing feature), device_lost, out_of_memory.
+  /// Creates a device. Errors: unsupported (no loader, driver or device, or a missing feature), device_lost,
+  /// out_of_memory.
   static Result<std::unique_ptr<Device>> open(const OwnDevice& options = {});
-  /// Errors: invalid_argument (a handle is missing, or only one of lock and unlock), unsupported (a missing feature).
+  /// Uses the engine's device. Errors: invalid_argument (a handle is missing, or only one of lock and unlock is set),
+  /// unsupported (a feature is missing).
   static Result<std::unique_ptr<Device>> borrow(const BorrowedDevice& engine);
-  /// Waits until an own device is idle; leaves an external one as it is.
+  /// Waits until the library's own device is idle; does nothing with an external one.
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -71,12 +73,14 @@ class Device {
   uint32_t family() const { return family_; }
   bool borrowed() const { return !instance_; }
   const std::vector<uint32_t>& readers() const { return readers_; }  ///< BorrowedDevice::readers
-  bool sharesBuffers() const {                                       ///< with families other than family()
+  /// true if buffers are shared with families other than family()
+  bool sharesBuffers() const {
     return std::any_of(readers_.begin(), readers_.end(), [this](uint32_t reader) { return reader != family_; });
   }
   bool memoryBudget() const { return memory_budget_; }      ///< VK_EXT_memory_budget is enabled
   bool externalMemory() const { return external_memory_; }  ///< BorrowedDevice::external_memory
-  /// Warnings and errors of the validation layer so far; empty without it, and for an external device.
+  /// Returns the warnings and errors of the validation layer so far; empty without the layer, and for an external
+  /// device.
   std::vector<std::string> messages() const;
 
  private:
@@ -87,7 +91,7 @@ class Device {
   Result<void> openDevice();
   Result<void> load(const ReplaceCalls& replace);
 
-  std::unique_ptr<Instance> instance_;  // null: external
+  std::unique_ptr<Instance> instance_;  // null: external device
   InstanceTable instance_calls_;
   DeviceTable calls_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -105,7 +109,7 @@ class Device {
   void* user_ = nullptr;
 };
 
-/// Locks the device's queue against other uses by the library and the engine.
+/// Locks the device's queue during its lifetime, against other uses by the library and the engine.
 class QueueLock {
  public:
   explicit QueueLock(Device& device) : device_(device), ours_(*device.queue_mutex_) {

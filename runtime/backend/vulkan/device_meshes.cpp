@@ -9,7 +9,8 @@ namespace {
 /// Size of a draw command, padded so that the following vertices begin at a multiple of their size.
 constexpr VkDeviceSize kDrawBytes = 2 * sizeof(Vertex);
 static_assert(sizeof(VkDrawIndexedIndirectCommand) <= kDrawBytes);
-// Buffers begin at multiples of 256 bytes, and a draw command can address every vertex of a block.
+// The alignment of vertices holds since buffers begin at multiples of 256 bytes; and a draw command can address every
+// vertex of a block.
 static_assert(256 % sizeof(Vertex) == 0);
 static_assert(MemoryOptions{}.largest_block / sizeof(Vertex) <= INT32_MAX);
 
@@ -35,7 +36,7 @@ PartSizes sizesOf(const PartSources& sources) {
   return sizes;
 }
 
-/// Bytes at an offset of VulkanPart.
+/// Returns the bytes at an offset of a part's buffer.
 BufferRange within(const VulkanPart& part, VkDeviceSize offset, VkDeviceSize bytes) {
   const Buffer& buffer = part.memory().buffer();
   return {buffer, offset - buffer.offset(), bytes};
@@ -119,10 +120,10 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
   PlacedParts placed = place(owner, sizes);
   KeptParts kept{std::move(placed.chunks)};
   if (placed.parts.empty()) return kept;
-  // Other threads wait for a recording: each is held only briefly.
+  // Waits if other threads hold all recordings, which they do only briefly.
   Result<Commands> commands = ring_.begin();
   if (!commands) return commands.error();
-  // Shaders wrote the sources.
+  // The sources were written by shaders.
   commands->barrier(kCompute, kTransfer);
   for (const PlacedParts::Part& part : placed.parts) {
     writeDraw(*commands, *part.placed);
@@ -178,7 +179,7 @@ void DeviceMeshes::giveBack() noexcept {
 }
 
 uint64_t DeviceMeshes::reached() const noexcept {
-  // A lost device no longer uses any memory.
+  // A lost device does not use any memory any more.
   const Result<uint64_t> now = queue_.reached();
   return now ? *now : queue_.lost() ? UINT64_MAX : 0;
 }
@@ -196,7 +197,7 @@ DeviceMeshes::Retired DeviceMeshes::takeEnded() noexcept {
 
 void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   Buffer retired = std::move(buffer);
-  // Another API may still write to it, whatever happened to this queue.
+  // Another API may still be writing to the buffer, regardless of the state of this queue.
   if (value == DeviceMemory::kNever) return retired.forget();
   giveBack();
   if (value <= reached()) return;

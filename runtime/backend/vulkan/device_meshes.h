@@ -1,6 +1,6 @@
 #pragma once
-// Meshes that stay on the device: parts are copied from a batch's buffers, or uploaded from the host, to memory of
-// their own, where the engine that owns the device draws them.
+// Meshes that stay on the device. Parts are copied from a batch's buffers, or uploaded from the host, to separate
+// memory, where the engine that owns the device draws them.
 
 #include <array>
 #include <list>
@@ -30,20 +30,20 @@ class DeviceMemory {
 
   const Buffer& buffer() const { return buffer_; }
   const DeviceMeshes& meshes() const { return meshes_; }
-  uint64_t value() const { return value_; }  ///< of the queue: at this value the content is complete
-  /// Whether the content is there or will be; false if the copy failed.
+  uint64_t value() const { return value_; }  ///< value of the queue at which the content is complete
+  /// True if the content is complete or will be; false if the copy failed.
   bool there() const { return value_ != 0 && value_ != kNever; }
 
  private:
   friend class DeviceMeshes;
-  std::shared_ptr<const void> owner_;  // kept alive, since it owns the memory
+  std::shared_ptr<const void> owner_;  // kept alive, because it owns the memory
   DeviceMeshes& meshes_;
   Buffer buffer_;
   static constexpr uint64_t kNever = UINT64_MAX;
   uint64_t value_ = 0;
 };
 
-/// A part with the data for draw commands. Immutable.
+/// A part on the device, with the data that draw commands need. Immutable.
 class VulkanPart final : public DevicePart {
  public:
   VulkanPart(std::shared_ptr<const DeviceMemory> memory, VkDeviceSize draw, uint32_t vertices, uint32_t indices);
@@ -51,13 +51,13 @@ class VulkanPart final : public DevicePart {
   bool there() const override { return memory_->there(); }
 
   VkBuffer buffer() const { return memory_->buffer().handle(); }
-  // Bytes from the beginning of buffer().
-  VkDeviceSize drawOffset() const { return draw_; }  ///< of draw(), which is in device memory, too
+  // The following offsets are in bytes from the beginning of buffer().
+  VkDeviceSize drawOffset() const { return draw_; }  ///< offset of the draw command, which is also in device memory
   VkDeviceSize vertexOffset() const;                 ///< a multiple of sizeof(Vertex)
   VkDeviceSize indexOffset() const;                  ///< a multiple of 4
   uint32_t vertexCount() const { return vertices_; }
   uint32_t indexCount() const { return indices_; }
-  /// For binding the whole buffer, as vertices and as 32-bit indices.
+  /// Returns the draw command for binding the whole buffer, both as vertices and as 32-bit indices.
   VkDrawIndexedIndirectCommand draw() const;
   const DeviceMemory& memory() const { return *memory_; }
 
@@ -67,65 +67,67 @@ class VulkanPart final : public DevicePart {
   uint32_t vertices_, indices_;
 };
 
-/// The source of a copied part; empty without indices.
+/// Where a part is copied from; empty for a part without indices.
 struct PartSource {
   BufferRange vertices, indices;
 };
 using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
 
-/// Parts with a place but no content yet.
+/// Parts that have memory but no content yet.
 struct PlacedParts {
   struct Part {
     size_t chunk, part;
     std::shared_ptr<const VulkanPart> placed;
   };
-  std::vector<DeviceParts> chunks;  ///< all null for a chunk without memory
+  std::vector<DeviceParts> chunks;  ///< all parts are null for a chunk that got no memory
   std::vector<Part> parts;
   std::vector<std::shared_ptr<DeviceMemory>> memories;
 };
 
-/// Parts that are being copied.
+/// Parts whose copying has been submitted.
 struct KeptParts {
   std::vector<DeviceParts> chunks;
-  uint64_t value = 0;  ///< of the queue: at this value the sources are no longer read
+  uint64_t value = 0;  ///< value of the queue from which on the sources are not read any more
 };
 
-/// Thread-safe. The queue, memories and ring must outlive it and its parts.
+/// Thread-safe. The queue, memories and ring must outlive this object and its parts.
 class DeviceMeshes {
  public:
-  /// memory: for the parts; staging: for uploads.
+  /// memory: for the parts; staging: for the data of uploads.
   DeviceMeshes(Queue& queue, Memory& memory, Memory& staging, CommandRing& ring)
       : queue_(queue), memory_(memory), staging_(staging), ring_(ring) {}
 
-  /// Allocates memory for parts. Throws std::bad_alloc.
+  /// Allocates memory for parts. owner: stored in the parts to keep it alive. Throws std::bad_alloc.
   PlacedParts place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks);
-  /// Makes content that another API has finished writing to placed parts visible, from a value of the queue on. Errors:
-  /// as CommandRing::submit. Throws std::bad_alloc.
+  /// Makes content that another API has finished writing into placed parts visible to later commands of the queue.
+  /// Errors: same as CommandRing::submit. Throws std::bad_alloc.
   Result<void> acquire(const PlacedParts& placed);
-  /// Never reuses this memory, since writes to it may still be running.
+  /// Gives the memory up forever, because another API may still be writing to it.
   static void abandon(const PlacedParts& placed) noexcept;
 
-  /// Copies parts asynchronously. Returns one DeviceParts for each chunk: null for parts without a source, all null for
-  /// a chunk without memory. Later submissions may write to the sources, but the host must not before their end. owner
-  /// is kept alive and must own this object. Errors: as CommandRing::submit. Throws std::bad_alloc.
+  /// Copies parts asynchronously. Returns one DeviceParts for each chunk: null for parts without a source; all null for
+  /// a chunk for which there is no memory. Later submissions may write to the sources, but the host must not before the
+  /// copying ends. owner is kept alive and must own this object. Errors: same as CommandRing::submit. Throws
+  /// std::bad_alloc.
   Result<KeptParts> keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks);
-  /// Uploads parts from the host, as Backend::upload; blocks until they are there. Errors: also those of
-  /// Memory::buffer.
+  /// Uploads parts from the host, as Backend::upload does; blocks until they are on the device. Errors: those of keep()
+  /// and of Memory::buffer.
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(const std::shared_ptr<const void>& owner,
                                                                 std::span<const MeshPart* const> parts);
 
-  /// Bytes of living parts, as counted by the memory.
+  /// Returns the size of the existing parts in bytes, as counted by the memory.
   uint64_t bytes();
   const Queue& queue() const { return queue_; }
 
  private:
   friend class DeviceMemory;
-  /// Frees the buffer once the queue has reached the value.
+  /// Frees the buffer when the queue has reached the value.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
   using Retired = std::list<std::pair<uint64_t, Buffer>>;
-  /// The queue's value for freeing buffers.
+  /// Returns the value that the queue has reached, for freeing buffers.
   uint64_t reached() const noexcept;
-  /// Takes the buffers to free, to be destroyed after the mutex is released. Precondition: the mutex is held.
+  /// Removes the buffers that can be freed from the list; the caller destroys them after releasing the mutex.
+  /// Precondition: the mutex is held.
   Retired takeEnded() noexcept;
   void giveBack() noexcept;
 

@@ -11,21 +11,21 @@
 
 namespace sgm::vulkan {
 
-/// Properties of a device. Without Vulkan 1.2 only the members before `exact` are known.
+/// Properties of a device. If the device lacks Vulkan 1.2, only the members before `exact` are known.
 struct DeviceInfo {
   std::string name;
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-  uint32_t vendor = 0;          ///< PCI number, or Khronos'
-  uint32_t device = 0;          ///< the vendor's number
+  uint32_t vendor = 0;          ///< PCI id, or an id assigned by Khronos
+  uint32_t device = 0;          ///< device id assigned by the vendor
   uint32_t driver_version = 0;  ///< in the vendor's encoding
   uint32_t api_version = 0;     ///< VK_MAKE_API_VERSION
   std::array<uint8_t, VK_UUID_SIZE> cache_id{};
-  bool computes = false;  ///< a queue family has VK_QUEUE_COMPUTE_BIT
+  bool computes = false;  ///< true if a queue family has VK_QUEUE_COMPUTE_BIT
   uint64_t max_storage_range = 0;
   uint32_t max_shared_bytes = 0;
-  uint32_t max_invocations = 0;  ///< of a workgroup
+  uint32_t max_invocations = 0;  ///< maximum number of invocations in a workgroup
   uint32_t max_push_bytes = 0;
-  uint32_t max_storage_buffers = 0;  ///< of a stage
+  uint32_t max_storage_buffers = 0;  ///< maximum number per shader stage
 
   /// shaderRoundingModeRTEFloat32: shaders may require round-to-nearest, so the arithmetic contract holds.
   bool exact = false;
@@ -34,22 +34,24 @@ struct DeviceInfo {
   bool subgroups_compute = false;  ///< subgroup operations work in compute shaders
   VkSubgroupFeatureFlags subgroup_operations = 0;
   uint32_t subgroup_size = 0;
-  uint64_t max_allocation = 0;  ///< bytes of one vkAllocateMemory
+  uint64_t max_allocation = 0;  ///< maximum bytes of one vkAllocateMemory
   std::string driver;
   DeviceId id{};  ///< deviceUUID
 
   bool software() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }  ///< lavapipe and similar
 };
 
-/// The reason why the device cannot mesh: the first missing feature or limit, as a sentence. Empty if it can. Pure.
+/// Returns the reason why the device cannot mesh, as a sentence: the first missing feature or limit. Empty if it can
+/// mesh. Pure.
 std::string lackOf(const DeviceInfo& info);
 
-/// A rank by the likely speed of the device's type: discrete 4, integrated 3, virtual 2, software 1, others 0.
+/// Ranks device types by their likely speed: discrete 4, integrated 3, virtual 2, software 1, others 0.
 int rankOf(VkPhysicalDeviceType type);
 
 DeviceInfo describe(const InstanceTable& calls, VkPhysicalDevice device);
 
-/// All devices of this machine, including unusable ones; an empty list is not an error. Errors: as Instance::create.
+/// Lists all devices of this machine, including unusable ones; an empty list is not an error. Errors: same as
+/// Instance::create.
 Result<std::vector<DeviceInfo>> listDevices();
 
 }  // namespace sgm::vulkan

@@ -12,7 +12,7 @@
 
 namespace sgm::vulkan {
 
-/// The depth of VK_LAYER_KHRONOS_validation; each level includes the previous ones.
+/// How much VK_LAYER_KHRONOS_validation checks; each level includes the previous ones.
 enum class Validation : uint8_t {
   none,
   core,             ///< the arguments and states of every call
@@ -39,13 +39,14 @@ class MessageLog {
 
 struct InstanceOptions {
   Validation validation = Validation::none;
-  /// Receives the messages, including those about objects left at the instance's end; null: the instance makes its own.
+  /// Receives the messages, including those about objects that exist when the instance is destroyed; null: the instance
+  /// creates its own log.
   std::shared_ptr<MessageLog> log = nullptr;
-  /// May replace entries of the table before any call except vkCreateInstance; for tests.
+  /// May replace entries of the function table before any call except vkCreateInstance; for tests.
   std::function<void(InstanceTable&)> replace_calls = nullptr;
 };
 
-/// Thread-safe. Must outlive the devices made from it.
+/// A Vulkan instance. Thread-safe. Must outlive the devices made from it.
 class Instance {
  public:
   /// Creates an instance of Vulkan 1.2. Errors: unsupported (no loader, driver or validation layer; the message says
@@ -55,9 +56,9 @@ class Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  /// In the loader's order, including unusable ones. Errors: as create.
+  /// Lists the physical devices in the loader's order, including unusable ones. Errors: same as create.
   Result<std::vector<VkPhysicalDevice>> devices() const;
-  /// Warnings and errors of the validation layer so far; empty without it.
+  /// Returns the warnings and errors of the validation layer so far; empty without the layer.
   std::vector<std::string> messages() const { return log_->texts(); }
 
   VkInstance handle() const { return instance_; }

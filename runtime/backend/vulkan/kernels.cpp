@@ -29,10 +29,11 @@ namespace sgm::vulkan {
 
 namespace {
 
-// In software a workgroup is one subgroup: data shared by a workgroup would be loaded once for each subgroup.
+// On a software device a workgroup is one subgroup: with several, data shared by a workgroup would be loaded once for
+// each.
 constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
 constexpr uint64_t kAllKinds = ~uint64_t{0};
-// Shorter times are not reported.
+// The creation of pipelines is reported only if it takes longer.
 constexpr double kNoticedSeconds = 1;
 
 bool interprets(Kernel kernel) {
@@ -127,7 +128,8 @@ Result<std::shared_ptr<const Pipeline>> Kernels::makePipeline(Kernel kernel, uin
   return std::make_shared<const Pipeline>(std::move(*made));
 }
 
-/// If more kinds are wanted meanwhile, restarts with these at once.
+/// Creates the missing pipelines. If more kinds are requested meanwhile, begins again with these. aside: in the
+/// background.
 Result<void> Kernels::make(bool aside) {
   const ProfileScope scope(profiler_, zone::kShaders);
   for (;;) {
@@ -172,12 +174,12 @@ void Kernels::makeAside() noexcept {
       news_.warn("the CPU continues to mesh in place of " + device_.info().name + ": " + made.error().message);
     }
   } catch (const std::bad_alloc&) {
-    // As with any other failure: the CPU continues, and the next request makes them again.
+    // The failure is handled like all others: the CPU continues, and the next request tries again.
   }
   making_.store(false);
 }
 
-/// Saves at once: a process that is killed later would lose them.
+/// Saves the cache at once, so that it is not lost if the process is killed.
 void Kernels::keep() {
   if (cache_ == nullptr) return;
   const Result<void> saved = cache_->save();

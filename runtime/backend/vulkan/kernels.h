@@ -1,5 +1,5 @@
 #pragma once
-// The shaders of shaders/mesher/ as pipelines, created synchronously or in the background.
+// The pipelines of the shaders in shaders/mesher/, created synchronously or in the background.
 
 #include <array>
 #include <atomic>
@@ -35,38 +35,39 @@ enum Kernel : uint8_t {
   kernels
 };
 
-inline constexpr uint32_t kKernelBuffers = 6;  ///< bound by each kernel
+inline constexpr uint32_t kKernelBuffers = 6;  ///< number of storage buffers that each kernel binds
 
 using Pipelines = std::array<std::shared_ptr<const Pipeline>, kernels>;
 
-/// Receives messages about pipeline creation; each may be null, and is called on any thread.
+/// Receives messages about the creation of pipelines. Each function may be null, and is called on any thread.
 struct KernelNews {
-  std::function<void(const std::string&)> inform;  ///< pipelines were made in the background, and the time it took
-  std::function<void(const std::string&)> warn;    ///< pipelines cannot be made, or not be cached
+  /// pipelines were created in the background; the message says how long it took
+  std::function<void(const std::string&)> inform;
+  std::function<void(const std::string&)> warn;  ///< pipelines cannot be created, or cannot be cached
 };
 
-/// The pipelines of all kernels on one device. A software device executes every branch of an interpreter; so there the
-/// interpreting pipelines are specialised to the kinds of instructions requested so far, and remade when there are
-/// more. Thread-safe.
+/// The pipelines of all kernels on one device. A software device executes every branch of an interpreter. So there,
+/// interpreting pipelines are specialised to the kinds of instructions that were requested so far, and created again
+/// when more kinds are requested. Thread-safe.
 class Kernels {
  public:
   /// device and cache must outlive it; cache may be null.
   Kernels(Device& device, PipelineCache* cache, const Profiler& profiler, KernelNews news);
-  /// Waits for a pipeline that is being made in the background.
+  /// Waits for a pipeline that is being created in the background.
   ~Kernels();
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
-  /// Returns pipelines that support these kinds (Tape::kinds); makes missing ones, which may take seconds. Errors: as
-  /// Pipeline::create. Throws std::bad_alloc.
+  /// Returns pipelines that support these kinds of instructions (Tape::kinds). Creates missing ones, which may take
+  /// seconds. Errors: same as Pipeline::create. Throws std::bad_alloc.
   Result<Pipelines> get(uint64_t kinds);
-  /// Whether get() would return at once. If not, a background thread makes them; if no thread can be started, returns
-  /// true, so that the caller waits in get(). Never waits itself.
+  /// Returns true if get() would return at once. If not, starts a background thread that creates the pipelines; if no
+  /// thread can be started, returns true, so that the caller waits in get(). Never waits itself.
   bool ready(uint64_t kinds) noexcept;
-  /// Whether that thread is running.
+  /// True while that thread is running.
   bool making() const { return making_.load(); }
 
-  uint32_t width() const;  ///< invocations in a workgroup, for kernels without a fixed number
+  uint32_t width() const;  ///< number of invocations in a workgroup, for kernels without a fixed number
 
  private:
   struct Made {
@@ -87,14 +88,14 @@ class Kernels {
   const Profiler profiler_;
   const KernelNews news_;
 
-  std::mutex making_mutex_;         ///< held while pipelines are made; taken before mutex_
-  std::array<Made, kernels> made_;  ///< possibly not all for the same kinds yet
-  bool warned_ = false;             ///< warn only once
+  std::mutex making_mutex_;         ///< held while pipelines are created; locked before mutex_
+  std::array<Made, kernels> made_;  ///< while pipelines are replaced, not all support the same kinds
+  bool warned_ = false;             ///< true if a warning was sent: there is only one
 
   std::mutex mutex_;
   uint64_t kinds_ = 0;   ///< kinds that the pipelines support
-  uint64_t wanted_ = 0;  ///< kinds that they are to support
-  Pipelines pipelines_;  ///< all or none
+  uint64_t wanted_ = 0;  ///< kinds that pipelines must support when they are created next
+  Pipelines pipelines_;  ///< null until all pipelines have been created
   std::thread maker_;
   std::atomic<bool> making_{false}, stop_{false};
 };

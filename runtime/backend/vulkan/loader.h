@@ -8,18 +8,18 @@
 
 namespace sgm::vulkan {
 
-/// Opens libvulkan.so.1, which is never unloaded: drivers have thread-local destructors that must outlive every thread.
-/// Error: unsupported; the message says what to install.
+/// Opens libvulkan.so.1, which is never closed: drivers have thread-local destructors, which must exist as long as
+/// every thread. Error: unsupported; the message says what to install.
 Result<GlobalTable> openLoader();
 
-/// Returns false if a function of Vulkan 1.2 is missing. The table still has the other functions, so that the instance
-/// can be destroyed.
+/// Fills the table of an instance. Returns false if a function of Vulkan 1.2 is missing; then the table still has the
+/// others, so that the instance can be destroyed.
 bool loadInstance(PFN_vkGetInstanceProcAddr resolve, VkInstance instance, InstanceTable& table);
-/// As loadInstance.
+/// Same as loadInstance, for the table of a device.
 bool loadDevice(const InstanceTable& instance, VkDevice device, DeviceTable& table);
 
-/// The error for a failed call; `what` names the action. device_lost if the device was lost: then everything made with
-/// it can only be destroyed.
+/// Converts the result of a failed call to an error; `what` names the action. The code is device_lost if the device was
+/// lost: then everything created with the device can only be destroyed.
 Error errorOf(VkResult result, const std::string& what);
 
 }  // namespace sgm::vulkan

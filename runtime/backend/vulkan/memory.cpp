@@ -7,7 +7,7 @@
 namespace sgm::vulkan {
 namespace {
 
-constexpr uint64_t kGranule = 256;  // no device requires a larger alignment of a storage buffer's offset
+constexpr uint64_t kGranule = 256;  // no device requires a larger alignment of offsets in storage buffers
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -20,12 +20,12 @@ constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
 constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
-// -1: not usable for this kind.
+// Returns how suitable a memory type is for this kind; -1 if it is not usable.
 int scoreOf(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
-  // Protected, lazily allocated and vendor-specific memory has special rules.
+  // Protected, lazily allocated and vendor-specific memory has special rules, so it is not used.
   if (flags & ~(kNear | kVisible | kCoherent | kCached)) return -1;
   const auto has = [&](VkMemoryPropertyFlags bits) { return (flags & bits) == bits ? 1 : 0; };
-  // Between separate memories, the window to device memory is small, and other programs need it.
+  // If host and device memory are separate, device memory that the host can see is scarce, and other programs need it.
   const int fits = has(kNear) == (unified ? 1 : 0) ? 1 : 0;
   switch (kind) {
     case MemoryKind::device:
@@ -99,7 +99,7 @@ class ExportedBlock final : public SharedBlock {
 struct Memory::Block {
   Ranges ranges;
   MemoryKind kind;
-  bool whole;  // for a single buffer
+  bool whole;  // true if the block is for a single buffer
   uint64_t size = 0;
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -140,7 +140,7 @@ Result<Buffer> Memory::buffer(MemoryKind kind, VkDeviceSize bytes) {
   const uint64_t usual =
       std::min(options_.first_block << std::min<uint64_t>(shared, 16), options_.largest_block) / granule_ * granule_;
   const bool whole = needed > usual;
-  // If there is no room for a large block, a smaller one may fit.
+  // If the device has no memory for a large block, a smaller one may still fit.
   for (uint64_t size = std::max(needed, usual);; size = std::max(needed, size / 2 / granule_ * granule_)) {
     auto block = addBlock(kind, size, whole);
     if (block) return take(**block, *(*block)->ranges.take(bytes), bytes);
@@ -273,7 +273,7 @@ void Memory::destroy(Block& block) noexcept {
 }
 
 void Memory::give(Buffer& buffer) noexcept {
-  // Destroying a block that another API has imported may take long.
+  // destroyed after the mutex is released, because destroying a block that another API has imported may take long
   std::unique_ptr<Block> dead;
   {
     const std::scoped_lock lock(mutex_);
@@ -288,7 +288,7 @@ std::unique_ptr<Memory::Block> Memory::giveRange(const Buffer& buffer) noexcept 
   statistics_.used -= buffer.size_;
   --statistics_.buffers;
   if (!block.ranges.empty()) return nullptr;
-  // One empty block of each kind stays for the next buffer.
+  // One empty block of each kind is kept for the next buffer.
   auto& blocks = blocks_[static_cast<size_t>(block.kind)];
   const auto spare = [&](const auto& other) { return other.get() != &block && !other->whole && other->ranges.empty(); };
   if (!block.whole && std::none_of(blocks.begin(), blocks.end(), spare)) return nullptr;

@@ -1,8 +1,8 @@
 #pragma once
-// Device memory: buffers are ranges of a few large blocks.
+// Allocates device memory: buffers are ranges of a few large blocks.
 //
-// Drivers allow only some thousand allocations, and each is slow. A block is one allocation with one VkBuffer over all
-// of it, so that taking a buffer is a list lookup.
+// Drivers allow only some thousand allocations, and each is slow. So a block is one allocation with one VkBuffer over
+// all of it, and taking a buffer from it is a list lookup.
 
 #include <array>
 #include <cstddef>
@@ -20,37 +20,38 @@
 namespace sgm::vulkan {
 
 enum class MemoryKind : uint8_t {
-  device,    ///< fastest for shaders; visible to the host if it is the host's memory
-  upload,    ///< the host writes, sequentially, without reading
-  readback,  ///< the host reads, from cached memory if available
+  device,    ///< fastest for shaders; the host can see it only if host and device share memory
+  upload,    ///< written by the host sequentially, never read by it
+  readback,  ///< read by the host; cached memory if available
 };
 inline constexpr size_t kMemoryKinds = 3;
 
-/// The best of the memory types in `allowed` (a bit each), -1 if none is suitable. unified: host and device share their
-/// memory, so that it is near to both. Pure.
+/// Returns the index of the best memory type among those in `allowed` (one bit each); -1 if none is suitable. unified:
+/// host and device share their memory, so that it is fast for both. Pure.
 int chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed, MemoryKind kind, bool unified);
 
 struct MemoryOptions {
-  uint64_t first_block = uint64_t{64} << 20;     ///< bytes; each further block of a kind is twice as large as the
-                                                 ///< previous one
-  uint64_t largest_block = uint64_t{512} << 20;  ///< larger buffers get their own block
-  uint64_t cap = UINT64_MAX;                     ///< limit for all blocks together, bytes
-  bool apart = false;   ///< treats host and device memory as separate even if they are unified: for tests of copies
-  bool shared = false;  ///< another API imports the blocks; needs a device with externalMemory()
-  std::vector<uint32_t> families;  ///< further families whose queues use the buffers
+  /// bytes of the first block of each kind; each further block is twice as large as the previous one
+  uint64_t first_block = uint64_t{64} << 20;
+  uint64_t largest_block = uint64_t{512} << 20;  ///< bytes; a larger buffer gets a block of its own
+  uint64_t cap = UINT64_MAX;                     ///< limit for the total size of all blocks, in bytes
+  bool apart = false;   ///< for tests of copies: treats host and device memory as separate even if they are unified
+  bool shared = false;  ///< true: another API imports the blocks; needs a device with externalMemory()
+  std::vector<uint32_t> families;  ///< further queue families that use the buffers
 };
 
 struct MemoryStatistics {
-  uint64_t used = 0;      ///< bytes of living buffers
-  uint64_t reserved = 0;  ///< bytes of all blocks
+  uint64_t used = 0;      ///< total size of existing buffers in bytes
+  uint64_t reserved = 0;  ///< total size of all blocks in bytes
   uint32_t buffers = 0;
   uint32_t blocks = 0;
 };
 
 class Memory;
 
-/// A range of a VkBuffer, usable as storage, for transfers and indirect commands, and as vertices and indices. Its
-/// destructor frees the bytes, and must run after the last command that uses them. The Memory must outlive it.
+/// A range of a VkBuffer, usable as a storage buffer, for transfers and indirect commands, and for vertices and
+/// indices. Its destructor frees the range, and must run after the last command that uses it. The Memory must outlive
+/// it.
 class Buffer {
  public:
   Buffer() = default;
@@ -60,12 +61,14 @@ class Buffer {
 
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   VkBuffer handle() const { return handle_; }
-  VkDeviceSize offset() const { return offset_; }  ///< in handle(); a multiple of 256
+  VkDeviceSize offset() const { return offset_; }  ///< offset in handle(); a multiple of 256
   VkDeviceSize size() const { return size_; }      ///< as requested
   std::byte* data() const { return data_; }        ///< null if not visible to the host
-  void forget() noexcept { memory_ = nullptr; }    ///< never frees: the bytes stay reserved until the memory's end
-  SharedBlock* block() const;                      ///< its block, with MemoryOptions::shared; else null
-  /// Call after the device wrote and before the host reads data(). A no-op for memory that is coherent for the host.
+  /// the destructor will free nothing: the range stays reserved until the memory is destroyed
+  void forget() noexcept { memory_ = nullptr; }
+  /// the buffer's block if MemoryOptions::shared is set; otherwise null
+  SharedBlock* block() const;
+  /// Call this after the device has written and before the host reads data(). Does nothing if the memory is coherent.
   /// Error: out_of_memory.
   Result<void> beforeRead() const;
 
@@ -78,9 +81,9 @@ class Buffer {
   std::byte* data_ = nullptr;
 };
 
-/// How another API can import blocks of the device's memory; nullopt if it cannot.
+/// How another API can import blocks of the device's memory; nullopt in places where it cannot.
 struct SharedMemoryNeeds {
-  bool dedicated = false;  ///< one allocation for one buffer, imported as such
+  bool dedicated = false;  ///< the block is one allocation for one buffer, and must be imported as such
 };
 std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 
@@ -88,14 +91,14 @@ std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 class Memory {
  public:
   explicit Memory(Device& device, const MemoryOptions& options = {});
-  /// Precondition: no buffer is left or in use.
+  /// Precondition: no buffer exists or is in use.
   ~Memory();
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
-  /// Errors: out_of_memory (of the device, or of its budget if VK_EXT_memory_budget reports it), limit (the cap),
-  /// invalid_argument (0 bytes). On error nothing has changed, and smaller buffers may still succeed. Throws
-  /// std::bad_alloc.
+  /// Allocates a buffer. Errors: out_of_memory (of the device, or of its budget if VK_EXT_memory_budget reports one),
+  /// limit (the cap), invalid_argument (0 bytes). After an error nothing has changed, and smaller buffers may still
+  /// succeed. Throws std::bad_alloc.
   Result<Buffer> buffer(MemoryKind kind, VkDeviceSize bytes);
 
   MemoryStatistics statistics() const;
@@ -104,7 +107,8 @@ class Memory {
   friend class Buffer;
   struct Block;
   void give(Buffer& buffer) noexcept;
-  /// Returns the block, to be destroyed, if it is no longer needed. Precondition: the mutex is held.
+  /// Frees the buffer's range. Returns its block, which the caller must destroy, if the block is no longer needed.
+  /// Precondition: the mutex is held.
   std::unique_ptr<Block> giveRange(const Buffer& buffer) noexcept;
   Result<Block*> addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole);
   Result<void> fill(Block& block, MemoryKind kind, VkDeviceSize bytes);

@@ -11,9 +11,9 @@ namespace sgm::vulkan {
 namespace {
 
 constexpr uint32_t kHeadSize = sizeof(batch::Head);
-constexpr uint32_t kSumSlices = 4;  // workgroups for the triangles of a part
+constexpr uint32_t kSumSlices = 4;  // number of workgroups that add up the triangles of a part
 
-/// Keeps the buffer if it has at least this many bytes, else replaces it.
+/// Keeps the buffer if it has at least this many bytes; otherwise replaces it by a larger one.
 Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
   bytes = std::max<uint64_t>(bytes, 256);
   if (buffer && buffer.size() >= bytes) return {};
@@ -28,8 +28,8 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 uint32_t Mesher::mostScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
-  return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);  // grow() makes buffers a quarter larger than
-                                                                   // requested
+  // grow() makes buffers a quarter larger than requested
+  return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);
 }
 
 Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels) {
@@ -90,8 +90,8 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   const std::array<BufferRange, kKernelBuffers> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
   batch::Sizes sizes = plan.sizes;
   Result<void> bound;
-  // Sequentially, even where two could overlap: each one fills the whole device, and the dependencies stay clear to
-  // readers and to the validation layer.
+  // Kernels run one after the other, even where two could overlap: each one fills the whole device, and the
+  // dependencies stay simple for readers and for the validation layer.
   const auto run = [&](Kernel kernel, const auto& dispatch) {
     if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
     if (!bound) return;
@@ -201,11 +201,11 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
   return out;
 }
 
-/// Downloads the data that did not come with the batch.
+/// Downloads the vertices and indices that were not downloaded with the batch.
 Result<void> Mesher::bringLater(const batch::Head& head, BatchBuffers& b) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
   const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this batch: successive batches are neighbours in the world.
+  // A quarter more than this batch had, because successive batches are similar.
   usual_vertices_.store((vertices + vertices / 4) / 256 * 256);
   usual_indices_.store((indices + indices / 4) / 256 * 256);
   if (vertices <= b.brought_vertices && indices <= b.brought_indices) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the shaders of shaders/mesher/ on one device: a planned batch in, its parts out.
+// Runs the shaders of shaders/mesher/ on one device: submits a planned batch, and returns its parts.
 
 #include <array>
 #include <atomic>
@@ -11,39 +11,42 @@
 
 namespace sgm::vulkan {
 
-/// The buffers of a batch in flight; reused from batch to batch, and grown if needed.
+/// The buffers of one batch; reused for further batches, and enlarged if necessary.
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
-  /// Copies for the host, if it cannot read the device's buffers. The buffers of running batches form the ring for
-  /// downloads. Only the device knows the numbers of vertices and indices. So as many as recent batches had are
-  /// downloaded with the batch itself; if it has more, the rest follows.
+  /// Copies for the host, if it cannot read the device's buffers. While batches run, their buffers together form a ring
+  /// for downloads. The numbers of vertices and indices are known only to the device, so as many as recent batches had
+  /// are downloaded with the batch itself; if the batch has more, the rest is downloaded later.
   Buffer parts_back, signs_back, vertices_back, indices_back;
-  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes downloaded with the batch
-  uint64_t reading = 0;  ///< of the queue: until this value vertices and indices are being downloaded
+  /// bytes of vertices and of indices that are downloaded with the batch
+  uint64_t brought_vertices = 0, brought_indices = 0;
+  uint64_t reading = 0;  ///< value of the queue until which vertices and indices are being downloaded
 };
 
-/// Thread-safe. All constructor arguments must outlive it.
+/// Thread-safe. All arguments of the constructor must outlive it.
 class Mesher {
  public:
-  /// Errors: as Memory::buffer.
+  /// Errors: same as Memory::buffer.
   static Result<std::unique_ptr<Mesher>> create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels);
 
-  /// Submits the batch. Returns the queue's value at its end; until then the plan and the buffers must not change.
-  /// Waits for missing pipelines (Kernels::get). Errors: device_lost, out_of_memory, limit, unsupported. Throws
+  /// Submits a planned batch. Returns the value of the queue at its end; until then, the plan and the buffers must not
+  /// change. Waits for missing pipelines (Kernels::get). Errors: device_lost, out_of_memory, limit, unsupported. Throws
   /// std::bad_alloc.
   Result<uint64_t> submit(const BatchPlan& plan, BatchBuffers& buffers);
 
-  /// Call after the end of the submission with these two: returns the output for the host, valid until the next
-  /// submission. Waits for the download of vertices and indices if needed; they are null if no chunk wants them.
-  /// Errors: as submit.
+  /// Returns the results in host memory, valid until the next submission. Call after the end of the submission with
+  /// this plan and these buffers. Waits for the rest of the download if necessary. Vertices and indices are null if no
+  /// chunk requests them. Errors: same as submit.
   struct Output {
     const batch::Head* head = nullptr;
     const batch::Part* parts = nullptr;
-    const batch::Sums* sums = nullptr;  ///< for the parts of chunks that request them
+    const batch::Sums* sums = nullptr;  ///< sums of the parts of those chunks that request them
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
-    const uint32_t* signs = nullptr;  ///< of the plan's chunks, one after the other, batch::kSignWords each
-    bool signs_in_place = false;      ///< signs points to scratch: use each chunk's own offset
+    /// signs of the plan's chunks, one chunk after the other, batch::kSignWords words each
+    const uint32_t* signs = nullptr;
+    /// true: `signs` points to scratch, so that each chunk's own offset must be added
+    bool signs_in_place = false;
   };
   Result<Output> read(const BatchPlan& plan, BatchBuffers& buffers);
 
@@ -62,7 +65,7 @@ class Mesher {
   CommandRing& ring_;
   Kernels& kernels_;
   Buffer tables_;
-  /// The sizes of the last batch, with a margin.
+  /// bytes of vertices and indices of the last batch, with a margin
   std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };
 

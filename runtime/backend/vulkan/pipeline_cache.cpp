@@ -107,7 +107,7 @@ Result<void> PipelineCache::save() {
   const std::scoped_lock lock(saving_);
   const DeviceTable& calls = device_.calls();
   std::vector<std::byte> data;
-  // Another thread may add to the cache between the two calls.
+  // Repeats both calls if another thread has added to the cache between them.
   VkResult result = VK_INCOMPLETE;
   while (result == VK_INCOMPLETE) {
     size_t bytes = 0;

@@ -1,9 +1,9 @@
 #pragma once
-// The driver's compiled shaders, cached in a file between runs.
+// The driver's compiled shaders, stored in a file from one run to the next.
 //
-// FOLDER/vulkan-VENDOR-DEVICE-DRIVER-CACHEID.cache, all little-endian: "SGMP", version (4 bytes each), size of the
-// driver's data, its XXH64 (8 each), the driver's data. Some drivers crash on foreign data, so a file that is damaged
-// or of another device is ignored.
+// The file FOLDER/vulkan-VENDOR-DEVICE-DRIVER-CACHEID.cache, all little-endian: "SGMP", version (4 bytes each); size of
+// the driver's data, its XXH64 (8 bytes each); the driver's data. Some drivers crash on data of other devices, so a
+// file that is damaged or belongs to another device is ignored.
 
 #include <array>
 #include <filesystem>
@@ -18,31 +18,31 @@
 
 namespace sgm::vulkan {
 
-/// The name of a device's file, without the folder.
+/// Returns the name of a device's file, without the folder.
 std::string pipelineCacheName(const DeviceInfo& info);
 
-/// The file's bytes for the driver's data. Throws std::bad_alloc.
+/// Returns the bytes of a file with the driver's data. Throws std::bad_alloc.
 std::vector<std::byte> packPipelineCache(std::span<const std::byte> data);
 
-/// The driver's data; nullopt unless the bytes are an undamaged file of this device and driver. Accepts any bytes.
+/// Returns the driver's data in a file; nullopt unless the bytes are an undamaged file of this device and driver.
+/// Accepts any bytes.
 std::optional<std::span<const std::byte>> unpackPipelineCache(const DeviceInfo& info, std::span<const std::byte> file);
 
-/// The device must outlive it. Thread-safe.
+/// The cache of one device. The device must outlive it. Thread-safe.
 class PipelineCache {
  public:
-  /// folder: created if missing, when saving; empty: cached only in memory. An unusable file is not an error: see
-  /// loaded(). Error: out_of_memory. Throws std::bad_alloc.
+  /// folder: created by save() if it is missing; empty: the cache is only in memory. An unusable file is not an error:
+  /// see loaded(). Error: out_of_memory. Throws std::bad_alloc.
   static Result<std::unique_ptr<PipelineCache>> create(Device& device, const std::filesystem::path& folder);
   ~PipelineCache();
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
-  /// Replaces the whole file; does nothing without a folder, or if the file already has all data. Errors: io,
+  /// Replaces the whole file; does nothing without a folder, or if the file already contains all data. Errors: io,
   /// out_of_memory.
-  /// Errors: io, out_of_memory.
   Result<void> save();
 
-  bool loaded() const { return loaded_; }  ///< started with an earlier run's data
+  bool loaded() const { return loaded_; }  ///< true if the cache started with the data of an earlier run
   VkPipelineCache handle() const { return cache_; }
 
  private:

@@ -17,17 +17,17 @@ struct PipelineDesc {
   std::span<const uint32_t> spirv;
   uint32_t buffers = 0;                 ///< storage buffers of set 0, bound at 0, 1, 2...; at most kMaxBuffers
   uint32_t push_bytes = 0;              ///< a multiple of 4, at most 128
-  std::span<const uint32_t> constants;  ///< words of the specialization constants 0, 1, 2...
+  std::span<const uint32_t> constants;  ///< values of the specialization constants 0, 1, 2..., one word each
 };
 
 inline constexpr uint32_t kMaxBuffers = 16;
 
-/// The entry point "main" of a shader, with its layouts. The device must outlive it; it must outlive commands that run
-/// it.
+/// A shader's entry point "main" as a pipeline, with its layouts. The device must outlive it, and it must outlive the
+/// commands that use it.
 class Pipeline {
  public:
-  /// May take seconds for a large shader. cache may be null. Thread-safe. Errors: invalid_argument (exceeds a limit of
-  /// the device or of this layer), out_of_memory, unsupported.
+  /// Creates a pipeline, which may take seconds for a large shader. cache may be null. Thread-safe. Errors:
+  /// invalid_argument (the description exceeds a limit of the device or of this class), out_of_memory, unsupported.
   static Result<Pipeline> create(Device& device, const PipelineDesc& desc, const PipelineCache* cache = nullptr);
   Pipeline(Pipeline&& other) noexcept;
   Pipeline& operator=(Pipeline&&) = delete;

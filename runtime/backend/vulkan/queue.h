@@ -1,5 +1,5 @@
 #pragma once
-// Submits work to the device's queue and tracks its end: a timeline semaphore counts submissions.
+// Submits work to the device's queue and tracks its end by a timeline semaphore that counts submissions.
 
 #include <atomic>
 #include <cstdint>
@@ -9,36 +9,37 @@
 
 namespace sgm::vulkan {
 
-/// Submissions have the values 1, 2, 3... and end in this order. Thread-safe. The device must outlive it.
+/// Submissions have the values 1, 2, 3... and end in this order. Thread-safe. The device must outlive the queue.
 ///
-/// Once a call has returned device_lost, all later ones do: submitted work may never end, and its results are lost.
+/// After a call has returned device_lost, all later calls do: submitted work may never end, and its results are lost.
 class Queue {
  public:
   /// Errors: out_of_memory.
   static Result<std::unique_ptr<Queue>> create(Device& device);
-  /// Waits for all that was submitted.
+  /// Waits for everything that was submitted.
   ~Queue();
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
 
-  /// Returns the submission's value, which is reached when the commands have ended and their writes are visible. The
-  /// command buffer must not change until then. Errors: out_of_memory (nothing was submitted); device_lost.
+  /// Submits commands. Returns the value of the submission, which is reached when the commands have ended and their
+  /// writes are visible. The command buffer must not change until then. Errors: out_of_memory (nothing was submitted);
+  /// device_lost.
   Result<uint64_t> submit(VkCommandBuffer commands);
 
-  /// Waits at most this long. Returns whether the value is reached; 0 ns only queries. Errors: device_lost,
-  /// out_of_memory, invalid_argument (a value that was not submitted).
+  /// Waits at most this long; 0 only queries. Returns true if the value is reached. Errors: device_lost, out_of_memory,
+  /// invalid_argument (the value was not submitted).
   Result<bool> wait(uint64_t value, uint64_t nanoseconds = UINT64_MAX) const;
 
-  /// The value reached so far. Never blocks. Error: device_lost, out_of_memory.
+  /// Returns the value reached so far. Never blocks. Errors: device_lost, out_of_memory.
   Result<uint64_t> reached() const;
 
-  /// The value of the last submission; 0: none.
+  /// Returns the value of the last submission; 0: none.
   uint64_t submitted() const { return submitted_.load(); }
-  /// Waits for all submissions, but not for a lost device. Afterwards the queue uses none of our objects.
+  /// Waits for all submissions, except those of a lost device. Afterwards the device uses no objects of the library.
   void drain() const;
   bool lost() const { return lost_.load(); }
 
-  /// For an engine that waits on its own queue for our results.
+  /// The timeline semaphore, for an engine whose own queue waits for results of the library.
   VkSemaphore semaphore() const { return semaphore_; }
   Device& device() const { return device_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Allocates byte ranges in a block.
+// Allocates byte ranges within a block.
 
 #include <cstdint>
 #include <map>
@@ -9,29 +9,30 @@
 
 namespace sgm::vulkan {
 
-/// Best fit over [0, size); every range begins and ends at a multiple of the granule. One thread at a time.
+/// A best-fit allocator over [0, size); every range begins and ends at a multiple of the granule. Not thread-safe.
 class Ranges {
  public:
   /// granule: a power of two; size: a multiple of it, not 0.
   Ranges(uint64_t size, uint64_t granule);
 
-  /// Returns the offset of a new range, in the first of the shortest sufficient gaps; nullopt if there is none. bytes:
-  /// not 0. Takes time logarithmic in the number of ranges. Throws std::bad_alloc, and then has changed nothing.
+  /// Returns the offset of a new range, in the lowest of the smallest gaps that are large enough; nullopt if there is
+  /// none. bytes: not 0. Takes time logarithmic in the number of ranges. Throws std::bad_alloc, without having changed
+  /// anything.
   std::optional<uint64_t> take(uint64_t bytes);
-  /// Frees a range of take().
+  /// Frees a range that take() has returned.
   void give(uint64_t offset) noexcept;
 
   bool empty() const { return ranges_.size() == 1 && gaps_.size() == 1; }
 
  private:
-  using Gaps = std::set<std::pair<uint64_t, uint64_t>>;  // bytes, offset
+  using Gaps = std::set<std::pair<uint64_t, uint64_t>>;  // pairs of size in bytes and offset
   struct Range {
     uint64_t bytes;
-    Gaps::node_type gap;  // set while the range is taken; so freeing it needs no memory
+    Gaps::node_type gap;  // set while the range is taken, so that freeing it needs no memory
     bool taken() const { return !gap.empty(); }
   };
   uint64_t granule_;
-  std::map<uint64_t, Range> ranges_;  // by offset, without holes; no two neighbours are both free
+  std::map<uint64_t, Range> ranges_;  // by offset, without holes; two neighbours are never both free
   Gaps gaps_;                         // the free ranges
 };
 

@@ -8,11 +8,11 @@
 
 namespace sgm::vulkan {
 
-/// Fills the mesh of one chunk of the plan. Returns false and keeps the mesh if a part had no room. Throws
-/// std::bad_alloc.
+/// Fills the mesh of one chunk of the plan. Returns false, and does not change the mesh, if the device had no memory
+/// for one of its parts. Throws std::bad_alloc.
 bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const ChunkJob& job, ChunkMesh& mesh);
 
-/// The locations of a chunk's parts after readMesh.
+/// Returns where the parts of a chunk are in the device's buffers. Call after readMesh.
 PartSources sourcesOf(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const BatchBuffers& buffers);
 
 }  // namespace sgm::vulkan

@@ -97,8 +97,8 @@ struct InstanceTable {
   SGM_VK_INSTANCE_DEBUG(SGM_VK_MEMBER)
 };
 
-/// The functions for computing. Drawing code has a table of its own that begins with this one. The functions of
-/// extensions are null if the device was created without them.
+/// The functions for computing. Drawing code has a table of its own whose first member is this one. Functions of
+/// extensions are null if the device was created without the extension.
 struct DeviceTable {
   SGM_VK_DEVICE(SGM_VK_MEMBER)
   SGM_VK_DEVICE_EXTENSIONS(SGM_VK_MEMBER)

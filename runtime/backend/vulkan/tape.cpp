@@ -19,7 +19,7 @@ using uint = uint32_t;
 
 }  // namespace record_header
 
-/// The header bits that describe a record.
+/// Returns the bits of a header that describe the record.
 uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   using namespace record_header;
   const uint32_t operands = n.c >= 0 ? 3 : n.b >= 0 ? 2 : n.a >= 0 ? 1 : 0;
@@ -53,31 +53,31 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   }
 }
 
-/// The largest number of its own parameter words.
+/// Returns the maximum number of the node's own parameter words.
 uint32_t wordsOf(const TapeScratch::Node& n, const uint32_t* params) {
   return parameterWords(n.weighs ? Op::kernel : static_cast<Op>(n.kind), params);
 }
 
-/// The variant of a mix or a morph, and the operand of a sum; 0 for others.
+/// Returns the variant of a mix or a morph, or of the operand of a sum; 0 for all others.
 uint32_t howOf(const TapeScratch::Node& n) {
   using namespace record_header;
   return (n.by_constant ? kHowByConstant : 0) | (n.morphs ? kHowMorphs : 0) | (n.weighs ? kHowWeighs : 0);
 }
 
-/// The bits of Tape::kinds.
+/// Returns the bits that the node adds to Tape::kinds.
 uint64_t kindsOf(const TapeScratch::Node& n) {
   using namespace record_header;
   static_assert(static_cast<uint32_t>(TapeOp::count) <= 61, "the last three bits have other meanings");
   const bool joins = n.is(Op::mix) || n.is(Op::morph);
   const uint32_t others =
       (joins && !n.by_constant ? kSomeReadsThird : 0) | (n.morphs ? kSomeMorphs : 0) | (n.weighs ? kSomeWeighs : 0);
-  // Pruning may turn it into a copy.
+  // On the device, pruning may turn the instruction into a copy.
   const bool may_copy = n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1;
   return uint64_t{1} << n.kind | uint64_t{others} << 32 |
          (may_copy ? uint64_t{1} << static_cast<uint32_t>(Op::copy) : 0);
 }
 
-/// Writes one record of at least 32 words. Returns its length in units of 32 words.
+/// Appends one record of at least 32 words. Returns its length in units of 32 words.
 uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, const TapeScratch::Node& n,
                      std::pmr::vector<uint32_t>& words) {
   const size_t at = words.size();
@@ -124,8 +124,8 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   return pieces;
 }
 
-/// Writes the samples of a lattice contiguously; the offset of its word 10 goes into the record. Also writes their
-/// range, with which a device bounds the op.
+/// Appends the samples of a lattice contiguously; their offset goes into word 10 of the op's parameters in the record.
+/// Also appends the range of the samples, by which a device bounds the op.
 void writeLattice(const ProgramView& program, uint32_t params, size_t record, std::pmr::vector<uint32_t>& words) {
   const uint32_t* p = program.params.data() + params;
   const size_t points = size_t{p[5]} * p[6] * p[7], at = words.size();

@@ -1,15 +1,15 @@
 #pragma once
 // A field program in the order and form in which the mesher's shaders run it (shaders/mesher/tape.glsl).
 //
-// A shader sweeps over all kinds of op, and runs all consecutive instructions of each kind: software Vulkan executes
-// both sides of every branch, so a switch would cost it all ops for each instruction, and hardware also prefers long
-// runs of one op. Hence the order: within a block, as many instructions of one kind as possible stand together, first
-// those whose results others read; ops that only join values first count as one kind, and are then sorted among
-// themselves. Values live in slots; each is written once and read any number of times before its slot is reused. The
-// folds of groups (field/program.h) are instructions, too, and keep their order. Some operations are part of other
-// instructions (tape_fuse.h): a union of primitives, where each takes the minimum of itself and its operand (the first
-// one's operand is far); the parameter of a mix or morph if it is constant; and the weight that a sum adds.
-// morph goes by where that is constant, nor the weight that a sum adds (tape_fuse.h).
+// A shader sweeps over all kinds of op, and in each step of a sweep runs all consecutive instructions of that kind. The
+// reason: software Vulkan executes both sides of every branch, so that a switch would cost it all ops for each
+// instruction, and hardware also prefers long runs of one op. Hence the order of instructions: within a block, as many
+// instructions of one kind as possible stand together, first those whose results others read. Ops that only join values
+// first count as one kind, and are then sorted among themselves. Values are stored in slots; a slot is written once and
+// read any number of times before it is reused. The folds of groups (field/program.h) are instructions, too, and keep
+// their order. Some operations are merged into other instructions (tape_fuse.h): a union of primitives, in which each
+// primitive takes the minimum of its own value and its operand (the first one's operand is far); the parameter of a mix
+// or morph, if it is constant; and the weight that a sum adds.
 
 #include <cstdint>
 #include <memory_resource>
@@ -20,39 +20,40 @@
 namespace sgm {
 
 inline constexpr uint32_t kTapeSlots = 64;
-inline constexpr uint32_t kFarSlot = kTapeSlots;  ///< never written, farther than anything: replaces a missing operand
+/// number of a slot that is never written and stands for a missing operand: farther than anything
+inline constexpr uint32_t kFarSlot = kTapeSlots;
 inline constexpr uint32_t kTapeRecordWords = 32;
 inline constexpr uint32_t kMostTapeRecords = 1024;
 inline constexpr uint32_t kMostTapeLayers = 64;
 
-/// Instructions that are not an Op: numbers from Op::count on.
+/// Instructions that are not an Op; they have the numbers from Op::count on.
 enum class TapeOp : uint32_t {
   fold = static_cast<uint32_t>(
-      Op::count),  ///< joins a group to the field or to its layer's cuts; or subtracts these from the field
+      Op::count),  ///< joins a group to the field or to its layer's cuts; or subtracts these cuts from the field
   smooth,          ///< joins a smooth group to the field
   count
 };
 
-/// The location of a program in a batch's words.
+/// Where a tape is in a batch's words.
 struct Tape {
-  uint32_t headers = 0;  ///< offset in units of four words: one header a record
+  uint32_t headers = 0;  ///< offset in units of four words; one header per record
   uint32_t records = 0;
   float initial = kFar;
   uint32_t initial_label = 0;
   float q_scale = 1;
-  uint64_t kinds = 0;  ///< bit by instruction: the kinds that occur; flags at the end (record_header.h)
+  uint64_t kinds = 0;  ///< bit per kind of instruction that occurs; flags in the highest bits (record_header.h)
 };
 
-/// Reused from program to program.
+/// Working memory for building tapes, reused for further programs.
 struct TapeScratch {
   struct Node {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
-    bool ends_layer = false;   ///< a fold, not of a group: subtracts the layer's cuts from the field
-    bool layer_cuts = false;   ///< for a layer's end: there are cuts
-    bool gone = false;         ///< merged into the nodes that read it
-    bool by_constant = false;  ///< for a mix or a morph: `by` replaces c
-    bool morphs = false;       ///< for a sum: it adds the morph of a and c by `by`, or,
-    bool weighs = false;       ///< after that, the kernel with these params
+    bool ends_layer = false;   ///< a fold that belongs to no group: subtracts the layer's cuts from the field
+    bool layer_cuts = false;   ///< for ends_layer: true if the layer has cuts
+    bool gone = false;         ///< true if the node was merged into the nodes that read it
+    bool by_constant = false;  ///< for a mix or a morph: `by` is its parameter instead of operand c
+    bool morphs = false;       ///< for a sum: it adds the morph of a and c by `by`
+    bool weighs = false;       ///< for a sum: what it adds is weighted by the kernel with these params
     float by = 0;
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< indices of values; -1: none
 
@@ -60,8 +61,8 @@ struct TapeScratch {
   };
   struct Value {
     uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0;
-    uint32_t uses = 0;   ///< by all nodes that make or read it
-    int32_t maker = -1;  ///< index of the node that makes all of it; -1: several make it
+    uint32_t uses = 0;   ///< number of times that nodes make or read the value
+    int32_t maker = -1;  ///< index of the only node that makes the value; -1: several nodes make it
     int32_t slot = -1, renamed = -1;
     bool in_block = false;
   };
@@ -77,8 +78,9 @@ struct TapeScratch {
   std::pmr::vector<Value> values;
 };
 
-/// Appends the program's records and headers to words. Returns false, with words unchanged, if a shader's limits are
-/// exceeded: records, layers, octaves, words of a record, or simultaneous values. Throws std::bad_alloc.
+/// Appends the program's records and headers to `words`. Returns false, with `words` unchanged, if a limit of the
+/// shaders is exceeded: records, layers, octaves, words of a record, or values that are needed at the same time. Throws
+/// std::bad_alloc.
 bool appendTape(const ProgramView& program, TapeScratch& scratch, std::pmr::vector<uint32_t>& words, Tape& tape);
 
 }  // namespace sgm

@@ -37,12 +37,13 @@ class Fuser {
     }
   }
 
-  /// The node that makes the value, if it has this op; else null.
+  /// Returns the only node that makes the value, if it has this op; otherwise null.
   Node* makerOf(int32_t v, Op op) {
     const int32_t maker = v < 0 ? -1 : values_[static_cast<size_t>(v)].maker;
     return maker >= 0 && nodes_[static_cast<size_t>(maker)].is(op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
   }
-  bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // and made once
+  // one use by its maker, one by its reader
+  bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }
 
   void takeConstant(Node& n) {
     if (!n.is(Op::mix) && !n.is(Op::morph)) return;
@@ -55,8 +56,8 @@ class Fuser {
     n.c = -1;
   }
 
-  /// A sum usually adds the weight of a distance, and in grammars that morph this is the distance of a morph of two
-  /// shapes.
+  /// Merges the operand into a sum. A sum usually adds the weight of a distance; in grammars that morph, this is the
+  /// distance to a morph of two shapes.
   void takeOperand(Node& n) {
     Node* const kernel = makerOf(n.a, Op::kernel);
     if (kernel == nullptr || !readOnce(n.a)) return;
@@ -65,7 +66,8 @@ class Fuser {
     n.a = kernel->a;
     kernel->gone = true;
     Node* const morph = makerOf(n.a, Op::morph);
-    // At either end of the morph pruning removes one of the two shapes, which saves more.
+    // If the morph's parameter is 0 or 1, nothing is merged: pruning then removes one of the two shapes, which saves
+    // more.
     if (morph == nullptr || !readOnce(n.a) || !morph->by_constant || !(morph->by > 0 && morph->by < 1)) return;
     n.morphs = true;
     n.by = morph->by;
@@ -74,15 +76,15 @@ class Fuser {
     morph->gone = true;
   }
 
-  /// Whether the op reads only a position, in a form that takes the minimum with its operand.
+  /// True if the op reads only a position and has a variant that takes the minimum with an operand.
   static bool isShape(uint32_t kind) {
     if (kind >= static_cast<uint32_t>(Op::count) || kind == static_cast<uint32_t>(Op::noise)) return false;
     const OpShape shape = shapeOf(static_cast<Op>(kind));
     return shape.position && shape.operands == 0;
   }
 
-  /// Merges a minimum into the shape just before it, as the shape's operand, unless other nodes read one of the two, or
-  /// the shape would have to wait for another sweep.
+  /// Merges a minimum into the shape just before it, as the shape's operand; but not if other nodes read one of the
+  /// two, or if the shape would then have to wait for another sweep.
   void uniteShapes() {
     int32_t values = 0;
     size_t kept = 0;

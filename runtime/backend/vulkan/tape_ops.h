@@ -1,6 +1,6 @@
 #pragma once
-// Properties of ops for tapes: the number of values read, whether they read the position, the words of parameters, and
-// their turn in a sweep.
+// Properties of ops that tapes need: the number of operands, whether they read the position, the number of parameter
+// words, and their turn in a sweep.
 
 #include <cstdint>
 
@@ -8,20 +8,20 @@
 
 namespace sgm {
 
-inline constexpr uint32_t kFirstWords = 28;  ///< of parameters, among a record's first 32 words
+inline constexpr uint32_t kFirstWords = 28;  ///< number of parameter words that fit into the first 32 words of a record
 
 struct OpShape {
   uint32_t operands = 0;
   bool position = false;
-  uint32_t words = 0;  ///< the most words of parameters, if it does not read a position
+  uint32_t words = 0;  ///< maximum number of parameter words of an op that does not read a position
 };
 
 OpShape shapeOf(Op op);
 
-/// The turn of a kind of instruction (TapeOp) within a sweep.
+/// Returns the turn of a kind of instruction (an Op or a TapeOp) within a sweep.
 uint32_t sweepRank(uint32_t kind);
 
-/// The largest number of parameter words of an op. p: its parameters.
+/// Returns the number of parameter words of an op. p: its parameters.
 uint32_t parameterWords(Op op, const uint32_t* p);
 
 }  // namespace sgm

@@ -11,9 +11,10 @@ namespace sgm {
 
 namespace {
 
-// Their words must be in the first part of a record (shaders/mesher/tape.glsl).
+// Parameter words of octaves must be in the first part of a record (shaders/mesher/tape.glsl), which limits their
+// number.
 constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
-// A shader would wait for ever for a record larger than its window.
+// A shader would wait forever for a record that is larger than its window.
 constexpr uint32_t kMostWords = 100 * kTapeRecordWords;
 
 class Scheduler {
@@ -24,7 +25,7 @@ class Scheduler {
     values_.clear();
   }
 
-  /// Returns false if the program exceeds a shader's limits.
+  /// Orders the program's instructions. Returns false if the program exceeds a limit of the shaders.
   bool run() {
     readNodes();
     fuseNodes(program_, scratch_);
@@ -59,7 +60,7 @@ class Scheduler {
         end.ends_layer = true;
         end.group = k;
         end.layer = layers_++;
-        // The cuts of a layer follow its adds.
+        // The cuts of a layer follow its adds, so the last group shows whether there are cuts.
         end.layer_cuts = g.cut;
         add(end);
       }
@@ -97,7 +98,7 @@ class Scheduler {
           break;
         case Op::warp:
           n.dst = -1;
-          n.group = in.dst;  // the place that it makes
+          n.group = in.dst;  // the place that the warp makes
           break;
         default:
           n.dst = registers_[in.dst] = newValue();
@@ -112,7 +113,8 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
-  /// Chooses blocks so short that their values surely get slots; a place is made once in a block, and not read before.
+  /// Divides the program into blocks so short that their values certainly get slots. A place is made at most once in a
+  /// block, and not read before that.
   void sortBlocks() {
     for (const Node& n : nodes_) TapeScratch::forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
     for (size_t first = 0; first < nodes_.size();) {
@@ -137,7 +139,7 @@ class Scheduler {
       v.in_block = false;
       v.stage = v.rank = 0;
     }
-    // Values made earlier that are read in or after this block.
+    // Counts the values made earlier that are read in this block or later.
     for (size_t v = 0; v < made_; ++v) values += values_[v].last >= begin ? size_t{1} : size_t{0};
     std::bitset<kMaxPlaces> touched;
     size_t i = first;
@@ -180,7 +182,7 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
-      // Among kinds of one turn, that is, all ops that join values, group equal kinds in the same way.
+      // Among kinds with the same turn, that is, all ops that join values, equal kinds are grouped in the same way.
       n.step = 0;
       TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];
@@ -207,8 +209,8 @@ class Scheduler {
     uint64_t free = ~uint64_t{0};
     for (uint32_t i = 0; i < nodes_.size(); ++i) {
       const Node& n = nodes_[i];
-      // A result takes its first operand's slot if that value is not needed later: pruned to this operand alone, it is
-      // free.
+      // A result gets the slot of its first operand, if that value is not needed later: so if pruning reduces the
+      // instruction to a copy of this operand, it costs nothing.
       for (const int32_t v : {n.a, n.b, n.c}) {
         if (v >= 0 && values_[static_cast<size_t>(v)].last == i) free |= bitOf(v);
       }

@@ -1,13 +1,13 @@
 #pragma once
-// Orders a program's instructions for a tape: in sweeps with long runs of each kind, and every value in one of few
-// slots.
+// Orders the instructions of a tape so that sweeps have long runs of each kind, and assigns values to as few slots as
+// possible.
 
 #include "backend/vulkan/tape.h"
 
 namespace sgm {
 
-/// Fills scratch with the records' order, kinds, places and slots. Returns false if a shader's limits are exceeded
-/// (appendTape). Throws std::bad_alloc.
+/// Fills scratch with the order, kinds, places and slots of the records. Returns false if a limit of the shaders is
+/// exceeded (see appendTape). Throws std::bad_alloc.
 bool scheduleTape(const ProgramView& program, TapeScratch& scratch);
 
 }  // namespace sgm

@@ -10,14 +10,15 @@ namespace sgm {
 namespace vulkan {
 namespace {
 
-/// Batches must fill a device's many invocations; on a few CPU threads larger batches only take longer.
+/// Number of chunks per batch. Large batches fill the many invocations of a device; on a few CPU threads they only take
+/// longer.
 constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
 
 struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   BatchPlan plan;
   BatchBuffers buffers;
-  uint64_t value = 0;  ///< of the queue: until this value the device works in it
+  uint64_t value = 0;  ///< value of the queue until which the device works in the slot
 };
 
 class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
@@ -62,7 +63,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Result<void> submit(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
-    // Repeat a wait that was given up because the driver ran out of memory.
+    // The wait is repeated if it was given up because the driver ran out of memory.
     if (Result<void> brought = reach(slot.buffers.reading); !brought) {
       slot.stuck = true;
       return brought;
@@ -97,7 +98,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       if (!done(job)) return false;
     }
     if (staying.empty()) return false;
-    // Parts that cannot be copied here are uploaded later by the caller, if it wants them there.
+    // Parts for which this fails are uploaded later by the caller, if it wants them on the device.
     Result<KeptParts> kept = kept_->keep(shared_from_this(), sources);
     if (!kept) return kept.error();
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move(kept->chunks[i]);
@@ -123,7 +124,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (!ring) return ring.error();
     ring_ = std::move(*ring);
     if (!options.pipeline_folder.empty()) {
-      // Without a cache, pipelines are made anew, and everything else works.
+      // Without a cache, pipelines are compiled again; everything else works.
       if (auto cache = PipelineCache::create(*device_, options.pipeline_folder)) {
         cache_ = std::move(*cache);
       } else if (options.warn) {
@@ -143,7 +144,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return {};
   }
 
-  /// Waits until the queue has reached the value; tries twice, since the driver may have been out of memory.
+  /// Waits until the queue has reached the value. Tries twice, since the driver may have been out of memory.
   Result<void> reach(uint64_t value) const {
     if (queue_->wait(value)) return {};
     const Result<bool> reached = queue_->wait(value);
@@ -160,8 +161,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::unique_ptr<PipelineCache> cache_;  // null: pipelines are not cached
   std::unique_ptr<Kernels> kernels_;
   std::unique_ptr<Mesher> mesher_;
-  std::unique_ptr<Memory> kept_memory_;  // for meshes that stay; null if the device is not the engine's
-  std::unique_ptr<DeviceMeshes> kept_;   // same as above
+  std::unique_ptr<Memory> kept_memory_;  // memory for meshes that stay; null if the device is not the engine's
+  std::unique_ptr<DeviceMeshes> kept_;   // null if the device is not the engine's
   IdleSlots slots_;
 };
 

@@ -12,18 +12,19 @@
 namespace sgm {
 
 struct VulkanBackendOptions {
-  /// Opens the device, also after a loss; then an error means that the CPU does all. Called by one thread at a time.
+  /// Opens the device; also called after a loss, where an error means that the CPU does all further work. Called by one
+  /// thread at a time.
   std::function<Result<std::unique_ptr<vulkan::Device>>()> open;
-  std::filesystem::path pipeline_folder;           ///< folder of the pipeline cache; empty: not cached
-  std::function<void(const std::string&)> inform;  ///< as BackendRequest::inform
-  std::function<void(const std::string&)> warn;    ///< as BackendRequest::warn
+  std::filesystem::path pipeline_folder;           ///< folder of the pipeline cache; empty: no file
+  std::function<void(const std::string&)> inform;  ///< same as BackendRequest::inform
+  std::function<void(const std::string&)> warn;    ///< same as BackendRequest::warn
   vulkan::MemoryOptions memory;
-  uint64_t resident_cap = UINT64_MAX;  ///< limit for meshes that stay in the device's memory, bytes
+  uint64_t resident_cap = UINT64_MAX;  ///< limit in bytes for meshes that stay in the device's memory
   BatchRoom room;
 };
 
-/// Meshes on the device, and on the given CPU backend if the device has no room or is lost; the stream continues with
-/// the same bytes. Errors if the device cannot be opened at first: as options.open.
+/// Creates a backend that meshes on a device, and on the given CPU backend if the device has no memory or is lost; the
+/// results are the same bytes. Errors: those of options.open, if the device cannot be opened at first.
 Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler);
 

@@ -15,7 +15,8 @@
 //   addSteps                   the vertices of a cell's edges: the numbers of the edges' first samples, with `steps`,
 //                              a byte each, added for the edges 4 to 11
 
-/// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. The vertex's offset along the edge is added.
+/// For each edge of a cube: where it begins in its cell, in 256ths of a cell, 9 bits per axis. The vertex's offset
+/// along the edge is added to it.
 struct CubePlaces {
   uint32_t of_edge[kCubeEdges];
 };
@@ -30,11 +31,12 @@ constexpr CubePlaces makeCubePlaces() {
 }
 inline constexpr CubePlaces kCubePlaces = makeCubePlaces();
 
-/// Whether some loop of N edges has a chord that chordMask forbids: only loops of 6 and 7 edges (tests/unit/backend).
+/// True if some loop of N edges has a chord that chordMask forbids: only loops of 6 and 7 edges have
+/// (tests/unit/backend).
 template <size_t N>
 inline constexpr bool kForbids = N >= 6;
 
-/// kLanes loops of one length: their vertices; and for each point its place and the chordMask of its edge.
+/// kLanes loops of one length: their vertices and, for each point, its position and the chordMask of its edge.
 template <size_t N>
 struct LoopLanes {
   alignas(64) uint32_t vertex[kLanes][8];
@@ -43,7 +45,8 @@ struct LoopLanes {
 
 inline Int absolute(Int a) { return sel(a < broadcastInt(0), wrapSub(broadcastInt(0), a), a); }
 
-/// triangulateLoopOf of mesh/triangulate.h for kLanes loops at a time: the number of each one's triangulation.
+/// Same as triangulateLoopOf of mesh/triangulate.h, for kLanes loops at a time. Returns in `ways` the number of each
+/// loop's triangulation.
 template <size_t N>
 void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
   using triangulation::firstWay;
@@ -111,18 +114,19 @@ void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
   storeLanes(way[0][N - 1], ways);
 }
 
-/// A queued loop: the vertices of its cell by edge of the cube, its own edges, and the place for its triangles.
+/// A loop that waits in a queue: the vertices of its cell by edge of the cube, the loop's edges, and where to write its
+/// triangles.
 struct alignas(64) WaitingLoop {
   uint32_t number[kCubeEdges];
   const uint8_t* edges;
   uint32_t* out;
 };
 
-/// Queues of loops by length, until a vector is full. The next length is unpredictable, so cells are added without a
-/// branch on it.
+/// Queues of loops by length; a queue is processed when it fills a vector. The length of the next loop is
+/// unpredictable, so cells are added without a branch on it.
 class LoopQueues {
  public:
-  /// offsets[v - first]: placeOffset of vertex v. Triangles are written to `out` and after it.
+  /// offsets[v - first]: placeOffset of vertex v. Triangles are written to `out` and behind it.
   LoopQueues(const uint32_t* offsets, size_t first, uint32_t* out) : offsets_(offsets), first_(first), out_(out) {
     for (size_t n = 0; n < kLengths; ++n) {
       next_[kShortest + n] = waiting_[n];
@@ -130,7 +134,7 @@ class LoopQueues {
     }
   }
 
-  /// Adds the loops of a cell. `place(number)` writes the vertices of the cell's edges.
+  /// Adds the loops of a cell. `place(number)` must write the vertices of the cell's edges.
   template <class Place>
   FN void add(uint64_t cell_case, const Place& place) {
     const uint32_t loop = kCubeFirstLoop[cell_case];
@@ -204,7 +208,7 @@ class LoopQueues {
           if constexpr (kForbids<N>) lanes.faces[i][lane] = chordMask(kCubeEdgeFaces[e], e, N);
         }
       }
-      // Fill unused lanes with a copy of another loop; any will do.
+      // Unused lanes get a copy of a loop in the queue; their results are ignored.
       for (size_t lane = some; lane < kLanes; ++lane) {
         for (size_t i = 0; i < N; ++i) {
           lanes.place[i][lane] = lanes.place[i][0];
@@ -226,10 +230,10 @@ class LoopQueues {
 };
 static_assert(kLongestCubeLoop == 7);
 
-/// Offsets from the number of a sample's first vertex to that of a cube's edge: bytes for the edges 4 to 11, since
-/// edges 0 to 3 are the first of their samples. One part depends on the case, which shows the samples' own edges. The
-/// other depends on the edges beyond the cell: those along x (bits 0 to 2: rows 0 to 2 at high x) or y (bits 3, 4: row
-/// 1 at low and high x) that leave it.
+/// Offsets from the number of a sample's first vertex to the vertex of a cube's edge. There is a byte for each of the
+/// edges 4 to 11, since edges 0 to 3 are the first of their samples. One part of the offset depends on the case, which
+/// shows which edges the cell's own samples have. The other part depends on the edges beyond the cell: along x (bits 0
+/// to 2: rows 0 to 2 at high x) and along y (bits 3, 4: row 1 at low and high x).
 struct CellSteps {
   uint64_t of_case[256], of_high[32];
 };
@@ -253,7 +257,8 @@ constexpr CellSteps makeCellSteps() {
 }
 inline constexpr CellSteps kCellSteps = makeCellSteps();
 
-/// Adds the triangles of a layer's cells. `low` and `high` number the owners of the planes below and above.
+/// Adds the triangles of a layer's active cells. `low` and `high`: the number of the first vertex of each sample in the
+/// planes below and above.
 inline void meshCells(const uint64_t* cells, size_t count, size_t size_x, const uint32_t* low, const uint32_t* high,
                       LoopQueues& queues) {
   const uint32_t *const low1 = low + size_x, *const high1 = high + size_x;

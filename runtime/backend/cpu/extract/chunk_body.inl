@@ -1,7 +1,8 @@
-// The body of a chunk, as in mesh/body.h. See mesh_kernels.h; cells.inl lists the includer's definitions.
+// Meshes the body of a chunk, with the same result as mesh/body.h. See mesh_kernels.h; cells.inl lists the definitions
+// that the including file must provide.
 
-/// Processes a vector of edges of plane z: computes their crossings, and writes the first `count` vertices and keys
-/// from number `vertex` on.
+/// Processes a vector of crossed edges of plane z: computes where the surface crosses them, and writes the first
+/// `count` vertices and keys, beginning with number `vertex`.
 inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
                             size_t count, size_t vertex, bool keys, MeshScratch& scratch, MeshPart& part) {
   constexpr int32_t kSide = kChunkSamples;
@@ -32,7 +33,7 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
     memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
   }
 
-  // As in vertexUnits: at most one coordinate lies between samples.
+  // Same as vertexUnits: at most one coordinate of a vertex lies between samples.
   const Int along = toIntBits(toUintBits(wrapAdd(wrapMul(t, cell), broadcastInt(kSubcell / 2))) >> 8);
   storeLanes(wrapAdd(corner_x, sel(e.along_x, along, zero)), scratch.place_x.data() + vertex);
   storeLanes(wrapAdd(corner_y, sel(e.along_y, along, zero)), scratch.place_y.data() + vertex);
@@ -57,7 +58,7 @@ inline void writeChunkPlane(const ChunkSamples& samples, const ChunkGrid& grid, 
   writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, keys, scratch, part);
 }
 
-/// kList: MeshKernels::list.
+/// kList: the function MeshKernels::list of the instruction set.
 template <auto kList>
 void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool keys, MeshScratch& scratch,
                      MeshPart& part) {

@@ -18,7 +18,7 @@ FN EdgeLanes unpackEdges(const uint32_t* edges, size_t z) {
           axis == broadcastInt(2)};
 }
 
-/// crossing() of mesh/vertex.h. The float division is off by one at most; the code after it corrects that.
+/// Same as crossing() of mesh/vertex.h. The float division is off by one at most, which the following code corrects.
 FN Int crossingOf(Int q0, Int q1) {
   const Int zero = broadcastInt(0), one = broadcastInt(1);
   const Int a = sel(q0 < zero, wrapSub(zero, q0), q0), b = sel(q1 < zero, wrapSub(zero, q1), q1);

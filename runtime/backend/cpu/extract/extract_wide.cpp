@@ -79,7 +79,7 @@ FN void spreadBits(const uint64_t* words, uint8_t* out) {
   }
 }
 
-// Corners of a triangulation's triangles, one lane each: first 8, then the rest.
+// The corners of the triangles of a triangulation, one per lane: the first 8, then the rest.
 template <size_t N>
 struct TriangleLanes {
   alignas(64) uint32_t corner[static_cast<size_t>(triangulation::kWays[N])][16];
@@ -94,7 +94,7 @@ constexpr TriangleLanes<N> makeTriangleLanes() {
 template <size_t N>
 inline constexpr TriangleLanes<N> kTriangleLanes = makeTriangleLanes<N>();
 
-// Stores end with the loop's last corner: the memory after it may already be written.
+// Stores must end with the loop's last corner, because the memory behind it may already contain other triangles.
 template <size_t N>
 FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
   const uint32_t* corners = kTriangleLanes<N>.corner[way];
@@ -161,7 +161,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sgm {
 
-// The passes of an instruction set; only the namespaces differ.
+// The table of an instruction set; the sets differ only in their namespaces.
 #define SGM_EXTRACT(name, set, list)                                                                      \
   {                                                                                                       \
     name, set::extract::signsOfRow, list, set::extract::meshSlab, set::extract::countSolid,               \

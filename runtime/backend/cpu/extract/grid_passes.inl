@@ -1,6 +1,7 @@
-// The passes over a caller's grid of floats. See mesh_kernels.h; cells.inl lists the includer's definitions.
+// The passes over a caller's grid of floats. See mesh_kernels.h; cells.inl lists the definitions that the including
+// file must provide.
 
-// Has the same sign as floor(clamp(v * scale) + 0.5).
+// True if the quantised value, floor(clamp(v * scale) + 0.5), is negative.
 inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.0f; }
 inline bool isFinite(float value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
 
@@ -11,7 +12,7 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
   const float* values = job.row(y, z);
   const size_t count = job.lattice.size[0];
   const Real scale = broadcast(job.scale), half = broadcast(0.5f), zero = broadcast(0.0f);
-  // The largest magnitude as bits. Bits are ordered like magnitudes, with infinity and NaN above all others.
+  // The bits of the largest magnitude so far. Bits are ordered like magnitudes, with infinity and NaN above all others.
   Int largest = broadcastInt(0);
   bool good = true;
   for (size_t first = 0; first < count; first += 64) {
@@ -40,7 +41,7 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
     words[first / 64] = word;
   }
   good = good && !any(largest > broadcastInt(0x7F7FFFFF));
-  uint64_t some = 0, lacking = 0;  // for a group: whether a sample is solid, and whether one is void
+  uint64_t some = 0, lacking = 0;  // for a group of words: bits set if a sample is solid, and if a sample is void
   const size_t group = job.lattice.group();
   for (size_t word = 0, bit = 0; word < job.lattice.words; ++bit) {
     for (const size_t end = std::min(word + group, job.lattice.words); word < end; ++word) {
@@ -57,7 +58,7 @@ struct Vector {
   Real x, y, z;
 };
 
-/// The value in 1024ths of a cell, within the range of Q.
+/// Returns the value in 1024ths of a cell, clamped to the range of Q.
 FN Real scaledOf(const GridJob& job, Real value) {
   PRECISE Real v = value * broadcast(job.scale);
   return clampReal(v, -static_cast<float>(kMaxQ), static_cast<float>(kMaxQ));
@@ -69,8 +70,8 @@ FN Int quantised(Real scaled) {
   return toInt(floorReal(v));
 }
 
-/// The difference along an axis whose next sample is `step` floats away: one-sided at the grid's border, else central.
-/// `at` is the coordinate, `size` the number of samples.
+/// Returns the difference along an axis: central or, at the grid's border, one-sided. `step`: distance to the next
+/// sample in floats; `at`: coordinate on the axis; `size`: number of samples on the axis.
 FN Real slopeAt(const GridJob& job, const float* plane, Int index, Int at, size_t size, size_t step) {
   const Int by = broadcastInt(static_cast<int32_t>(step)), next = wrapAdd(index, by), before = wrapSub(index, by);
   const Bool low = at > broadcastInt(0), high = at < broadcastInt(static_cast<int32_t>(size) - 1);
@@ -84,14 +85,15 @@ FN Vector gradientAt(const GridJob& job, const float* plane, Int index, Int x, I
           slopeAt(job, plane, index, z, job.lattice.size[2], job.stride_z)};
 }
 
-/// The samples around an edge's end inside the grid, by lane: four samples of its row, beginning one before it, and
-/// those beside it along y and z. Copied value by value, which is faster than gathers.
+/// The samples around one end of an edge inside the grid, by lane: four samples of its row, beginning one before the
+/// end, and the neighbours of the end along y and z. They are copied one by one, which is faster than gathers.
 struct Surroundings {
   alignas(64) float row[4 * kLanes];
   alignas(64) float y0[kLanes], y1[kLanes], z0[kLanes], z1[kLanes];
 };
 
-/// For a vector of edges. `there` is false if one of them lies at the grid's border, or if no normals are wanted.
+/// The samples around both ends of a vector of edges. `there` is false if they were not copied, because one of the
+/// edges lies at the grid's border, or no normals are requested.
 struct EdgeSurroundings {
   bool there;
   Surroundings start, end;
@@ -105,7 +107,7 @@ FN void look(const GridJob& job, const float* at, size_t lane, Surroundings& aro
   around.z1[lane] = at[job.stride_z];
 }
 
-/// Returns the gradient at an edge's end, and the sample there.
+/// Returns the gradient at one end of the edges; sets `scaled` to the sample there.
 FN Vector gradientOf(const GridJob& job, const Surroundings& around, Real& scaled) {
   Real before, here, after, unused;
   loadFour(around.row, before, here, after, unused);
@@ -118,8 +120,8 @@ FN Vector gradientOf(const GridJob& job, const Surroundings& around, Real& scale
           half(loadValues(around.z1), loadValues(around.z0))};
 }
 
-/// The interpolated gradient between an edge's ends, normalised. If it vanishes: `own`, the edge's direction from solid
-/// to void.
+/// Returns the interpolated gradient between the ends of the edges, normalised; if it is 0, `own`, the direction of the
+/// edge from solid to void.
 FN Vector normalBetween(const Vector& g0, const Vector& g1, Int t, const Vector& own) {
   const Real part = toReal(t) * broadcast(1.0f / kSubcell);
   const auto between = [&](Real a, Real b) {
@@ -139,7 +141,7 @@ FN Vector normalBetween(const Vector& g0, const Vector& g1, Int t, const Vector&
   return {sel(some, x * length, own.x), sel(some, y * length, own.y), sel(some, z * length, own.z)};
 }
 
-/// Stores three numbers for each of the first `count` lanes.
+/// Stores three numbers for each of the first `count` lanes, interleaved.
 FN void storeSome(Real x, Real y, Real z, size_t count, float* out) {
   if (count >= kLanes) return storeThree(x, y, z, out);
   float all_lanes[3 * kLanes];
@@ -147,7 +149,7 @@ FN void storeSome(Real x, Real y, Real z, size_t count, float* out) {
   std::copy_n(all_lanes, 3 * count, out);
 }
 
-/// The direction from solid to void along the edges.
+/// Returns the direction of the edges from solid to void.
 FN Vector ownDirection(const EdgeLanes& e, Int q0) {
   const Real side = sel(q0 < broadcastInt(0), broadcast(1.0f), broadcast(-1.0f)), none = broadcast(0.0f);
   return {sel(e.along_x, side, none), sel(e.along_y, side, none), sel(e.along_z, side, none)};
@@ -159,7 +161,7 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   const auto inside = [&](Int at, Int end, size_t axis) {
     return at > zero && end < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
   };
-  // Four samples of a row are read, but the last one is not used: it must not lie past the row's end.
+  // Four samples of a row are read, although the last one is not used: it must not lie beyond the row's end.
   around.there = all(inside(e.x, wrapAdd(e.x, sel(e.along_x, broadcastInt(2), one)), 0) &&
                      inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
                      inside(e.z, wrapAdd(e.z, sel(e.along_z, one, zero)), 2));
@@ -174,7 +176,7 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   }
 }
 
-/// Computes the crossings of edges and their normals, from the samples around them or from the grid.
+/// Computes where the surface crosses the edges (t) and the normals there, from the copied samples or from the grid.
 FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, const EdgeSurroundings& around,
                     bool normals, Int& t) {
   if (around.there) {
@@ -197,7 +199,7 @@ FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, 
                        t, ownDirection(e, q0));
 }
 
-/// Bounds of the vertices' coordinates in 256ths of a cell, by lane.
+/// Bounds of the vertices' coordinates in 1/256 of a cell, separately for each lane.
 struct BoundsLanes {
   Int lo[3], hi[3];
 };
@@ -207,8 +209,8 @@ FN void growBounds(BoundsLanes& bounds, size_t axis, Int at) {
   bounds.hi[axis] = maxInt(at, bounds.hi[axis]);
 }
 
-/// Processes a vector of edges of plane z: computes their crossings and, with `write`, positions and normals of the
-/// first `count`, from vertex number `vertex` on.
+/// Processes a vector of edges of plane z: computes where the surface crosses them and, if `write`, the positions and
+/// normals of the first `count` vertices, beginning with number `vertex`.
 inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, const EdgeSurroundings& around,
                        size_t count, size_t vertex, uint32_t* offsets, bool write, BoundsLanes& bounds) {
   const EdgeLanes e = unpackEdges(edges, z);
@@ -229,12 +231,12 @@ inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, cons
   if (normals) storeSome(n.x, n.y, n.z, count, job.normals + vertex * 3);
 }
 
-/// Processes the listed edges of plane z; without `write` computes only the vertices' offsets along their edges.
+/// Processes the listed edges of plane z. Without `write`, computes only the offsets of vertices along their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
                        uint32_t* offsets, bool write, BoundsLanes& bounds) {
   // Vectors are processed in batches, so that values are written long before they are read as vectors. The plane after
-  // the next is not in cache, and none may be if another thread has processed the slab below on another core. So
-  // samples for edges further ahead in the list are prefetched.
+  // the next is usually not in cache; and no plane may be, if a thread on another core has processed the slab below. So
+  // the samples for edges further ahead in the list are prefetched.
   constexpr size_t kBatch = 2, kAhead = 128;
   const float* const beyond = job.row(0, std::min(z + 2, job.lattice.size[2] - 1));
   const size_t cold = write ? 0 : 2;
@@ -275,8 +277,8 @@ inline GridBounds meshSlab(const GridJob& job, const GridSlab& slab, const GridS
   uint32_t* low = scratch.numbers;
   uint32_t* high = scratch.numbers + size_x * job.lattice.size[1];
   LoopQueues queues(scratch.offsets, first_vertex, job.indices + slab.first_triangle * 3);
-  // The plane below the first belongs to another slab, which writes its vertices; but their numbers and places are
-  // needed here, too.
+  // The plane below the first one belongs to another slab, which writes its vertices; but their numbers and positions
+  // are needed for this slab's triangles, too.
   for (size_t z = below; z < slab.last; ++z) {
     const size_t vertex = slab.first_vertex[z], count = slab.first_vertex[z + 1] - vertex;
     const bool own = z >= slab.first;

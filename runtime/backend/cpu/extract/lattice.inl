@@ -1,13 +1,13 @@
-// The input of the lists of crossed edges and active cells, and their packing. See mesh_kernels.h; cells.inl lists the
-// includer's definitions.
+// The input of the lists of crossed edges and active cells, and the packing of their elements. See mesh_kernels.h;
+// cells.inl lists the definitions that the including file must provide.
 
 FN uint64_t wordMask(size_t word, size_t count) {
   const size_t first = word * 64;
   return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
 }
 
-/// The groups of four rows that may have crossed edges or active cells: those not proven uniform together with the next
-/// group, in which a word's last cells end.
+/// Returns the groups of four rows that may have crossed edges or active cells: those that are not proven uniform
+/// together with the next group, into which the last cells of a group reach.
 FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2]) {
   const size_t group = lattice.group(), groups = group == 1 ? lattice.words : (lattice.words + group - 1) / group;
   if (lattice.words == 1 || lattice.uniform == nullptr) return wordMask(0, groups);
@@ -17,12 +17,12 @@ FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const 
     empty &= row[0];
     solid &= row[1];
   }
-  // Groups after the last count as uniform in both ways: no edge begins after the end of a row.
+  // Groups after the last one count as both void and solid, because no edge begins behind the end of a row.
   constexpr uint64_t kLast = uint64_t{1} << 63;
   return ~((empty & (empty >> 1 | kLast)) | (solid & (solid >> 1 | kLast))) & wordMask(0, groups);
 }
 
-/// For the rows first..last - 1, at most 64 with one word each: bit i is set if row first + i, the next row and the two
+/// For rows first..last - 1, at most 64, of one word each: bit i is set if row first + i, the next row and the two rows
 /// above them are neither all void nor all solid.
 FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {
   const uint64_t *low = lattice.row(0, z), *high = lattice.row(0, z_above), solid = wordMask(0, lattice.size[0]);
@@ -35,20 +35,20 @@ FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size
   return mixed;
 }
 
-/// The packing of a crossed edge of a plane: its axis, then the y and x of the sample that owns it.
+/// A crossed edge of a plane is packed as its axis, then the y and x of the sample at which it starts.
 inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
 
-/// Packs an active cell of a layer: the index of its lowest sample in the plane, the edges beyond it (CellSteps), and
-/// its case.
+/// Packs an active cell of a layer: the index of its lowest sample in the plane; which edges exist beyond it
+/// (CellSteps); and its case.
 constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
   return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }
 
-/// Sets the number of the first vertex of each sample that owns some. `edges` are a plane's; the first one has number
-/// `first`.
+/// Sets, for each sample at which a crossed edge starts, the number of its first vertex. `edges`: the list of a plane;
+/// its first edge has number `first`.
 inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
-  // Backwards, so that the value of a sample's first edge remains.
+  // In reverse order, so that the number of a sample's first edge is written last.
   for (size_t i = count; i-- > 0;)
     numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] =
         static_cast<uint32_t>(first + i);

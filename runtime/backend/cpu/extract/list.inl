@@ -1,8 +1,8 @@
-// Everything that follows from signs alone: crossed edges, active cells, their cases, and counts. See mesh_kernels.h;
-// cells.inl lists the includer's definitions.
+// Lists everything that follows from signs alone: crossed edges, active cells, their cases, and counts. See
+// mesh_kernels.h; cells.inl lists the definitions that the including file must provide.
 
-/// Signs of a row at a word's samples, and at the next samples. The row's last sample is followed by itself, so that no
-/// edge begins there.
+/// The signs of a row at a word's samples, and at the samples that follow each of them. The row's last sample counts as
+/// followed by itself, so that no edge begins there.
 struct RowSigns {
   uint64_t low, high;
 };
@@ -13,7 +13,7 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
   return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
 }
 
-/// Calls f(word) for the words of the groups whose bits are set, in order.
+/// Calls f(word) for the words of those groups whose bit in `wanted` is set, in order.
 template <class F>
 FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   const size_t group = lattice.group();
@@ -23,7 +23,7 @@ FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   }
 }
 
-/// By case: bits 0 to 2 tell whether the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are crossed.
+/// By case: bits 0 to 2 are set if the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are crossed.
 struct CaseEdges {
   uint8_t along_x[256];
 };
@@ -37,17 +37,17 @@ constexpr CaseEdges makeCaseEdges() {
 }
 inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 
-/// The active cells of a word, and the data for their cases.
+/// The active cells of a word, with the data from which their cases are made.
 struct WordCells {
-  const uint64_t* corner;  ///< signs at the cells' corners in the order of a case's bits, plus one word
-  uint32_t next_case;      ///< of the cell after the word's last one; 0 if there is none
-  uint64_t along_y[2];     ///< whether an edge along y continues beyond the cell, at its low and its high x
+  const uint64_t* corner;  ///< signs at the cells' corners, in the order of a case's bits, with one more word
+  uint32_t next_case;      ///< case of the cell after the word's last cell; 0 if there is none
+  uint64_t along_y[2];     ///< bits of cells at whose low, or high, x a crossed edge along y begins beyond the cell
   uint64_t active;
   size_t place;  ///< index of the word's first cell in the plane
 };
 
-/// Calls f(bit, mask) for the bits that are set, and perhaps f(64, 0) at the end: the number of bits is unpredictable,
-/// so a branch for each costs more than a useless call.
+/// Calls f(bit, mask) for the bits that are set, and possibly f(64, 0) at the end: the number of bits is unpredictable,
+/// so that a branch for each bit would cost more than a useless call.
 template <class F>
 FN void forBits(uint64_t bits, F&& f) {
   do {
@@ -60,7 +60,8 @@ FN void forBits(uint64_t bits, F&& f) {
 
 /// Lists a word's crossed edges and active cells one bit after the other.
 struct OneByOne {
-  /// Lists, packed, the edges along x, y and z that are crossed, for samples from `first` on. Returns their number.
+  /// Appends packed crossed edges to `out`. x, y, z: bits of the samples at which crossed edges along these axes start,
+  /// for 64 samples from `first` on. Returns the number of edges.
   FN static size_t edges(uint64_t x, uint64_t y, uint64_t z, uint32_t first, uint32_t* out) {
     uint32_t* next = out;
     forBits(x | y | z, [&](size_t bit, uint64_t mask) {
@@ -76,7 +77,7 @@ struct OneByOne {
     return static_cast<size_t>(next - out);
   }
 
-  /// Returns the number of triangles of the cells.
+  /// Appends the packed active cells; returns the number of their triangles.
   FN static uint64_t cells(const WordCells& word, uint64_t* out) {
     uint8_t cases[64 + 1];
     spreadBits<8>(word.corner, cases);
@@ -94,8 +95,8 @@ struct OneByOne {
   }
 };
 
-/// Lists what rows of plane z own: crossed edges, by sample and axis, in the order of vertices; and the active cells of
-/// the layer above, in their order.
+/// Lists what rows of plane z own: crossed edges, sorted by sample and axis, as vertices are; and the active cells of
+/// the layer above, in the canonical order.
 inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
                            uint64_t* cells) {
   ListCounts counts;
@@ -108,7 +109,7 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
                                      lattice.row(ys[1], zs[1])};
     const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
     forWords(lattice, mixedGroups(lattice, ys, zs), [&](size_t word) {
-      uint64_t corner[8 + 1];  // spreadBits may read one more
+      uint64_t corner[8 + 1];  // one more than corners, because spreadBits may read one word more
       uint64_t some = 0, every = ~uint64_t{0};
       for (size_t i = 0; i < 4; ++i) {
         const RowSigns s = signsOf(lattice, rows[i], word);
@@ -118,7 +119,8 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
         every &= s.low & s.high;
       }
       corner[8] = 0;
-      // A sample that owns a crossed edge begins an active cell, unless the cell lies outside of the lattice.
+      // A sample at which a crossed edge starts is the lowest sample of an active cell, unless the cell lies outside of
+      // the lattice.
       if ((some & ~every) == 0) return;
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
       if ((x | y_edges | z_edges) != 0) {

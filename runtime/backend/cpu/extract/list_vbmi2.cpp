@@ -5,7 +5,7 @@
 #if HWY_ARCH_X86_64
 
 #if !HWY_COMPILER_CLANG
-// GCC warns about values that its own header leaves uninitialized on purpose.
+// GCC warns about values that its own header leaves uninitialised on purpose.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
@@ -37,15 +37,16 @@ namespace {
 
 #include "backend/cpu/extract/lattice.inl"
 
-/// The edges of 64 samples are listed in turn: x, y, z of each sample. For one vector of bytes of that list: the
-/// samples, as bits of an axis's word from `shift` on, and the bytes of their edges.
+/// The order in which the edges of 64 samples are listed: x, y, z of each sample in turn, a byte each, in three
+/// vectors. This is one axis's share of one vector: its samples, as bits of the axis's word from `shift` on, and the
+/// bytes of their edges.
 struct TurnOfAxis {
   int shift;
   uint64_t bytes;
 };
 struct Tables {
   TurnOfAxis turns[3][3];              ///< by vector and axis
-  alignas(64) uint8_t edge[3][64];     ///< by vector and byte: the axis, two bits, and the sample, six
+  alignas(64) uint8_t edge[3][64];     ///< by vector and byte: the edge's axis (two bits), and its sample (six bits)
   alignas(64) uint8_t number[64];      ///< index of a byte in its vector
   alignas(64) uint8_t following[64];   ///< index of the next byte
   alignas(64) uint8_t by_samples[64];  ///< permutation that groups the bytes of 8 words by 8 samples
@@ -74,22 +75,22 @@ constexpr Tables kTables = makeTables();
 
 FN __m512i bytesOf(const uint8_t* bytes) { return _mm512_load_si512(bytes); }
 
-/// Bit i of word k becomes bit k of byte i: groups the bytes by samples, and transposes each group of eight as a bit
-/// matrix.
+/// Makes bit i of word k bit k of byte i: groups the bytes by samples, and transposes each group of eight bytes as a
+/// bit matrix.
 FN __m512i spreadBits(__m512i words) {
   return _mm512_gf2p8affine_epi64_epi8(_mm512_set1_epi64(static_cast<int64_t>(0x8040201008040201u)),
                                        _mm512_permutexvar_epi8(bytesOf(kTables.by_samples), words), 0);
 }
 
-/// The output lists. Up to two vectors may be written past their end.
+/// The lists that are being written. Up to two vectors may be written past the end of each.
 struct Listing {
   uint32_t* edges;
   uint64_t* cells;
-  __m512i triangles;  ///< as eight partial sums
+  __m512i triangles;  ///< number of triangles, as eight partial sums
 };
 
-/// Lists, packed, the edges along x, y and z that are crossed, for samples from `first` on. The number is
-/// unpredictable, so vectors are written even if they are empty.
+/// Appends the packed crossed edges along x, y and z, for 64 samples from `first` on. Their number is unpredictable, so
+/// vectors are written even if they are empty.
 FN void listEdges(const uint64_t (&crossed)[3], uint32_t first, Listing& out) {
   constexpr uint32_t kSample = 63, kAxis = 3u << 2 * kPlaceBits;
   const auto packed = [&](__m128i edges) {
@@ -124,7 +125,8 @@ FN __m512i trianglesOf(__m512i cases) {
   return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(cases), high);
 }
 
-/// Lists the active cells of a word. `place`: index of its first cell; `beyond`: as in packedCell.
+/// Appends the packed active cells of a word. `place`: index of its first cell; `beyond`: as for packedCell, one per
+/// cell.
 FN void listCells(uint64_t active, __m512i cases, __m512i beyond, size_t place, Listing& out) {
   const __m512i base = _mm512_set1_epi64(static_cast<int64_t>(place << 16));
   const auto packed = [&](__m128i case_and_beyond, __m128i number) {
@@ -155,18 +157,18 @@ FN void listCells(uint64_t active, __m512i cases, __m512i beyond, size_t place, 
       out.triangles, _mm512_sad_epu8(_mm512_maskz_mov_epi8(active, trianglesOf(cases)), _mm512_setzero_si512()));
 }
 
-/// The four rows of samples around a row of cells, in the order of a case's bits, and the next row along y.
+/// The four rows of samples around a row of cells, in the order of a case's bits, and the row that follows along y.
 struct RowsOfCells {
   const uint64_t *rows[4], *following;
 };
 
-/// Lists the edges and cells of a word of samples.
+/// Appends the edges and cells of a word of samples.
 FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has_cells, size_t y, size_t word,
                  Listing& out) {
   const bool goes_on = word + 1 < lattice.words;
   const uint64_t last = goes_on ? 0 : uint64_t{1} << (lattice.size[0] - 1) % 64, going = goes_on ? ~uint64_t{0} : 0;
   uint64_t next[4], low[4], high[4];
-  // The last sample is followed by itself, so no edge begins there.
+  // The row's last sample counts as followed by itself, so that no edge begins there.
   const auto highOf = [&](uint64_t signs, uint64_t following) { return signs >> 1 | following << 63 | (signs & last); };
   uint64_t some = 0, every = ~uint64_t{0};
   for (size_t i = 0; i < 4; ++i) {
@@ -185,12 +187,12 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
                                                     static_cast<int64_t>(high[2]), static_cast<int64_t>(low[2]),
                                                     static_cast<int64_t>(high[1]), static_cast<int64_t>(low[1]),
                                                     static_cast<int64_t>(high[0]), static_cast<int64_t>(low[0])));
-  // After the word's last cell: whether the next word's first two samples differ, if they exist.
+  // Behind the word's last cell: whether the first two samples of the next word, if they exist, differ.
   const bool has_two = (word + 1) * 64 + 1 < lattice.size[0];
   const uint64_t behind = (next[0] & 3) | (next[1] & 3) << 2 | (next[2] & 3) << 4;
   const __m512i following = _mm512_mask_set1_epi8(_mm512_permutexvar_epi8(bytesOf(kTables.following), cases),
                                                   uint64_t{1} << 63, static_cast<char>(has_two ? behind : 0));
-  // In a case, bits 0 and 1, 2 and 3, 4 and 5 are the ends of edges along x.
+  // In a case, bits 0 and 1 are the two ends of an edge along x, as are bits 2 and 3, and bits 4 and 5.
   const __m512i along_x =
       _mm512_gf2p8affine_epi64_epi8(following, _mm512_set1_epi64(static_cast<int64_t>(0x030C300000000000u)), 0);
   const uint64_t far = around.following[word], far_next = around.following[word + goes_on] & going;
@@ -199,12 +201,12 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
   listCells(active, cases, _mm512_or_si512(along_x, along_y), y * lattice.size[0] + word * 64, out);
 }
 
-/// The signs of the next samples.
+/// Returns the signs of the samples that follow along x.
 FN __m512i highOf(__m512i low, __m512i behind) {
   return _mm512_or_si512(_mm512_srli_epi64(low, 1), _mm512_slli_epi64(behind, 63));
 }
 
-/// Appends the words of a row that have crossed edges or active cells, as row * 256 + word. Returns their number.
+/// Appends the words of a row that have crossed edges or active cells, each as row * 256 + word. Returns their number.
 FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t y, uint32_t* out) {
   static_assert((size_t{1} << kPlaceBits) / 64 <= 256);
   uint32_t* next = out;
@@ -222,7 +224,7 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
       some_next = _mm512_or_si512(some_next, next_signs);
       every_next = _mm512_and_si512(every_next, next_signs);
     }
-    // The last sample has no cell, but has edges along y and z.
+    // The last sample begins no cell, but edges along y and z.
     const __m512i cells =
         left > 8 ? _mm512_set1_epi64(-1)
                  : _mm512_mask_set1_epi64(_mm512_set1_epi64(-1), static_cast<__mmask8>(1u << (left - 1)),
@@ -245,8 +247,8 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
 
 }  // namespace
 
-/// As listRows of list.inl, but a word at a time: non-empty words are found first, and no branch depends on the number
-/// of their edges and cells.
+/// Same as listRows of list.inl, but processes a word at a time: words with edges are found first, and no branch
+/// depends on the number of their edges and cells.
 ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, size_t last, uint32_t* edges,
                          uint64_t* cells) {
   const bool above = z + 1 < lattice.size[2];

@@ -1,12 +1,12 @@
 #pragma once
-// MeshKernels::list for processors that compress bytes within a register (AVX-512 VBMI2) and transpose bits (GFNI): Ice
-// Lake, Zen 4 and later.
+// An implementation of MeshKernels::list for processors that can compress bytes within a register (AVX-512 VBMI2) and
+// transpose bit matrices (GFNI): Ice Lake, Zen 4 and later.
 
 #include "backend/cpu/extract/mesh_kernels.h"
 
 namespace sgm {
 
-/// Whether this processor supports it. Thread-safe.
+/// True if this processor supports both. Thread-safe.
 bool vbmi2RunsHere();
 
 /// Precondition: vbmi2RunsHere(). Built only for x86-64.

@@ -1,8 +1,8 @@
 #pragma once
-// Marching cubes with bit operations: crossed edges and active cells are found from signs, 64 samples a word; vertices
-// and loops are then processed in vectors. For a caller's grid of floats, and for the samples of a chunk, including all
-// other work on a chunk that does not need the field. One source is compiled for each instruction set (the .inl files
-// here); all give the same bits.
+// Marching cubes with bit operations. Crossed edges and active cells are found from signs, 64 samples per word;
+// vertices and loops are then processed in vectors. Used for a caller's grid of floats, and for chunks, including all
+// work on a chunk that does not need the field. The same source (the .inl files here) is compiled for each instruction
+// set; all give the same bits.
 
 #include <array>
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace sgm {
 
-/// Signs of a lattice of samples: by z, y and word; bit 1 means solid. Bits after the last sample of a row are 0. Owns
-/// nothing.
+/// The signs of a lattice of samples, by z, y and word; bit 1 means solid. Bits after the last sample of a row are 0.
+/// Does not own the arrays.
 struct SignLattice {
-  std::array<size_t, 3> size{};  ///< samples: at least 2 and at most 2^14 on each axis
-  size_t words = 0;              ///< in a row: size[0] / 64, rounded up
+  std::array<size_t, 3> size{};  ///< number of samples on each axis, 2 to 2^14
+  size_t words = 0;              ///< number of words in a row: size[0] / 64, rounded up
   const uint64_t* signs = nullptr;
-  /// Two words a row. Bit g is set if all samples of the row's words g * group..(g + 1) * group - 1 are void (first
-  /// word) or solid (second word). Null: unknown.
+  /// Two words per row, for groups of `group` successive words. Bit g of the first word is set if all samples of the
+  /// row's group g are void; of the second word, if all are solid. Null: unknown.
   const uint64_t* uniform = nullptr;
 
   size_t group() const { return (words + 63) / 64; }
@@ -30,64 +30,66 @@ struct SignLattice {
   const uint64_t* uniformRow(size_t y, size_t z) const { return uniform + (z * size[1] + y) * 2; }
 };
 
-/// Input and output of the passes over a grid. Owns nothing.
+/// Input and output of the passes over a grid. Does not own the arrays.
 struct GridJob {
   const float* values = nullptr;
   SignLattice lattice;
-  size_t stride_y = 0, stride_z = 0;  ///< floats; stride_y * size[1] and 4 * stride_z are below 2^31
-  float scale = 0;                    ///< Q per unit of the values
-  double step = 0;                    ///< a 256th of a cell, in the unit of the positions
+  /// distances of rows and planes in floats; stride_y * size[1] and 4 * stride_z are below 2^31
+  size_t stride_y = 0, stride_z = 0;
+  float scale = 0;  ///< factor from values to quantised samples Q
+  double step = 0;  ///< 1/256 of a cell, in the unit of the positions
 
-  float* positions = nullptr;   ///< three a vertex
-  float* normals = nullptr;     ///< three a vertex; null if not wanted
-  uint32_t* indices = nullptr;  ///< three a triangle
+  float* positions = nullptr;   ///< three per vertex
+  float* normals = nullptr;     ///< three per vertex; null if not wanted
+  uint32_t* indices = nullptr;  ///< three per triangle
 
   const float* row(size_t y, size_t z) const { return values + y * stride_y + z * stride_z; }
 };
 
-/// For rows of a plane: the crossed edges that they own, which become vertices, and the active cells of the layer
-/// above.
+/// The results of listing rows of a plane: the numbers of crossed edges that start in these rows, which become
+/// vertices, and of active cells in the layer above the plane.
 struct ListCounts {
   uint64_t vertices = 0, cells = 0, triangles = 0;
 };
 
-/// Lanes of the widest vector: passes may write this much past the end of scratch.
+/// Lanes of the widest vector. A pass may write up to this number of elements past the end of a list.
 inline constexpr size_t kMostLanes = 16;
 
-/// The sizes of lists of `rows` rows: edges (packed as in lattice.inl) and cells.
+/// Capacities of the lists for `rows` rows: of edges (packed as in lattice.inl), and of cells.
 constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMostLanes; }
 constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMostLanes; }
 
-/// Bounds of a slab's own vertices, in 256ths of a cell; lo above hi if there are none.
+/// Bounds of the vertices that a slab owns, in 1/256 of a cell; lo is above hi if it has none.
 struct GridBounds {
   std::array<int32_t, 3> lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
 };
 
-/// The planes first..last - 1, and the layers of cells below each: their lists, and the counts before them. A layer has
-/// the number of the plane below it.
+/// A slab to be meshed: the planes first..last - 1, and the layers of cells below each of them; their lists, and the
+/// counts before them. A layer has the number of the plane below it.
 struct GridSlab {
   size_t first = 0, last = 0;
-  const uint64_t* first_vertex = nullptr;  ///< by plane, with one more element at the end
-  const uint64_t* first_cell = nullptr;    ///< by layer, same as above
-  uint64_t first_triangle = 0;             ///< of the slab
-  const uint32_t* edges = nullptr;         ///< of the slab's planes
-  const uint64_t* cells = nullptr;         ///< of the layers from `first` on
-  /// Of plane first - 1 and of the layer above it; null where `first` is 0.
+  /// by plane, with one more element at the end: number of the plane's first vertex
+  const uint64_t* first_vertex = nullptr;
+  const uint64_t* first_cell = nullptr;  ///< by layer, likewise: number of the layer's first cell
+  uint64_t first_triangle = 0;           ///< number of the slab's first triangle
+  const uint32_t* edges = nullptr;       ///< list of crossed edges of the slab's planes
+  const uint64_t* cells = nullptr;       ///< list of active cells of the layers from `first` on
+  /// Lists of plane first - 1 and of the layer above it; null if `first` is 0.
   const uint32_t* edges_below = nullptr;
   const uint64_t* cells_below = nullptr;
 };
 
-/// Scratch of one slab: raw memory that need not be cleared.
+/// Working memory for one slab, which need not be initialised.
 struct GridScratch {
-  uint32_t* numbers = nullptr;  ///< 2 * size[0] * size[1]
+  uint32_t* numbers = nullptr;  ///< capacity 2 * size[0] * size[1]
   uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane below it, plus kMostLanes
 };
 
-inline constexpr int kBrickSamples = 8;                      ///< on each axis; the last brick has one more
-inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< on each axis
+inline constexpr int kBrickSamples = 8;                      ///< per axis; the last brick of a chunk has one more
+inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< per axis
 inline constexpr int kBrickCount = kBricks * kBricks * kBricks;
 
-/// Scratch of one chunk; grows once.
+/// Working memory for one chunk; allocated once, then reused.
 struct MeshScratch {
   explicit MeshScratch(std::pmr::memory_resource* memory)
       : numbers(memory),
@@ -109,10 +111,11 @@ struct MeshScratch {
 
   RawArray<uint32_t> numbers, edges, offsets;
   RawArray<uint64_t> cells;
-  /// For a body's vertices: the brick of the sample that owns the vertex's edge, x fastest, and the place in units.
+  /// For each vertex of a body: the brick of the sample at which the vertex's edge starts (x fastest), and the vertex's
+  /// position in units.
   RawArray<uint32_t> brick;
   RawArray<int32_t> place_x, place_y, place_z;
-  /// For the evaluated vertices, in their order.
+  /// For the vertices in the order of their evaluation: their indices, and their attributes.
   RawArray<uint32_t> order, label;
   RawArray<int32_t> x, y, z, q;
   RawArray<int16_t> normal_x, normal_y;
@@ -123,35 +126,37 @@ struct MeshScratch {
   }
 };
 
-/// Pure except for the memory their arguments point at, which concurrent calls must not share.
+/// The functions of one instruction set. They are pure except for the memory to which their arguments point, which
+/// concurrent calls must not share.
 struct MeshKernels {
   const char* name;
-  /// Writes the signs of a row of the grid to `signs`, and which are uniform. Returns false if a value is not finite.
+  /// Writes the signs of a row of the grid, and the bits of uniform groups. Returns false if a value is not finite.
   bool (*signs)(const GridJob&, size_t y, size_t z, uint64_t* signs, uint64_t* uniform);
-  /// Lists the edges and cells that the rows first..last - 1 of plane z own.
+  /// Lists the crossed edges and active cells of rows first..last - 1 of plane z.
   using List = ListCounts(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
   List* list;
   /// Writes the vertices and triangles of a slab.
   GridBounds (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
   /// Counts the solid samples of a chunk, without those of its high faces.
   uint32_t (*count)(const ChunkSamples&);
-  /// polygonizeBody of mesh/body.h, with or without the keys; also fills scratch.brick and scratch.place_x, y, z.
+  /// Same as polygonizeBody of mesh/body.h, with or without keys; also fills scratch.brick and scratch.place_x, y, z.
   void (*polygonize)(const ChunkSamples&, const ChunkGrid&, bool keys, MeshScratch&, MeshPart&);
-  /// Sorts the last polygonized vertices by brick: fills scratch.order, and x, y and z in units. start[b] is the index
-  /// where brick b begins.
+  /// Sorts the vertices of the last polygonize() by brick: fills scratch.order, and x, y and z in units. start[b]:
+  /// index where brick b begins.
   void (*sort)(MeshScratch&, size_t count, std::array<uint32_t, kBrickCount + 1>& start);
-  /// Copies the attributes in scratch to the vertices scratch.order[0..count).
+  /// Copies the attributes from scratch to the vertices scratch.order[0..count).
   void (*attribute)(MeshScratch&, size_t count, MeshPart&);
-  /// hashPart of mesh/hash.h.
+  /// Same as hashPart of mesh/hash.h.
   void (*hash)(MeshPart&);
 };
 
 const MeshKernels& scalarMeshKernels();
-/// Without scalar; null if not in this build.
+/// Returns the kernels of a vector instruction set; null if this build does not contain it. Not for "scalar".
 const MeshKernels* findWideMeshKernels(const char* name);
-/// By the names of findKernels; null if this build or this processor lacks the set.
+/// Returns the kernels of an instruction set, by the names of findKernels(); null if this build does not contain it, or
+/// this processor does not support it.
 const MeshKernels* findMeshKernels(const char* name);
-/// For the instruction set of bestKernels().
+/// Returns the kernels for the instruction set of bestKernels().
 const MeshKernels& bestMeshKernels();
 
 }  // namespace sgm
