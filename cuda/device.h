@@ -1,5 +1,5 @@
 #pragma once
-// The devices that run kernels: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
+// The interface of devices that run kernels: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
 
 #include <bit>
 #include <cstddef>
@@ -32,54 +32,54 @@ enum class Kernel : uint8_t {
 struct DeviceInfo {
   std::string name;
   int capability_major = 0, capability_minor = 0;
-  int driver = 0;           ///< supported CUDA version: 1000 * major + 10 * minor; 0: no driver
-  uint64_t memory = 0;      ///< bytes
-  int clock = 0;            ///< the highest of its multiprocessors, kHz
-  uint32_t processors = 1;  ///< multiprocessors
-  int memory_pools = 0;     ///< 1: supports stream-ordered allocation
+  int driver = 0;           ///< CUDA version that the driver supports: 1000 * major + 10 * minor; 0: no driver
+  uint64_t memory = 0;      ///< device memory in bytes
+  int clock = 0;            ///< maximum clock of the multiprocessors in kHz
+  uint32_t processors = 1;  ///< number of multiprocessors
+  int memory_pools = 0;     ///< 1: the device supports stream-ordered allocation
   DeviceId id{};
-  std::string ails;  ///< the problem if the driver cannot describe the device; else empty
+  std::string ails;  ///< the problem, if the driver cannot describe the device; otherwise empty
 };
 
-inline constexpr size_t kAlignment = 256;  ///< alignment of allocated device memory
+inline constexpr size_t kAlignment = 256;  ///< alignment of allocated device memory in bytes
 
 enum class MemoryKind : uint8_t {
   device,
   pinned  ///< host memory for asynchronous copies
 };
 
-/// A queue of work that runs in order and asynchronously. One thread at a time. Its destructor waits for the work,
-/// except for frees. Errors of all functions: out_of_memory, device_lost, unsupported.
+/// A queue of work that runs in order and asynchronously. Not thread-safe. The destructor waits for the work, except
+/// for frees of memory. Errors of all functions: out_of_memory, device_lost, unsupported.
 class Stream {
  public:
   virtual ~Stream() = default;
   /// Returns memory aligned to kAlignment. Device memory may be freed while earlier work in the stream uses it; free()
-  /// waits for pinned memory.
+  /// of pinned memory waits for that work.
   virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
   virtual void free(MemoryKind kind, void* memory) noexcept = 0;
-  /// Copy between pinned and device memory; neither may change until the end of the copy.
+  /// Copy between pinned and device memory. Neither may change until the copy has ended.
   virtual Result<void> copyIn(void* device, const void* pinned, size_t bytes) = 0;
   virtual Result<void> copyOut(void* pinned, const void* device, size_t bytes) = 0;
   /// Copies within the device's memory.
   virtual Result<void> copy(void* to, const void* from, size_t bytes) = 0;
   virtual Result<void> clear(void* device, size_t bytes) = 0;
-  /// blocks: at least one.
+  /// Runs a kernel. blocks: number of thread blocks, at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// Marks the end of the work so far, for ended() and wait(), until more is added: an engine's stream continues with
-  /// the engine's work.
+  /// Marks the end of the work so far; ended() and wait() refer to this mark, until more work is added. So they do not
+  /// wait for the engine's own work that follows in an engine's stream.
   virtual Result<void> mark() = 0;
-  /// Whether the marked work has ended; does not wait.
+  /// Returns true if the marked work has ended; does not wait.
   virtual Result<bool> ended() = 0;
   virtual Result<void> wait() = 0;
 };
 
 enum class StreamUse : uint8_t {
-  own,      ///< contains only our work
-  batches,  ///< the engine's stream, if it passed one
+  own,      ///< the stream contains only the library's work
+  batches,  ///< the engine's stream, if it supplied one; otherwise as `own`
 };
 
-/// Another API's memory, accessible to the device's kernels and copies. Its destructor does not wait for them, and must
-/// run after their end.
+/// Memory of another API that the device's kernels and copies can access. The destructor does not wait for them, and
+/// must run after their end.
 class ImportedMemory {
  public:
   virtual ~ImportedMemory() = default;
@@ -92,17 +92,18 @@ class Device {
   virtual ~Device() = default;
   virtual const DeviceInfo& info() const = 0;
   virtual Result<std::unique_ptr<Stream>> makeStream(StreamUse use = StreamUse::own) = 0;
-  /// Errors: unsupported, out_of_memory, device_lost, and those of SharedBlock::descriptor().
+  /// Makes the memory of a block accessible. Errors: unsupported, out_of_memory, device_lost, and those of
+  /// SharedBlock::descriptor().
   virtual Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock&) {
     return Error{Code::unsupported, info().name + " cannot import memory of other APIs"};
   }
-  /// Whether it is an engine's (external), which reads its memory.
+  /// True if the context is the engine's, which reads the device's memory.
   virtual bool borrowed() const { return false; }
-  /// Whether a permanent failure occurred: nothing in its memory can be read any more.
+  /// True if a permanent failure occurred: nothing in the device's memory can be read any more.
   virtual bool lost() const { return false; }
 };
 
-/// Memory from a stream, which must outlive it.
+/// Memory that was allocated in a stream, which must outlive it.
 class Memory {
  public:
   Memory() = default;
@@ -110,12 +111,12 @@ class Memory {
   Memory& operator=(const Memory&) = delete;
   ~Memory() { reset(); }
 
-  /// Provides at least this many bytes; loses the content if it must grow.
+  /// Makes the memory at least `bytes` large; if it must grow, its content is lost.
   Result<void> grow(Stream& stream, MemoryKind kind, size_t bytes) {
     if (bytes <= bytes_) return {};
     reset();
-    // With a margin, since successive batches are similar. Allocating pinned memory blocks the whole device, so do it
-    // rarely.
+    // A margin is added, because successive batches are similar. Allocating pinned memory blocks the whole device, so
+    // it grows to a power of two.
     bytes = kind == MemoryKind::pinned ? std::bit_ceil(bytes) : bytes + bytes / 4;
     Result<void*> made = stream.allocate(kind, bytes);
     if (!made) return made.error();

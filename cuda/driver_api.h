@@ -1,6 +1,7 @@
 #pragma once
-// The used part of the CUDA driver's interface, loaded at run time: the library works without a driver, and builds
-// without the toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp compares them).
+// The part of the CUDA driver's interface that the library uses. It is loaded at run time: the library works without a
+// driver, and can be built without the toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp
+// compares them).
 
 #include <cstddef>
 #include <cstdint>
@@ -27,12 +28,12 @@ using CuImported = CuImportedTag*;  ///< CUexternalMemory
 
 /// CUmemPoolProps.
 struct CuPoolProperties {
-  int allocation_type = 1;  ///< pinned, the only one
+  int allocation_type = 1;  ///< pinned memory, the only type
   int handle_types = 0;
-  int location_type = 1;  ///< a device,
-  int location = 0;       ///< of this number
+  int location_type = 1;  ///< the location is a device
+  int location = 0;       ///< number of that device
   void* security = nullptr;
-  size_t most_bytes = 0;  ///< 0: chosen by the system
+  size_t most_bytes = 0;  ///< 0: the system chooses
   unsigned char reserved[56] = {};
 };
 
@@ -65,11 +66,12 @@ inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
 inline constexpr int kCuClock = 13, kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76,
                      kCuMemoryPools = 115;
-inline constexpr int kCuPoolThreshold = 4;  ///< of a pool: the free bytes that it keeps
+/// attribute of a pool: free bytes that it keeps instead of returning them to the system
+inline constexpr int kCuPoolThreshold = 4;
 inline constexpr unsigned kCuNonBlockingStream = 1;
-inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: waiting threads sleep, since an engine needs the
-                                                 ///< processors
-inline constexpr unsigned kCuEventBlocks = 1;    ///< of an event: same as above
+/// flag of a context: waiting threads sleep, since an engine needs the processors
+inline constexpr unsigned kCuBlockingWaits = 4;
+inline constexpr unsigned kCuEventBlocks = 1;  ///< flag of an event: threads that wait for it sleep
 inline constexpr unsigned kCuEventUntimed = 2;
 
 /// SGM_CU(entry of the table, name in the driver, parameters)

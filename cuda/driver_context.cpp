@@ -16,7 +16,7 @@ Error errorOf(const DriverTable& driver, CuResult result, const std::string& wha
     case kCuNoBinary:
       return {Code::unsupported, "the CUDA driver is too old for this build, update it: " + message};
     default:
-      // Errors stick to a context: after any failure only a new one helps.
+      // After any failure, a context stays unusable: only a new one helps.
       return {Code::device_lost, message};
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
-// A driver context with the kernels, our own or the engine's, and the conversion of its results to errors.
+// A driver context, created by the library or the engine's, with the kernels loaded into it; converts its results to
+// errors.
 
 #include <array>
 #include <atomic>
@@ -10,7 +11,7 @@
 
 namespace sgm::cuda {
 
-/// Converts a result other than success: out_of_memory, unsupported or device_lost.
+/// Converts a result other than success to an error: out_of_memory, unsupported or device_lost.
 Error errorOf(const DriverTable& driver, CuResult result, const std::string& what);
 
 /// Makes a context current for this thread during its lifetime.
@@ -24,7 +25,7 @@ class Current {
   }
   Current(const Current&) = delete;
   Current& operator=(const Current&) = delete;
-  /// If false, a call would run in another context.
+  /// False if the context could not be made current: a call would then run in another context.
   explicit operator bool() const { return pushed_; }
   static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
 
@@ -33,16 +34,17 @@ class Current {
   const bool pushed_;
 };
 
-/// The state that streams and imported memory share with their device.
+/// The state of an open device, which its streams and imported memory share.
 struct Opened {
   const DriverTable driver;
   DeviceInfo info;
   CuContext context = nullptr;
-  CuStream stream = nullptr;  ///< the engine's, for all batches; null: each has its own
-  bool borrowed = false;      ///< the context is the engine's
+  CuStream stream = nullptr;  ///< the engine's stream, used for all batches; null: each batch has its own
+  bool borrowed = false;      ///< true if the context is the engine's
   mutable std::atomic<bool> lost{false};
   CuModule module = nullptr;
-  /// Our own pool: the device's default pool is shared with the engine, and is not freed when a context is lost.
+  /// The library's own memory pool. The device's default pool is not used, because it is shared with the engine, and is
+  /// not freed when a context is lost.
   CuPool pool = nullptr;
   std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
 
@@ -50,7 +52,7 @@ struct Opened {
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
   ~Opened();
-  /// Converts a result, and records a loss.
+  /// Converts a result to an error, and records a loss of the device.
   Result<void> check(CuResult result, const char* what) const;
 };
 

@@ -4,7 +4,7 @@
 #include "cuda/driver_device.h"
 
 #ifdef SGM_CUDA_IMAGE
-// Includes the file as it is, without a source array several times its size.
+// Includes the file directly, without a source array, which would be several times its size.
 asm(".pushsection .rodata, \"a\", @progbits\n"
     ".balign 64\n"
     ".hidden sgm_cuda_image\n"
@@ -34,7 +34,7 @@ std::span<const std::byte> kernelImage() {
 
 namespace {
 
-/// Never unloaded: the driver's thread-local data must outlive the threads.
+/// The library is never closed: the driver's thread-local data must exist as long as the threads.
 void* openLibrary() { return platform::openLibrary("libcuda.so.1"); }
 
 }  // namespace

@@ -65,7 +65,8 @@ class DriverStream final : public Stream {
   void free(MemoryKind kind, void* memory) noexcept override {
     const Current current(driver_, device_.context);
     if (!current) return;
-    // Copies may be using it. If their end cannot be determined, it is freed only with the context.
+    // Copies may still be using the memory. If it cannot be found out when they end, the memory is freed only with the
+    // context.
     if (device_.lost.load() || (kind == MemoryKind::pinned && !waited())) return;
     if (kind == MemoryKind::pinned) {
       driver_.memFreeHost(memory);
@@ -138,13 +139,13 @@ class DriverStream final : public Stream {
     device_.lost.store(true);
     return Current::refused();
   }
-  /// If waiting fails, the work may write for ever: then no memory of the device can be trusted any more.
+  /// If waiting fails, the work may write at any time: then no memory of the device can be trusted any more.
   Error unsure(const Error& why) const {
     device_.lost.store(true);
     return {Code::device_lost, why.message};
   }
 
-  /// As wait(), for callers that cannot catch exceptions of its message.
+  /// Same as wait(), for callers that must not throw; an error's message could.
   bool waited() noexcept {
     try {
       return static_cast<bool>(wait());
@@ -158,7 +159,7 @@ class DriverStream final : public Stream {
   const DriverTable& driver_;
   CuStream stream_ = nullptr;
   CuEvent event_ = nullptr;
-  bool marked_ = true;  ///< whether the event follows all work; true if there is none
+  bool marked_ = true;  ///< true if the event follows all work so far, or if there is no work
 };
 
 class DriverImport final : public ImportedMemory {
@@ -166,7 +167,8 @@ class DriverImport final : public ImportedMemory {
   explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
   ~DriverImport() override {
     const Current current(device_->driver, device_->context);
-    // If the end of copies cannot be determined, it is freed only with the context, as other memory is.
+    // If it cannot be found out when copies end, the imported memory is freed only with the context, as other memory
+    // is.
     if (!current || device_->lost.load()) return;
     if (memory_ != 0) device_->driver.memFree(memory_);
     if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
@@ -199,7 +201,7 @@ class DriverImport final : public ImportedMemory {
   }
 
  private:
-  /// A failed import does not harm the context.
+  /// Converts the error of a failed import, which does not affect the context.
   Error refused(CuResult result) const {
     Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
     if (error.code == Code::device_lost) error.code = Code::unsupported;

@@ -7,10 +7,10 @@
 
 namespace sgm::cuda {
 
-/// As Device::makeStream. The device must outlive it.
+/// Same as Device::makeStream. The device must outlive the stream.
 Result<std::unique_ptr<Stream>> makeDriverStream(const Opened& device, StreamUse use);
 
-/// As Device::import.
+/// Same as Device::import.
 Result<std::shared_ptr<const ImportedMemory>> importMemory(std::shared_ptr<const Opened> device,
                                                            const SharedBlock& block);
 

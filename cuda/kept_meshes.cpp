@@ -15,7 +15,7 @@ size_t bytesOf(const PartSource& source) {
   return aligned(source.vertex_count * sizeof(Vertex)) + aligned(source.index_count * sizeof(uint32_t));
 }
 
-/// Copied parts are freed by another stream: so on failure, wait for the copies first.
+/// Waits for copies after a failure: the copied parts will be freed by another stream, which does not wait for them.
 class WaitUnlessKept {
  public:
   explicit WaitUnlessKept(Stream& stream) : stream_(stream) {}
@@ -24,7 +24,7 @@ class WaitUnlessKept {
     try {
       static_cast<void>(stream_.wait());
     } catch (const std::bad_alloc&) {
-      // From the message; the wait is done, or the device is lost.
+      // creating an error's message has thrown; the wait has ended, or the device is lost
     }
   }
   WaitUnlessKept(const WaitUnlessKept&) = delete;

@@ -11,10 +11,11 @@ namespace sgm::cuda {
 
 namespace {
 
-/// Blocks per multiprocessor for kernels whose amount of work only the device knows: enough to keep it busy.
+/// Number of blocks per multiprocessor for kernels whose amount of work is known only to the device: enough to use all
+/// of it.
 constexpr uint32_t kBlocksAProcessor = 32;
 
-/// Places arrays one after the other in one memory: first only to get their sizes, then their addresses.
+/// Places arrays one after the other in one memory block: a first pass computes their sizes, a second their addresses.
 class Places {
  public:
   explicit Places(std::byte* begin) : begin_(begin) {}
@@ -38,7 +39,7 @@ size_t placeResult(const Plan& plan, std::byte* begin, Head*& head, Part*& parts
   return places.used();
 }
 
-/// Places the host's input; copies it if `staging` is not null.
+/// Places the host's input; if `staging` is not null, copies it there.
 size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch& batch) {
   Places to(staging), at(device);
   const auto put = [&](const auto& array, auto*& on_device) {
@@ -64,7 +65,7 @@ size_t placeInput(const Plan& plan, std::byte* staging, std::byte* device, Batch
 size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   const uint64_t chunks = plan.chunks.size(), seams = plan.seams.size(), items = chunks * kBricks + 2 * seams;
   Places places(begin);
-  // First the arrays that must be zero.
+  // The arrays that must be zero come first, so that one call clears them.
   places.put(batch.signs, chunks * kRows);
   places.put(batch.coarse_signs, seams * kCoarseSide);
   places.put(batch.marks, plan.marks);
@@ -81,7 +82,7 @@ size_t placeScratch(const Plan& plan, std::byte* begin, Batch& batch) {
   return places.used();
 }
 
-/// The size of the part of scratch to clear, from its beginning.
+/// Returns the size of the part of scratch that must be cleared; it is at the beginning.
 size_t zeroBytes(const Plan& plan) {
   Batch batch{};
   Places places(nullptr);
@@ -136,7 +137,7 @@ Batch Mesher::sized(const Plan& plan) const {
   return batch;
 }
 
-/// Provides all memory, and places the input.
+/// Provides all memory of a batch, and places its input.
 Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   m.input_bytes = placeInput(plan, nullptr, nullptr, batch);
   m.result_bytes = placeResult(plan, nullptr, batch.head, batch.parts, batch.sums);
@@ -265,11 +266,11 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
                 reinterpret_cast<const uint64_t*>(m.signs_back.data())};
 }
 
-/// Downloads the data that did not come with the batch.
+/// Downloads the vertices and indices that were not downloaded with the batch.
 Result<void> Mesher::bringRest(const Head& head, BatchMemory& m) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex),
                  indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this batch: successive batches are neighbours in the world.
+  // A quarter more than this batch had, because successive batches are similar.
   usual_vertices_.store(vertices + vertices / 4);
   usual_indices_.store(indices + indices / 4);
   if (vertices <= m.brought_vertices && indices <= m.brought_indices) return {};

@@ -10,18 +10,19 @@
 
 namespace sgm::cuda {
 
-/// A stream and the memory of a batch on it; reused from batch to batch, and grown if needed.
+/// The stream and the memory of one batch; reused for further batches, and enlarged if necessary.
 struct BatchMemory {
   std::unique_ptr<Stream> stream;  ///< must outlive the memory below
   Memory staging, input, scratch, result;
   Memory vertices, indices;
-  /// Downloads. Only the device knows the numbers of vertices and indices. So as many as recent batches had are
-  /// downloaded with the batch itself; if it has more, the rest follows.
+  /// Memory for downloads. The numbers of vertices and indices are known only to the device, so as many as recent
+  /// batches had are downloaded with the batch itself; if the batch has more, the rest is downloaded later.
   Memory result_back, signs_back, vertices_back, indices_back;
-  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes downloaded with the batch
+  /// bytes of vertices and of indices that are downloaded with the batch
+  uint64_t brought_vertices = 0, brought_indices = 0;
   uint64_t input_bytes = 0, result_bytes = 0;
-  /// For copies after the batch's end, so that they do not wait for an engine's later work. Destroyed before the
-  /// memory.
+  /// The stream for copies after the end of the batch, so that they do not wait for later work of an engine in
+  /// `stream`. Destroyed before the memory.
   std::unique_ptr<Stream> reading;
 };
 
@@ -33,36 +34,37 @@ struct BatchMemory {
 /// the kernels of up to 256 chunks. sgm_bench_kernels (tests/bench) measures both on a device.
 class Mesher {
  public:
-  /// Errors: as Stream's.
+  /// Errors: those of Stream.
   static Result<std::unique_ptr<Mesher>> create(Device& device, const Room& room);
 
   /// Submits the batch to the memory's stream, which is created if there is none. Plan and memory must not change until
-  /// its end. Errors: as Stream's; part of the batch may run nevertheless.
+  /// the batch has ended. Errors: those of Stream; then a part of the batch may run nevertheless.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
 
-  // The steps of submit(), for repetition and measurement. Errors: as Stream's.
-  /// Uploads the plan's programs in the memory's stream; they stay on the device for any number of runs.
+  // The following functions are the steps of submit(), for repetition and measurement. Errors: those of Stream.
+  /// Uploads the plan's programs; they stay on the device for any number of runs.
   Result<Batch> load(const Plan& plan, BatchMemory& memory);
-  /// Clears the memory that kernels expect to be zero. Call before every run.
+  /// Clears the memory that kernels expect to be zero. Call it before each run.
   Result<void> clear(const Plan& plan, BatchMemory& memory) const;
   struct Launch {
     Kernel kernel;
-    uint32_t blocks;  ///< 0: nothing to do
+    uint32_t blocks;  ///< number of blocks; 0: nothing to do
   };
   using Launches = std::array<Launch, static_cast<size_t>(Kernel::count)>;
-  /// All kernels, in the order in which they run.
+  /// Returns all kernels in the order in which they run.
   Launches launches(const Batch& batch) const;
   static Result<void> run(Stream& stream, const Launches& launches, const Batch& batch);
 
-  /// The stream for copies after the end. Errors: as Stream's.
+  /// Returns the stream for copies after the end of the batch. Errors: those of Stream.
   Result<Stream*> reading(BatchMemory& memory);
-  /// Call after the end: the output for the host, valid until the next submission. Waits if more must be downloaded.
+  /// Returns the results in host memory, valid until the next submission. Call after the end of the batch. Waits if
+  /// more must be downloaded.
   struct Output {
     const Part* parts = nullptr;
-    const Sums* sums = nullptr;  ///< one a part, if a chunk requests them
+    const Sums* sums = nullptr;  ///< one per part, if a chunk requests sums
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
-    const uint64_t* signs = nullptr;  ///< kRows a chunk
+    const uint64_t* signs = nullptr;  ///< kRows per chunk
   };
   Result<Output> read(const Plan& plan, BatchMemory& memory);
 
@@ -76,9 +78,9 @@ class Mesher {
 
   Device& device_;
   const Room room_;
-  std::unique_ptr<Stream> stream_;  ///< for the tables
+  std::unique_ptr<Stream> stream_;  ///< used to upload the case tables
   Memory tables_;
-  /// The sizes of the last batch, with a margin.
+  /// bytes of vertices and indices of the last batch, with a margin
   std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };
 

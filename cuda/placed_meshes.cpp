@@ -5,16 +5,17 @@
 
 namespace sgm::cuda {
 
-/// The import of a block's memory into one device; a device opened after a loss cannot use it.
+/// The import of a block's memory into one device. If the device is lost, a newly opened one cannot use the import.
 struct PlacedMeshes::Import {
-  std::mutex mutex;        ///< guards the following
-  const PlacedMeshes* of;  ///< null once that is destroyed, so that no later object at its address matches
+  std::mutex mutex;  ///< guards the following members
+  /// null after that object is destroyed, so that a later object at the same address does not match
+  const PlacedMeshes* of;
   std::shared_ptr<const ImportedMemory> memory;
 };
 
 namespace {
 
-/// Only this code accesses copied parts: so on failure, wait for the copies first.
+/// Waits for copies after a failure: only this code knows that they access the placed parts.
 class Writing {
  public:
   Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
@@ -23,7 +24,7 @@ class Writing {
     try {
       if (stream_.wait()) placement_.writing = false;
     } catch (const std::bad_alloc&) {
-      // From the message: the device is lost.
+      // creating an error's message has thrown: the device is lost
     }
   }
   Writing(const Writing&) = delete;
@@ -49,7 +50,7 @@ Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::
     return Error{Code::unsupported, device.info().name + " is not the drawing GPU"};
   }
   std::unique_ptr<PlacedMeshes> meshes(new PlacedMeshes(device, std::move(store)));
-  // Try an import now; otherwise failure would show only after the first mesh was made.
+  // Tries an import now: otherwise a failure would be found only after the first mesh was made.
   PartSizes least{};
   least[0] = {1, 1};
   const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
@@ -75,7 +76,7 @@ PlacedMeshes::~PlacedMeshes() {
 }
 
 Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
-  // After a loss two sessions may be doing this, the old one with its last batches.
+  // After a loss, two sessions may be importing: the new one, and the old one with its last batches.
   const std::scoped_lock lock(block.importing);
   if (const auto known = std::static_pointer_cast<Import>(block.imported)) {
     const std::scoped_lock of_import(known->mutex);
@@ -103,7 +104,7 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
   for (const PartPlace& part : placement->parts) {
     const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);
     if (!imported) {
-      // Treat it like missing room.
+      // A failed import is treated like a lack of memory.
       placement->chunks[part.chunk] = {};
       continue;
     }

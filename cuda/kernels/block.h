@@ -1,5 +1,5 @@
 #pragma once
-// The programming model of kernels: a block of threads that runs phases, with scans between them.
+// The programming model of kernels: a block of threads runs phases, with scans between them.
 //
 // A kernel is a class with the constant kThreads, the plain struct Shared, and
 //   template <class Block> SGM_KERNEL static void run(Block& block, const Batch& batch, Shared& shared);
@@ -16,7 +16,7 @@
 
 namespace sgm::cuda {
 
-/// Returns the previous value.
+/// Adds to a sum atomically; returns the previous value.
 SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #ifdef __CUDA_ARCH__
   return atomicAdd(&sum, by);
@@ -27,7 +27,7 @@ SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #endif
 }
 
-/// Values are two's complement, of any sign.
+/// Adds to a sum atomically. Values are two's complement and may be negative.
 SGM_KERNEL void addTo(uint64_t& sum, uint64_t by) {
 #ifdef __CUDA_ARCH__
   atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(by));
@@ -60,7 +60,7 @@ SGM_KERNEL uint32_t countOf(uint64_t bits) {
 #endif
 }
 
-/// Precondition: a bit is set.
+/// Returns the index of the lowest set bit. Precondition: a bit is set.
 SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #ifdef __CUDA_ARCH__
   return static_cast<uint32_t>(__ffsll(static_cast<long long>(bits)) - 1);
@@ -69,7 +69,7 @@ SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
 #endif
 }
 
-/// The last index whose value is at most `value`; the values ascend, and the first one is at most `value`.
+/// Returns the last index whose value is at most `value`. The values must ascend, and the first one be at most `value`.
 SGM_KERNEL uint32_t lastAtMost(const uint32_t* values, uint32_t count, uint32_t value) {
   uint32_t lo = 0, hi = count;
   while (hi - lo > 1) {

@@ -1,19 +1,19 @@
 #pragma once
-// Counts the output from signs alone: of each row of a body, and of each row and cell of a seam. Then computes where
-// each part begins.
+// Counts the output from signs alone: for each row of a body, and for each row and cell of a seam. Then computes where
+// each part begins in the output.
 
 #include "cuda/kernels/grid.h"
 
 namespace sgm::cuda {
 
-/// The case of the cell at x in the row of cells y, z.
+/// Returns the case of the cell at x in row (y, z) of cells.
 SGM_KERNEL uint32_t caseOf(const uint64_t* signs, uint32_t x, int y, int z) {
   const uint64_t* row = signs + rowOf(y, z);
   const auto two = [&](size_t at) { return static_cast<uint32_t>(row[at] >> x & 3); };
   return two(0) | two(1) << 2 | two(kSide) << 4 | two(kSide + 1) << 6;
 }
 
-/// The active cells of a row, which the surface crosses.
+/// Returns the mask of the cells in row (y, z) that the surface crosses.
 SGM_KERNEL uint64_t activeCells(const uint64_t* signs, int y, int z) {
   const uint64_t* row = signs + rowOf(y, z);
   const uint64_t a = row[0], b = row[1], c = row[kSide], d = row[kSide + 1];
@@ -21,7 +21,7 @@ SGM_KERNEL uint64_t activeCells(const uint64_t* signs, int y, int z) {
   return (some | some >> 1) & ~(all & all >> 1) & ((uint64_t{1} << kChunkCells) - 1);
 }
 
-/// One block for each chunk.
+/// Counts bodies: one block per chunk.
 struct CensusBody {
   static constexpr uint32_t kThreads = 256;
   struct Shared {
@@ -65,9 +65,9 @@ struct CensusBody {
   }
 };
 
-/// The samples of a chunk on one of its faces.
+/// The range of a chunk's samples that lie on one of its faces.
 struct FacePlane {
-  uint32_t origin, step_u, step_v;  ///< indices of samples
+  uint32_t origin, step_u, step_v;  ///< index of the first sample, and differences of indices along u and v
   SGM_KERNEL explicit FacePlane(Face face) {
     const uint32_t steps[3] = {1, kSide, kRows};
     const int axis = faceAxis(face);
@@ -78,7 +78,7 @@ struct FacePlane {
   SGM_KERNEL uint32_t sample(uint32_t a, uint32_t b) const { return origin + a * step_u + b * step_v; }
 };
 
-/// The crossed edges of one row of a plane of signs with this many cells a side, along u and along v.
+/// Crossed edges of one row of a plane of signs, along u and along v. The plane has `cells` cells per side.
 struct PlaneEdges {
   uint64_t u, v;
   template <class Word>
@@ -93,7 +93,7 @@ struct PlaneEdges {
   }
 };
 
-/// The coarse corners of a row at which the two levels differ.
+/// Returns the mask of the coarse corners of a row at which the signs of the two levels differ.
 SGM_KERNEL uint64_t lateralEdges(const uint64_t* plane, const uint32_t* coarse, uint32_t row) {
   uint64_t edges = 0;
   for (uint32_t a = 0; a < kCoarseSide; ++a) {
@@ -102,7 +102,7 @@ SGM_KERNEL uint64_t lateralEdges(const uint64_t* plane, const uint32_t* coarse, 
   return edges;
 }
 
-/// One block for each seam, one thread for each cell.
+/// Counts seams: one block per seam, one thread per cell.
 struct CensusSeam {
   static constexpr uint32_t kThreads = kSeamCells;
   struct Shared {
@@ -166,7 +166,7 @@ struct CensusSeam {
   }
 };
 
-/// One block: places the parts one after the other, as far as there is room.
+/// Runs as one block: places the parts one after the other in the output, as far as there is memory.
 struct Allocate {
   static constexpr uint32_t kThreads = 256;
   struct Shared {

@@ -1,5 +1,5 @@
 #pragma once
-// Writes the vertices and triangles of seams, in the order of mesh/seam.cpp.
+// Writes the vertices and triangles of seams, in the same order as mesh/seam.cpp.
 
 #include "cuda/kernels/census.h"
 #include "cuda/kernels/field.h"
@@ -7,7 +7,7 @@
 
 namespace sgm::cuda {
 
-/// The numbers of a seam's vertices, by their edges.
+/// Finds the numbers of a seam's vertices by their edges.
 struct SeamNumbers {
   const SeamCensus& census;
   const uint32_t* coarse_signs;
@@ -22,7 +22,8 @@ struct SeamNumbers {
     const uint64_t before = (uint64_t{1} << a) - 1;
     return census.first_lateral + census.lateral[b] + countOf(lateralEdges(census.plane, coarse_signs, b) & before);
   }
-  /// The edges of the cell over coarse square (a, b), numbered as in mesh/tables.h.
+  /// Returns the number of the vertex on edge e of the cell over coarse square (a, b); edges are numbered as in
+  /// mesh/tables.h.
   SGM_KERNEL uint32_t ofEdge(uint32_t a, uint32_t b, uint32_t e) const {
     if (e < 6) return fine(2 * a + e % 2, 2 * b + e / 2, false);
     if (e < 12) return fine(2 * a + (e - 6) % 3, 2 * b + (e - 6) / 3, true);
@@ -32,7 +33,7 @@ struct SeamNumbers {
   }
 };
 
-/// One block for each seam; its vertices are evaluated with the field of their own level.
+/// One block per seam: writes its vertices, each with attributes from the field of its own level.
 struct SeamVertices {
   static constexpr uint32_t kThreads = 96;
   struct Shared {
@@ -57,13 +58,13 @@ struct SeamVertices {
     });
   }
 
-  /// An edge of the face: its lower end, and whether it is along v.
+  /// An edge in the face: its lower end, and true if it runs along v.
   struct Edge {
     uint32_t a, b;
     bool along_v;
   };
 
-  /// The n-th crossed edge of a plane of signs; `before` has the counts before its rows.
+  /// Returns crossed edge number n of a plane of signs; `before` contains the counts before each row.
   template <class Word>
   SGM_KERNEL static Edge edgeOf(const Word* plane, const uint32_t* before, uint32_t side, uint32_t n) {
     const uint32_t row = lastAtMost(before, side, n);
@@ -121,7 +122,7 @@ struct SeamVertices {
   }
 };
 
-/// One block for each seam, one thread for each cell.
+/// One block per seam, one thread per cell: writes triangles.
 struct SeamTriangles {
   static constexpr uint32_t kThreads = kSeamCells;
   struct Shared {

@@ -1,5 +1,5 @@
 #pragma once
-// Indices in a chunk, and in the arrays of a batch.
+// Conversions between indices in a chunk and in the arrays of a batch.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -10,7 +10,7 @@ namespace sgm::cuda {
 
 SGM_KERNEL size_t rowOf(int y, int z) { return static_cast<size_t>(y) + size_t{kSide} * static_cast<size_t>(z); }
 
-/// One of a chunk's 64 boxes of 8^3 samples; the last box on each axis has one more.
+/// A brick: one of a chunk's 64 boxes of 8^3 samples; the last box on each axis has one more.
 struct Brick {
   int at[3];
   SGM_KERNEL explicit Brick(uint32_t number)
@@ -20,7 +20,7 @@ struct Brick {
     return at[axis] == 3 ? kChunkCells : first(axis) + static_cast<int>(kBrickCells) - 1;
   }
   SGM_KERNEL int count(int axis) const { return last(axis) - first(axis) + 1; }
-  /// Its samples in a row's signs.
+  /// Returns the mask of the brick's samples in the signs of a row.
   SGM_KERNEL uint64_t bits() const { return ((uint64_t{1} << count(0)) - 1) << first(0); }
 };
 
@@ -39,7 +39,7 @@ SGM_KERNEL ProgramView viewOf(const Batch& b, const Program& p) {
   return view;
 }
 
-/// A program for the field in the item's box.
+/// Returns a program that is valid in the item's box: the pruned one if there is one.
 SGM_KERNEL ProgramView viewOf(const Batch& b, const Item& item) {
   ProgramView view = viewOf(b, b.programs[item.program]);
   if (item.pruned == 0) return view;
@@ -57,7 +57,7 @@ SGM_KERNEL ChunkGrid gridOf(const Chunk& chunk) {
   return grid;
 }
 
-/// The crossed edges that the samples of one row own, a word an axis.
+/// The crossed edges that start at the samples of one row: one word per axis, one bit per sample.
 struct RowEdges {
   uint64_t x, y, z;
   SGM_KERNEL RowEdges(const uint64_t* signs, int row_y, int row_z) {
@@ -69,14 +69,14 @@ struct RowEdges {
   SGM_KERNEL uint32_t countIn(uint64_t samples) const {
     return countOf(x & samples) + countOf(y & samples) + countOf(z & samples);
   }
-  /// The number of the row's vertices before the one on the edge from sample `at` along `axis`.
+  /// Returns the number of the row's vertices before the one on the edge from sample `at` along `axis`.
   SGM_KERNEL uint32_t before(uint32_t at, uint32_t axis) const {
     return countIn((uint64_t{1} << at) - 1) + (axis > 0 ? static_cast<uint32_t>(x >> at & 1) : 0) +
            (axis > 1 ? static_cast<uint32_t>(y >> at & 1) : 0);
   }
 };
 
-/// The sums over a part's content (mesh/hash.h), accumulated by one thread.
+/// The sums of the content hash (mesh/hash.h) that one thread accumulates.
 struct PartSum {
   uint32_t a = 0, b = 0;
   SGM_KERNEL void add(uint32_t word, uint32_t place) {

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the uniform boxes of a chunk, and prunes its programs to the others. One block for each program, one thread for
-// each box.
+// Finds the uniform boxes of a chunk, and prunes its programs to the other boxes. One block per program, one thread per
+// box.
 
 #include "cuda/kernels/batch.h"
 #include "cuda/kernels/block.h"
@@ -9,7 +9,8 @@
 
 namespace sgm::cuda {
 
-/// One box's column of a table. All boxes' entries for one item are adjacent, so that threads read them together.
+/// One box's column of a table. The entries of all boxes for one row are adjacent in memory, so that threads read them
+/// together.
 template <class Entry>
 struct Column {
   Entry* first;
@@ -36,7 +37,8 @@ struct Prune {
     const Int3 origin{chunk.origin[0], chunk.origin[1], chunk.origin[2]};
     IntBox box{origin, origin};
     if (job.kind == PruneJob::bricks) {
-      // A uniform brick is proven with one more sample around it, so no edge that leaves it changes sign.
+      // Bricks are bounded together with one more sample on each side, so if a brick is uniform, no edge that leaves it
+      // changes sign.
       const Brick brick(number);
       for (int axis = 0; axis < 3; ++axis) {
         const int first = brick.first(axis) - 1, last = brick.last(axis) + 1;
@@ -83,7 +85,8 @@ struct Prune {
     if (sampled) b.sampled[addTo(b.head->sampled, 1)] = at;
   }
 
-  /// Writes the pruned program to the pool; without room the whole program is used, which is also correct.
+  /// Writes the pruned program to the pool. If the pool is full, the whole program is used, which gives the same
+  /// results.
   SGM_KERNEL static void keep(const Batch& b, const ProgramView& view, const Column<Mark>& marks,
                               const Column<GroupBounds>& groups, Item& item) {
     for (size_t g = 0; g < view.groups.size(); ++g) {
@@ -128,8 +131,8 @@ struct Prune {
     }
   }
 
-  /// If only seams are requested, only bricks at their faces are sampled. The chunk's own field on a plane is needed
-  /// only for attributes.
+  /// True if the box must be sampled. If only seams are requested, only bricks at their faces are. Planes for the
+  /// chunk's own field are not sampled, because they only serve attributes.
   SGM_KERNEL static bool isSampled(const Batch& b, const PruneJob& job, uint32_t number) {
     if (job.kind != PruneJob::bricks) return job.kind == PruneJob::coarse_planes;
     const uint32_t faces = b.chunks[job.chunk].faces;

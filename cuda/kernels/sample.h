@@ -1,5 +1,5 @@
 #pragma once
-// Computes the samples and signs of the items that are not uniform, which pruning has listed: one block for each item.
+// Computes the samples and signs of the items that are not uniform, as listed by pruning: one block per item.
 
 #include "cuda/kernels/field.h"
 #include "cuda/kernels/grid.h"
@@ -30,15 +30,15 @@ struct Sample {
     }
   }
 
-  /// The samples of an item: their places, and the destinations of Q and signs.
+  /// The samples of an item: their positions, and where Q and signs are written.
   struct Lattice {
-    Int3 origin, step_x, step_y, step_z;  ///< units
+    Int3 origin, step_x, step_y, step_z;  ///< in units
     uint32_t size[3];
     int32_t* samples;
-    uint32_t stride_y, stride_z;  ///< in samples; along x they are adjacent
-    uint64_t* signs;              ///< for a brick: of its first row
-    uint32_t* coarse_signs;       ///< for a plane: same as above
-    uint32_t shift;               ///< bit of the row's first sample
+    uint32_t stride_y, stride_z;  ///< in samples; samples along x are adjacent
+    uint64_t* signs;              ///< for a brick: the signs of its first row
+    uint32_t* coarse_signs;       ///< for a plane: the signs of its first row
+    uint32_t shift;               ///< bit of a row's first sample
 
     SGM_KERNEL Lattice(const Batch& b, uint32_t item)
         : step_x{}, step_y{}, step_z{}, signs(nullptr), coarse_signs(nullptr) {
@@ -48,7 +48,7 @@ struct Sample {
       const Chunk& chunk = b.chunks[chunk_number];
       origin = gridOf(chunk).origin;
       if (plane) {
-        // mesh/seam.h, coarseFacePoint.
+        // See coarseFacePoint in mesh/seam.h.
         const auto face = static_cast<Face>(b.seams[seam_number].face);
         const int axis = faceAxis(face);
         origin[axis] += faceIsHigh(face) ? kChunkCells * chunk.cell : 0;
@@ -98,7 +98,7 @@ struct Sample {
     }
   };
 
-  /// Evaluates the samples from the i-th on that a thread takes together; the last sample fills unused places.
+  /// Evaluates the samples from number i on that a thread takes together; unused places repeat the last sample.
   SGM_KERNEL static void take(const ProgramView& view, const Lattice& lattice, uint32_t i) {
     uint32_t at[kSamplesTogether][3];
     int32_t points[3][kSamplesTogether], q[kSamplesTogether];
