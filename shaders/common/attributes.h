@@ -4,7 +4,8 @@ struct PackedNormal {
   Int x, y;
 };
 
-// Out of the solid is where the field grows. A gradient without length gives +y.
+// Packs a gradient as a normal. The gradient points out of the solid, because the field grows in that direction. A
+// gradient of length 0 gives +y.
 FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   PRECISE Real gx = clampReal(dx, -1.0e18f, 1.0e18f);
   PRECISE Real gy = clampReal(dy, -1.0e18f, 1.0e18f);
@@ -16,7 +17,7 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   PRECISE Real x = sel(level, broadcast(0.0f), gx * inv);
   PRECISE Real y = sel(level, broadcast(1.0f), gy * inv);
   PRECISE Real z = sel(level, broadcast(0.0f), gz * inv);
-  // The octahedron's lower half (z < 0) folds over its edges.
+  // The lower half of the octahedron (z < 0) is folded over its edges.
   PRECISE Real fx = 1.0f - absReal(y);
   fx = fx * signOf(x);
   PRECISE Real fy = 1.0f - absReal(x);
@@ -32,6 +33,6 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   return r;
 }
 
-// One sign for every zero: Vulkan does not promise a zero's sign, and pruning may turn it. Nor does it promise
-// denormals.
+// Makes every zero positive. Vulkan does not define the sign of zero results, and pruning may change it. Nor does
+// Vulkan define how denormals behave: they become 0, too.
 FN Real unsignedZero(Real x) { return flushReal(x); }

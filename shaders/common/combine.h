@@ -1,4 +1,5 @@
-// What joins values: expressions, hard and round set operations, sums, morphs, displacement.
+// Ops that combine values: expressions, hard and round set operations, sums, morphs, displacement. P: the op's
+// parameter words, listed by number.
 
 FN Int mergeLabels(Int cutter, Int under) {
   Int material = cutter & 0xFFFF;
@@ -17,14 +18,15 @@ FN Dual opConstant(Params P) {
   return makeDual(broadcast(PF(P, 0)), zero, zero, zero, broadcastInt(0));
 }
 
-// Metres along a row: 1-3 anchor, 4-6 row already divided by 1024.
+// The coordinate of a position along a row, in metres. Parameters: 1-3 anchor, 4-6 row divided by 1024.
 FN Dual opCoordinate(Int px, Int py, Int pz, Params P) {
   Real v = dotRow(offsetFrom(px, py, pz, P), PF(P, 4), PF(P, 5), PF(P, 6));
   return makeDual(v, broadcast(PF(P, 4)), broadcast(PF(P, 5)), broadcast(PF(P, 6)), broadcastInt(0));
 }
 
-// 0..1 along a polyline. 0 segment count, then for each segment: start 1-3 (integer), vector 4-6, reciprocal of its
-// squared length, share of the whole before it, share of the whole of it (8 words from 1 + 9 k).
+// The parameter along a polyline, 0..1. Parameters: 0 number of segments, then for each segment (8 words from 1 + 9 k
+// on) its start 1-3 (integers), its vector 4-6, the reciprocal of its squared length, the share of the whole length
+// before it, and its own share.
 FN Dual opSweep(Int px, Int py, Int pz, Params P) {
   int count = PI(P, 0);
   PRECISE Real best = broadcast(3.0e38f);
@@ -72,7 +74,7 @@ FN Dual opFloor(Dual a) {
   return makeDual(floorReal(clampReal(a.v, -1.0e9f, 1.0e9f)), zero, zero, zero, a.label);
 }
 
-// An expression's result (see settleReal).
+// Limits the result of an expression (see settleReal).
 FN Dual settled(Real v, Real x, Real y, Real z, Int label) {
   return makeDual(settleReal(v), settleReal(x), settleReal(y), settleReal(z), label);
 }
@@ -104,7 +106,7 @@ FN Dual opSubtract(Dual a, Dual b) {
   return settled(v, x, y, z, a.label);
 }
 
-// p * a + q * b for the gradients of a product and of a quotient.
+// Returns p * a + q * b, for the gradients of products and quotients.
 FN Real twoProducts(Real p, Real a, Real q, Real b) {
   PRECISE Real s = p * a;
   PRECISE Real t = q * b;
@@ -112,7 +114,7 @@ FN Real twoProducts(Real p, Real a, Real q, Real b) {
   return r;
 }
 
-// Every register is held already (settleReal).
+// The operands are limited already (settleReal), so the product cannot overflow.
 FN Dual opMultiply(Dual a, Dual b) {
   PRECISE Real p = flushReal(a.v);
   PRECISE Real q = flushReal(b.v);
@@ -133,7 +135,7 @@ FN Dual opDivide(Dual a, Dual b) {
 FN Dual opMinimum(Dual a, Dual b) { return selDual(b.v < a.v, b, a); }
 FN Dual opMaximum(Dual a, Dual b) { return selDual(b.v > a.v, b, a); }
 
-// a without b: the wall that b leaves keeps the material that it was cut into unless b brings one.
+// Removes b from a. The surface that b leaves behind has b's material, or, if b has none, the material of a there.
 FN Dual opCut(Dual a, Dual b) {
   Dual n = opNegate(b);
   n.label = mergeLabels(b.label, a.label);
@@ -145,7 +147,7 @@ FN Dual opLess(Dual a, Dual b) {
   return makeDual(sel(a.v < b.v, broadcast(1.0f), zero), zero, zero, zero, broadcastInt(0));
 }
 
-// 0 lower edge, 1 reciprocal of (upper - lower), which is negative for a falling step.
+// Parameters: 0 lower edge, 1 reciprocal of (upper - lower), which is negative for a falling step.
 FN Dual opSmoothstep(Dual a, Params P) {
   PRECISE Real t = a.v - PF(P, 0);
   t = t * PF(P, 1);
@@ -164,7 +166,7 @@ FN Dual opSmoothstep(Dual a, Params P) {
   return settled(v, x, y, z, a.label);
 }
 
-// (1 - c) a + c b: exactly a at c = 0 and b at c = 1.
+// Returns (1 - c) a + c b: exactly a at c = 0, and exactly b at c = 1.
 FN Dual opMix(Dual a, Dual b, Dual c) {
   PRECISE Real k = 1.0f - c.v;
   PRECISE Real slope = b.v - a.v;
@@ -177,8 +179,8 @@ FN Dual opMix(Dual a, Dual b, Dual c) {
   return settled(twoProducts(k, a.v, c.v, b.v), x, y, z, a.label);
 }
 
-// opMix with t clamped to 0..1; the label is the nearer end's. Held but not flushed: at t <= 0 it is a and at t >= 1 it
-// is b to the bit, which pruning relies on.
+// Same as opMix with t clamped to 0..1; the label is that of the nearer end. The result is clamped, but denormals are
+// kept: so it equals a at t <= 0 and b at t >= 1 to the bit, which pruning relies on.
 FN Dual opMorph(Dual a, Dual b, Dual t) {
   PRECISE Real w = clampReal(t.v, 0.0f, 1.0f);
   PRECISE Real k = 1.0f - w;
@@ -194,7 +196,7 @@ FN Dual opMorph(Dual a, Dual b, Dual t) {
                   sel(w < 0.5f, a.label, b.label));
 }
 
-// a + 1024 b: a in units, b in metres.
+// Returns a + 1024 b: a in units, b in metres.
 FN Dual opDisplace(Dual a, Dual b) {
   PRECISE Real v = b.v * 1024.0f;
   v = a.v + v;
@@ -207,7 +209,7 @@ FN Dual opDisplace(Dual a, Dual b) {
   return settled(v, x, y, z, a.label);
 }
 
-// Where minima and sums begin: beyond every value (kFar in runtime/field/program.h), and zero.
+// The initial values of minima and of sums: larger than every value (kFar in runtime/field/program.h), and 0.
 FN Dual farAway() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(broadcast(1.0e30f), zero, zero, zero, broadcastInt(0));
@@ -216,11 +218,12 @@ FN Dual nothing() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(zero, zero, zero, zero, broadcastInt(0));
 }
-// Round union of many (design.md section 3). Two registers carry it: the nearest operand, and sum max(k - d, 0)^2.
+// Adds an operand to a round union of any number of operands (design.md section 3). Two registers store it: the nearest
+// operand, and the sum of max(k - d, 0)^2.
 FN Dual roundAccumulate(Dual sum, Dual d, float k) {
   PRECISE Real h = k - d.v;
   h = clampReal(h, 0.0f, 1.0e9f);
-  h = sel(h > 1.0e-15f, h, broadcast(0.0f));  // its square would be a denormal
+  h = sel(h > 1.0e-15f, h, broadcast(0.0f));  // the square of a smaller value would be a denormal
   PRECISE Real v = h * h;
   v = sum.v + v;
   PRECISE Real w = h * -2.0f;
@@ -237,7 +240,7 @@ FN Dual roundEnd(Dual nearest, Dual sum, float k) {
   PRECISE Real root = sum.v * inv;
   PRECISE Real v = maxReal(nearest.v, broadcast(k));
   v = v - root;
-  // Nothing was added, or only what is too little to have a direction.
+  // True if nothing was added to the sum, or too little for a direction.
   Bool apart = (nearest.v >= k) || (sum.v <= 0.0f);
   PRECISE Real w = inv * -0.5f;
   PRECISE Real x = sum.x * w;
@@ -248,22 +251,23 @@ FN Dual roundEnd(Dual nearest, Dual sum, float k) {
 }
 FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) { return roundEnd(nearest, sum, PF(P, 0)); }
 
-// Round union of a field and one group. Unlike that of many it is the nearer one to the bit where either is k or more
-// away, so that pruning may leave such a group out; and rounding never puts it above the nearer one.
+// Returns the round union of a field and one group. Unlike the round union of many, it equals the nearer operand to the
+// bit if either operand is at least k, so that pruning may remove such a group; and rounding never makes it larger than
+// the nearer operand.
 FN Dual roundUnion(Dual a, Dual b, float k) {
   Dual nearest = opMinimum(a, b);
   Dual blended = roundEnd(nearest, roundAccumulate(roundAccumulate(nothing(), a, k), b, k), k);
   Bool blends = (a.v < k) && (b.v < k) && (blended.v < nearest.v);
   return selDual(blends, blended, nearest);
 }
-// a without b, rounded; the labels are opCut's.
+// Removes b from a with a rounded edge. Labels are those of opCut.
 FN Dual roundCut(Dual a, Dual b, float k) {
   b.label = mergeLabels(b.label, a.label);
   return opNegate(roundUnion(opNegate(a), b, k));
 }
 
-// The weight of any distance under a compact-kernel sum. 0 reciprocal inner radius, 1 reciprocal of the squared
-// support.
+// Returns the weight of a distance in a sum with a compact kernel. Parameters: 0 reciprocal of the inner radius, 1
+// reciprocal of the squared support.
 FN Dual opKernel(Dual d, Params P) {
   PRECISE Real r = d.v * PF(P, 0);
   r = r + 1.0f;
@@ -281,10 +285,10 @@ FN Dual opKernel(Dual d, Params P) {
   return settled(k.v, gx, gy, gz, d.label);
 }
 
-// Two registers carry a sum: the heaviest operand (for its label), and the sum itself.
+// Two registers store a sum: the operand with the largest weight (for its label), and the sum itself.
 FN Dual sumHeaviest(Dual heaviest, Dual w) { return selDual(w.v > heaviest.v, w, heaviest); }
 
-// 0 threshold, 1 length: (threshold - sum) * length.
+// Returns (threshold - sum) * length. Parameters: 0 threshold, 1 length.
 FN Dual opSumEnd(Dual heaviest, Dual sum, Params P) {
   PRECISE Real v = PF(P, 0) - sum.v;
   v = v * PF(P, 1);

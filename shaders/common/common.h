@@ -1,4 +1,4 @@
-// All of the field's mathematics, in order. See portable.h.
+// Includes all functions from which fields are computed, in the order of their dependencies. See portable.h.
 #include "portable.h"
 #include "real.h"
 #include "noise.h"

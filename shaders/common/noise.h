@@ -1,5 +1,5 @@
-// Gradient noise on an integer lattice (Perlin 2002, with an integer hash): the same everywhere in the world, since the
-// place in the lattice cell is found in integers before anything becomes a float.
+// Gradient noise on an integer lattice (Perlin 2002, with an integer hash). It has the same precision everywhere in the
+// world, since the position in the lattice cell is computed in integers before it becomes a float.
 
 FN Uint hashLattice(Int x, Int y, Int z, uint seed) {
   Uint h = toUintBits(wrapMul(x, broadcastInt(-1640531535))) ^ toUintBits(wrapMul(y, broadcastInt(-2048144777))) ^
@@ -16,9 +16,9 @@ struct LatticePlace {
   Int cell, rest;
 };
 
-// cell = floor(offset / period) and the rest, exact for every int32 offset and period >= 1. Two rounds: the first guess
-// is off by the float's rounding of a large offset, the second by at most one. The largest offsets round up to 2^31,
-// which is no int: the guess stops at the last float below it.
+// Computes cell = floor(offset / period) and the remainder, exactly for every int32 offset and period >= 1. Two rounds
+// suffice: the first guess is off by the rounding of a large offset to float, the second by at most one. The largest
+// offsets would round up to 2^31, which is not an int32, so the guess is clamped to the last float below it.
 FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
   PRECISE Real guess = toReal(offset) * inv_period;
   Int cell = toInt(floorReal(minReal(guess, broadcast(2147483520.0f))));
@@ -38,7 +38,8 @@ FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
   return r;
 }
 
-// One of the twelve edge directions of a cube (four of them twice), as a vector of -1, 0, 1.
+// Returns one of the twelve directions from a cube's centre to its edges (four of them occur twice), as a vector of -1,
+// 0, 1.
 #ifdef SGM_LANE_TABLES
 FN Vec3 latticeGradient(Uint h) {
   constexpr float kX[16] = {1, -1, 1, -1, 1, -1, 1, -1, 0, 0, 0, 0, 1, 0, -1, 0};
@@ -92,7 +93,7 @@ FN Dual cornerTerm(Int x, Int y, Int z, uint seed, Real fx, Real fy, Real fz) {
   return makeDual(v, g.x, g.y, g.z, broadcastInt(0));
 }
 
-// a + (b - a) w, with the gradients of all three; slope is dw along `axis`.
+// Returns a + (b - a) w with the gradient of the result; slope: the derivative of w along `axis`.
 FN Dual mixCorners(Dual a, Dual b, Real w, Real slope, int axis) {
   PRECISE Real d = b.v - a.v;
   PRECISE Real v = d * w;
@@ -113,7 +114,7 @@ FN Dual mixCorners(Dual a, Dual b, Real w, Real slope, int axis) {
   return makeDual(v, axis == 0 ? xs : x, axis == 1 ? ys : y, axis == 2 ? zs : z, broadcastInt(0));
 }
 
-// One octave; gradient by units.
+// Returns one octave; its gradient is per unit.
 FN Dual noiseOctave(Int ox, Int oy, Int oz, int period, float inv_period, uint seed) {
   LatticePlace px = latticePlace(ox, period, inv_period);
   LatticePlace py = latticePlace(oy, period, inv_period);
@@ -154,8 +155,8 @@ FN Dual noiseOctave(Int ox, Int oy, Int oz, int period, float inv_period, uint s
   return makeDual(r.v, rx, ry, rz, broadcastInt(0));
 }
 
-// Fractal sum, clamped to -1..1. Parameters: origin 0-2, octaves to evaluate 3 (one or more), seed 4, gain to unit sum 5,
-// then for each octave its period and the period's reciprocal.
+// Returns the sum of several octaves, clamped to -1..1. Parameters: 0-2 origin, 3 number of octaves to evaluate (at
+// least one), 4 seed, 5 gain that normalises the sum, then for each octave its period and the period's reciprocal.
 FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   Int ox = wrapSub(px, broadcastInt(PI(P, 0)));
   Int oy = wrapSub(py, broadcastInt(PI(P, 1)));
@@ -167,7 +168,7 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   PRECISE Real y = broadcast(0.0f);
   PRECISE Real z = broadcast(0.0f);
   int k = 0;
-  do {  // at least one; software Vulkan runs the body of a `for` once more than its count
+  do {  // at least once; software Vulkan runs the body of a `for` loop once more than its count
     Dual o = noiseOctave(ox, oy, oz, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * uint(k));
     PRECISE Real a = o.v * weight;
     v = v + a;

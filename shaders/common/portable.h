@@ -1,14 +1,16 @@
-// The subset of GLSL, C++ and CUDA in which the field's mathematics is written once (arithmetic contract, rule 2).
+// The subset of GLSL, C++ and CUDA in which the functions of fields are written, once for all backends (arithmetic
+// contract, rule 2).
 //
-// Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value
-// that differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint.
-// PF, PI and PU read a word of an op's parameters that is the same for all samples, gatherReal one for each; QF, QI
-// and QU are PF, PI and PU where the word's number is no constant but under 28; RF, RI and RU where it may be any. Not
-// every backend reads these as fast. No word is read on the right of && or || or in a branch that not all samples take:
-// a shader's invocations hand words around among each other, and one that does not come along hands on anything.
-// Every product or sum that feeds a sum is a local declared PRECISE, so that GLSL contracts nothing. No header here has
-// an include guard: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
-// below, wide in backend/cpu/wide.h).
+// Allowed on values are + - *, comparisons, conversions and integer operations; conditions use sel() instead of
+// branches. A value that differs from sample to sample has type Real, Int, Uint or Bool; a value that is equal for all
+// samples has type float, int or uint. PF, PI and PU read a parameter word of an op that is the same for all samples;
+// gatherReal reads one for each sample. QF, QI and QU do the same as PF, PI and PU if the word's number is not a
+// constant but below 28; RF, RI and RU if it may be any number. Not every backend reads these as fast. No word may be
+// read on the right of && or ||, or in a branch that not all samples take: the invocations of a shader exchange words,
+// and one that does not take part would supply undefined words. Every product or sum that is an operand of a sum must
+// be a local variable declared PRECISE, so that GLSL does not contract it. The headers here have no include guards: a
+// C++ source includes common.h once in each namespace for which it has defined the types (scalar types below, vectors
+// in backend/cpu/wide.h).
 
 #ifndef __cplusplus
 
@@ -19,7 +21,7 @@
 #define Uint uint
 #define Bool bool
 #define Params uint
-#ifndef PU  // a shader may hold parameters in another way
+#ifndef PU  // a shader may store parameters in another way
 #define PU(P, i) params[(P) + uint(i)]
 #define QU(P, i) PU(P, i)
 #define RU(P, i) PU(P, i)
@@ -57,7 +59,7 @@ FN Int wrapMul(Int a, Int b) { return a * b; }
 #define RI(P, i) PI(P, i)
 
 #ifndef SGM_WIDE
-// Plain scalars: the reference in bits for every other backend.
+// Scalar types: the reference, whose bits all other backends must reproduce.
 #ifdef __CUDACC__
 #define FN __host__ __device__ inline
 #else
@@ -100,8 +102,8 @@ struct Vec3 {
   Real x, y, z;
 };
 
-// A value, its gradient by world units, and the label (tag << 16 | material) of the shape that dominates it.
-// Where only the value is wanted the compiler drops the rest.
+// A value, its gradient per world unit, and the label (tag << 16 | material) of the shape that dominates it. If only
+// the value is used, the compiler removes the rest.
 struct Dual {
   Real v, x, y, z;
   Int label;

@@ -1,7 +1,9 @@
-// Primitives: distance in units, negative inside, with its gradient by world units. None is steeper than 1.
+// Primitives: each returns the distance in units, negative inside, with its gradient per world unit. None is steeper
+// than 1.
 //
-// Parameters P of every primitive begin with its label and its integer centre; framed ones go on with nine rows of the
-// rotation world -> local. What follows is said at each primitive. All reciprocals among them come from the host.
+// The parameters P of every primitive begin with its label (0) and its integer centre (1-3). Primitives with a frame
+// have nine rows of the rotation from world to local axes next (4-12). The further parameters are listed at each
+// primitive. All reciprocals among them are computed by the host.
 
 FN Vec3 offsetFrom(Int px, Int py, Int pz, Params P) {
   return makeVec3(toReal(saturatingSub(px, broadcastInt(PI(P, 1)))), toReal(saturatingSub(py, broadcastInt(PI(P, 2)))),
@@ -23,14 +25,15 @@ FN Vec3 toLocal(Int px, Int py, Int pz, Params P) {
                   dotRow(d, PF(P, 10), PF(P, 11), PF(P, 12)));
 }
 
-// A local gradient turned back into the world's axes.
+// Rotates a local gradient to world axes.
 FN Dual fromLocal(Real v, Real gx, Real gy, Real gz, Params P) {
   Vec3 g = makeVec3(gx, gy, gz);
   return makeDual(v, dotRow(g, PF(P, 4), PF(P, 7), PF(P, 10)), dotRow(g, PF(P, 5), PF(P, 8), PF(P, 11)),
                   dotRow(g, PF(P, 6), PF(P, 9), PF(P, 12)), broadcastInt(PI(P, 0)));
 }
 
-// Squares of less than 1e-15 units are 0: a denormal has no direction that all devices agree on.
+// Returns the squared length; squares below 1e-15 count as 0, because devices would not agree on the direction of a
+// denormal.
 FN Real lengthSquared2(Real x, Real y) {
   PRECISE Real a = x * x;
   PRECISE Real b = y * y;
@@ -47,8 +50,9 @@ FN Real lengthSquared3(Vec3 p) {
   return sel(r > 1.0e-30f, r, broadcast(0.0f));
 }
 
-// Signed distance in the plane to the corner made of two half-planes at signed distances a and b, both known to be
-// exact along their own normals: the outside is round, the inside is the nearer face. ga, gb: share of each normal.
+// Signed distance in a plane to a corner made of two half-planes, at signed distances a and b that are exact along
+// their own normals: outside, the corner is round; inside, the nearer face counts. ga, gb: share of each normal in the
+// gradient.
 struct Corner {
   Real v, ga, gb;
 };
@@ -73,7 +77,7 @@ FN Corner cornerDistance(Real a, Real b) {
   return r;
 }
 
-// 4 radius. No frame.
+// Parameters: 4 radius. No frame.
 FN Dual opSphere(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real s = lengthSquared3(d);
@@ -86,7 +90,7 @@ FN Dual opSphere(Int px, Int py, Int pz, Params P) {
   return makeDual(v, gx, gy, gz, broadcastInt(PI(P, 0)));
 }
 
-// 13-15 half extents.
+// Parameters: 13-15 half extents.
 FN Dual opBox(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real zero = broadcast(0.0f);
@@ -112,7 +116,7 @@ FN Dual opBox(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// 13 radius, 14 half height.
+// Parameters: 13 radius, 14 half height.
 FN Dual opCylinder(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real s = lengthSquared2(q.x, q.z);
@@ -128,8 +132,8 @@ FN Dual opCylinder(Int px, Int py, Int pz, Params P) {
   return fromLocal(c.v, gx, gy, gz, P);
 }
 
-// 13 bottom radius, 14 top radius, 15 half height, 16-17 the slant's outward normal (radial, y), 18 slant length,
-// 19-20 unit direction of the slant, from the bottom rim to the top rim (radial, y).
+// Parameters: 13 bottom radius, 14 top radius, 15 half height, 16-17 outward normal of the slanted side (radial, y), 18
+// length of the slanted side, 19-20 its unit direction from the bottom rim to the top rim (radial, y).
 FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real zero = broadcast(0.0f);
@@ -150,7 +154,7 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   PRECISE Real over = radial - rim;
   PRECISE Real cx = maxReal(over, zero);
   PRECISE Real cy = maxReal(cap, zero);
-  // The nearest point of the slant: inside its length the plain side distance, beyond it the rim.
+  // The nearest point of the slanted side: within its length the plain distance counts, beyond it the rim.
   PRECISE Real held = clampReal(along, 0.0f, PF(P, 18));
   PRECISE Real past = along - held;
   PRECISE Real slant2 = lengthSquared2(side, past);
@@ -189,7 +193,8 @@ FN Dual opTruncone(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// From the centre along the world vector 4-6; 7 reciprocal of its squared length (0 for a sphere), 8 radius. No frame.
+// A ball that is swept from the centre along a world vector. Parameters: 4-6 vector, 7 reciprocal of its squared length
+// (0 for a sphere), 8 radius. No frame.
 FN Dual opCapsule(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real h = dotRow(d, PF(P, 4), PF(P, 5), PF(P, 6)) * PF(P, 7);
@@ -210,7 +215,7 @@ FN Dual opCapsule(Int px, Int py, Int pz, Params P) {
   return makeDual(v, ox, oy, oz, broadcastInt(PI(P, 0)));
 }
 
-// 13 ring radius, 14 tube radius; axis y.
+// Parameters: 13 radius of the ring, 14 radius of the tube. The axis is local y.
 FN Dual opTorus(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real s = lengthSquared2(q.x, q.z);
@@ -229,7 +234,7 @@ FN Dual opTorus(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// 13-15 reciprocal radii, 16 smallest radius: (|q / radii| - 1) * smallest radius.
+// Returns (|q / radii| - 1) * smallest radius. Parameters: 13-15 reciprocal radii, 16 smallest radius.
 FN Dual opEllipsoid(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real ux = q.x * PF(P, 13);
@@ -250,7 +255,7 @@ FN Dual opEllipsoid(Int px, Int py, Int pz, Params P) {
   return fromLocal(v, gx, gy, gz, P);
 }
 
-// (||q / radii||_n - 1) * smallest radius, local gradient.
+// Returns (||q / radii||_n - 1) * smallest radius, with a gradient in local axes.
 FN Dual superquadricLocal(Vec3 q, Real ix, Real iy, Real iz, Real smallest, Real n) {
   PRECISE Real ux = absReal(q.x) * ix;
   PRECISE Real uy = absReal(q.y) * iy;
@@ -284,15 +289,15 @@ FN Dual superquadricLocal(Vec3 q, Real ix, Real iy, Real iz, Real smallest, Real
   return makeDual(v, gx, gy, gz, broadcastInt(0));
 }
 
-// 13-15 reciprocal radii, 16 smallest radius, 17 exponent n >= 2.
+// Parameters: 13-15 reciprocal radii, 16 smallest radius, 17 exponent n >= 2.
 FN Dual opSuperquadric(Int px, Int py, Int pz, Params P) {
   Dual d = superquadricLocal(toLocal(px, py, pz, P), broadcast(PF(P, 13)), broadcast(PF(P, 14)), broadcast(PF(P, 15)),
                              broadcast(PF(P, 16)), broadcast(PF(P, 17)));
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// The exponent morph at t: radii between 13-15 and 16-18, exponent 2 / (1 - t + t * 2 / kMaxPower), 19 that 2 /
-// kMaxPower.
+// The morph of exponents at t: radii between 13-15 and 16-18; exponent 2 / (1 - t + t * 2 / kMaxPower), where parameter
+// 19 is 2 / kMaxPower.
 FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   PRECISE Real k = 1.0f - t;
   PRECISE Real ax = k * PF(P, 13);
@@ -310,13 +315,14 @@ FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   return superquadricLocal(q, recipReal(rx), recipReal(ry), recipReal(rz), minReal(rx, minReal(ry, rz)), n);
 }
 
-// The part by position alone; its part by t is t's gradient times opPowerMorphSlope.
+// Returns the value, and the part of the gradient due to the position; the part due to t is t's gradient times
+// opPowerMorphSlope.
 FN Dual opPowerMorph(Int px, Int py, Int pz, Dual t, Params P) {
   Dual d = powerMorphAt(toLocal(px, py, pz, P), clampReal(t.v, 0.0f, 1.0f), P);
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// df/dt: it has no short closed form, and a difference over 1/64 of the range is near enough for a normal.
+// Returns df/dt. It has no short closed form, and a difference over 1/64 of the range is exact enough for a normal.
 FN Real opPowerMorphSlope(Int px, Int py, Int pz, Dual t, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   PRECISE Real before = clampReal(t.v - 0.0078125f, 0.0f, 1.0f);
@@ -346,9 +352,9 @@ FN Dual opHalfspace(Int px, Int py, Int pz, Params P) {
   return fromLocal(q.y, zero, broadcast(1.0f), zero, P);
 }
 
-// A polygon in local xz, counter-clockwise seen from +y, between local y = -h and h. 13 half height, 14 corner count,
-// then for each corner: x, z, the edge to the next corner x, z, and the reciprocals of the edge's squared length and
-// length.
+// A polygon in local xz, counter-clockwise seen from +y, between local y = -h and h. Parameters: 13 half height h, 14
+// number of corners, then for each corner: x, z, the edge to the next corner x, z, and the reciprocals of the edge's
+// squared length and of its length.
 FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   int count = PI(P, 14);
@@ -379,7 +385,7 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
     gx = sel(nearer, sel(middle, nx, dx), gx);
     gz = sel(nearer, sel(middle, nz, dz), gz);
     on_edge = (nearer && middle) || (on_edge && !nearer);
-    // Crossing rule: the edge spans the point's z, and passes it on the side of +x.
+    // Crossing rule for inside or outside: counts edges that span the point's z and pass the point on the side of +x.
     Real this_z = broadcast(RF(P, at + 1));
     PRECISE Real next_z = this_z + RF(P, at + 3);
     PRECISE Real c = wz * RF(P, at + 2);
@@ -405,7 +411,7 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   return fromLocal(c.v, hx, hy, hz, P);
 }
 
-// max(0, 1 - x)^3 and its slope in x.
+// Returns max(0, 1 - x)^3 and its derivative.
 FN Corner kernelOf(Real x) {
   PRECISE Real k = 1.0f - x;
   k = maxReal(k, broadcast(0.0f));
@@ -419,8 +425,8 @@ FN Corner kernelOf(Real x) {
   return r;
 }
 
-// The weight of a ball under a compact-kernel sum, without a root. 4 reciprocal of the squared support radius. No
-// frame.
+// Returns the weight of a ball in a sum with a compact kernel, computed without a square root. Parameters: 4 reciprocal
+// of the squared support radius. No frame.
 FN Dual opBlob(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real x = lengthSquared3(d) * PF(P, 4);

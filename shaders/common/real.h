@@ -1,8 +1,9 @@
-// Elementary functions from + - * and integers. Largest relative errors are stated and tested.
+// Elementary functions, computed by + - * and integer operations only. The stated maximum errors are tested.
 
-// Which zero comes of a zero and its negative is not told: compilers make one instruction of these, and nothing that
-// follows lets a zero's sign through (unsignedZero).
-#ifndef SGM_VECTOR_FORMS  // the CPU's vectors have these in instructions of their own, with the same bits (wide.h)
+// If both arguments are zeroes of different signs, it is undefined which one is returned: compilers use one instruction
+// for these functions. The code that follows removes signs of zeroes (unsignedZero).
+// on the CPU, vectors have instructions for these functions, which give the same bits (wide.h)
+#ifndef SGM_VECTOR_FORMS
 FN Real minReal(Real a, Real b) { return sel(a < b, a, b); }
 FN Real maxReal(Real a, Real b) { return sel(a > b, a, b); }
 #endif
@@ -10,7 +11,8 @@ FN Real absReal(Real a) { return sel(a < 0.0f, -a, a); }
 FN Real clampReal(Real x, float lo, float hi) { return minReal(maxReal(x, broadcast(lo)), broadcast(hi)); }
 FN Real signOf(Real a) { return sel(a < 0.0f, broadcast(-1.0f), broadcast(1.0f)); }
 
-// 1 / sqrt(x) for normal x > 0: relative error under 3e-7 (three Newton steps from an integer first guess).
+// Returns 1 / sqrt(x) for normal x > 0, with a relative error below 3e-7 (three Newton steps from an integer first
+// guess).
 // Finite at 0, so that x * rsqrt(x) is 0 there.
 FN Real rsqrtReal(Real x) {
   PRECISE Real y = bitsToReal(0x5F375A86u - (realToBits(x) >> 1));
@@ -30,14 +32,14 @@ FN Real rsqrtReal(Real x) {
   return y;
 }
 
-// sqrt(x) for x >= 0: relative error under 4e-7; exact at 0.
+// Returns sqrt(x) for x >= 0, with a relative error below 4e-7; exact at 0.
 FN Real sqrtReal(Real x) {
   PRECISE Real r = x * rsqrtReal(x);
   return r;
 }
 
-// 1 / x for 2^-120 < x < 2^120: relative error under 2e-7. Beyond that range Newton's steps overflow or lose everything
-// to denormals, and the result means nothing, not even in its sign: callers keep out of it (settleReal).
+// Returns 1 / x for 2^-120 < x < 2^120, with a relative error below 2e-7. Outside of that range, Newton's steps
+// overflow or yield denormals, and even the sign of the result is meaningless; callers ensure the range (settleReal).
 FN Real recipReal(Real x) {
   PRECISE Real y = bitsToReal(0x7EF311C7u - realToBits(x));
   PRECISE Real e = x * y;
@@ -52,7 +54,7 @@ FN Real recipReal(Real x) {
   return y;
 }
 
-// a / b for 2^-120 < |b| < 2^120, and 0 where b = 0.
+// Returns a / b for 2^-120 < |b| < 2^120, and 0 if b = 0.
 FN Real divideReal(Real a, Real b) {
   PRECISE Real m = absReal(b);
   PRECISE Real r = a * recipReal(sel(m > 0.0f, m, broadcast(1.0f)));
@@ -60,9 +62,10 @@ FN Real divideReal(Real a, Real b) {
   return sel(m > 0.0f, r, broadcast(0.0f));
 }
 
-// What an expression yields is held to 1e18 and is 0 under 1e-30, gradients included. So a product of two never becomes
-// infinite (and infinity times 0 never NaN), none is a denormal that one device keeps and another flushes, and
-// reciprocals stay in their range. Vulkan promises nothing about any of these.
+// The results of expressions, including gradients, are clamped to a magnitude of 1e18, and magnitudes below 1e-30
+// become 0. So a product of two results never overflows (and infinity times 0 never yields NaN), no product is a
+// denormal that some devices keep and others flush, and reciprocals stay in their range. Vulkan defines none of these
+// cases.
 FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
 #ifndef SGM_VECTOR_FORMS
 FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, broadcast(0.0f)); }
@@ -70,7 +73,7 @@ FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, bro
 FN Real settleReal(Real x) { return flushReal(holdReal(x)); }
 
 #ifndef SGM_VECTOR_FORMS
-// Largest whole number <= x, for |x| < 2^31; no negative zero.
+// Returns the largest integer <= x, for |x| < 2^31; never a negative zero.
 FN Real floorReal(Real x) {
   PRECISE Real r = toReal(toInt(x));
   PRECISE Real lower = r - 1.0f;
@@ -78,7 +81,7 @@ FN Real floorReal(Real x) {
 }
 #endif
 
-// 2^x, x clamped to [-126, 126]: relative error under 3e-7.
+// Returns 2^x with x clamped to [-126, 126], with a relative error below 3e-7.
 FN Real exp2Real(Real x) {
   PRECISE Real c = clampReal(x, -126.0f, 126.0f);
   PRECISE Real whole = c + 0.5f;
@@ -101,7 +104,7 @@ FN Real exp2Real(Real x) {
   return p;
 }
 
-// log2(x) for normal x > 0: absolute error under 4e-7 * max(1, |log2 x|); about -127 at 0.
+// Returns log2(x) for normal x > 0, with an absolute error below 4e-7 * max(1, |log2 x|); about -127 at 0.
 FN Real log2Real(Real x) {
   Uint bits = realToBits(x);
   Int exponent = wrapSub(toIntBits(bits >> 23), 127);
@@ -129,7 +132,8 @@ FN Real log2Real(Real x) {
   return r;
 }
 
-// a^n for 0 <= a <= 1 and 1 <= n <= 20: absolute error under 1e-5; 0 stays under 2^-126.
+// Returns a^n for 0 <= a <= 1 and 1 <= n <= 20, with an absolute error below 1e-5; for a = 0 the result is below
+// 2^-126.
 FN Real powReal(Real a, Real n) {
   PRECISE Real l = log2Real(a);
   PRECISE Real e = n * l;
@@ -137,7 +141,7 @@ FN Real powReal(Real a, Real n) {
 }
 
 #ifndef SGM_VECTOR_FORMS
-// p - c, saturating: a half-space or a domain may be farther away than an int32 holds.
+// Returns p - c, saturated: a half-space or a domain may be farther away than an int32 can represent.
 FN Int saturatingSub(Int p, Int c) {
   Int d = wrapSub(p, c);
   Bool overflow = ((p ^ c) & (p ^ d)) < 0;
@@ -146,7 +150,7 @@ FN Int saturatingSub(Int p, Int c) {
 }
 #endif
 
-// floor(f * scale + 0.5), clamped to +-2^22 (rule 3).
+// Returns floor(f * scale + 0.5), clamped to +-2^22 (rule 3).
 FN Int quantise(Real f, float scale) {
   PRECISE Real q = f * scale;
   q = q + 0.5f;

@@ -1,14 +1,16 @@
-// Evaluates a field program point by point, all values and attributes: what the conformance test compares with the
-// scalar evaluator, bit by bit. Plain rather than fast; it interprets the same words that the CPU does. Included by
-// field.comp and field_rte.comp, which differ in the rounding that they demand.
+// Evaluates a field program point by point, with all values and attributes; the conformance test compares the results
+// with those of the scalar evaluator, bit by bit. It is simple rather than fast, and interprets the same words as the
+// CPU. Included by field.comp and field_rte.comp, which differ in the rounding mode that they require.
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly buffer InstrWords { uint instrs[]; };  // three a program.h Instr
+layout(std430, binding = 0) readonly buffer InstrWords { uint instrs[]; };  // three words per Instr of program.h
 layout(std430, binding = 1) readonly buffer ParamWords { uint params[]; };
-layout(std430, binding = 2) readonly buffer GroupWords { uint groups[]; };  // eleven a group: see conformance_vulkan.cpp
-layout(std430, binding = 3) readonly buffer PointWords { int points[]; };   // x y z
-layout(std430, binding = 4) buffer ResultWords { uint results[]; };  // q, value, gradient, normal x y, label
+// eleven words per group: see conformance_vulkan.cpp
+layout(std430, binding = 2) readonly buffer GroupWords { uint groups[]; };
+layout(std430, binding = 3) readonly buffer PointWords { int points[]; };   // x, y, z of each point
+// for each point: q, value, gradient, normal x y, label
+layout(std430, binding = 4) buffer ResultWords { uint results[]; };
 
 layout(push_constant) uniform Push {
   uint point_count, group_count, initial_bits, initial_label, scale_bits;
@@ -20,10 +22,11 @@ layout(push_constant) uniform Push {
 
 Dual registers[kMaxRegisters];
 ivec3 places[kMaxPlaces];
-mat3 jacobians[kMaxPlaces];  // column j holds d place / d sample_j
+mat3 jacobians[kMaxPlaces];  // column j contains d place / d sample_j
 
-// Nothing precise may read a global here: glslang follows `precise` back through every assignment to the arrays above,
-// which takes it for ever. Functions end that search, so all arithmetic stands in functions of values.
+// Expressions that are `precise` must not read global arrays here: glslang follows `precise` backwards through all
+// assignments to these arrays, which takes forever. Function calls end that search, so all arithmetic is in functions
+// of values.
 float alongColumn(Dual d, vec3 column) {
   PRECISE Real a = d.x * column.x;
   PRECISE Real b = d.y * column.y;

@@ -4,5 +4,5 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// For devices that cannot be asked for a rounding: they round to nearest or are reported as not exact.
+// For devices on which a shader cannot require a rounding mode: they round to nearest, or are reported as not exact.
 #include "mesher/attributes.glsl"

@@ -1,6 +1,7 @@
-// Bounds flow through a program, one box of positions an invocation: the forms of sweep.glsl for them (field/prune_kernel.inl).
-// Needs the box lo..hi, the field and what its layers add and take away (field, adds, cuts, add_high, cut_high); MARK and
-// MARK_WHOLE take what decides whether the current record stays, MARK_LAYER what decides it in a layer.
+// Computes the bounds of a program's records, one box of positions per invocation: definitions of the forms of
+// sweep.glsl (field/prune_kernel.inl). The including file must define the box lo..hi, and the bounds of the field and
+// of what its layers add and remove (field, adds, cuts, add_high, cut_high). MARK and MARK_WHOLE receive the value that
+// decides whether the current record stays, MARK_LAYER the value that decides it within a layer.
 
 const float kNever = 3.0e38f;
 const uint kMostLayers = 64u;
@@ -14,7 +15,7 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
-// As addend() of addend.glsl.
+// Same as addend() of addend.glsl, for bounds.
 Bounds addendBounds(Bounds a, Bounds b, uint P) {
   if ((kKindsHigh & kSomeMorphs) != 0u) {
     const Bounds by = makeBounds(PF(P, kByWord), PF(P, kByWord));
@@ -31,7 +32,7 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
 #define BOX makeBox(place_low[place], place_high[place])
 #define SIZES uintBitsToFloat(wordOfRecord(30u))
 #define MIDDLE_OF(axis) middleOf(place_low[place].axis, place_high[place].axis)
-#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // of a lattice
+#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // range of a lattice's samples
 #define OPERANDS(a, b, c) setSlot(dst, operandBounds(number, a, b, c, PF(P, 0), PF(P, 1)));
 #define NONE makeBounds(0.0f, 0.0f)
 #define FORM_CONSTANT(F) OPERANDS(NONE, NONE, NONE)
@@ -144,8 +145,8 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
       cut_high = kNever;                                                      \
     }                                                                         \
   }
-// Where a smooth group is its width away and no nearer than the field, the field keeps its bits; where the field is, the
-// group takes its place.
+// If a smooth group is at least its width away and not nearer than the field, the field keeps its bits. If that holds
+// for the field instead, the group replaces it.
 #define FORM_SMOOTH                                                                                   \
   {                                                                                                   \
     GROUP                                                                                             \

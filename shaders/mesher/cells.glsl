@@ -1,13 +1,14 @@
-// An active cell on its way from the list to the triangles: its case, and all that the numbers of its vertices follow
-// from. Rows are those of samples that the cell touches, y + 2 z; of each the number of the first vertex that sample x
-// or a later one owns, and the owned edges of samples x (bits 0..2) and x + 1 (bits 3..5). A body has fewer than 2^17
-// vertices and 2^19 indices, and at most 99 vertices between a sample and the one above.
+// An active cell as list_cells.comp passes it to triangles.comp: its case, and the data from which the numbers of its
+// vertices are computed. Rows are the four rows of samples that the cell touches, y + 2 z. For each row: the number of
+// the first vertex on an edge that starts at sample x or a later one; and which edges start at samples x (bits 0..2)
+// and x + 1 (bits 3..5). A body has fewer than 2^17 vertices and 2^19 indices, and at most 99 vertices between a sample
+// and the one above.
 
 struct ActiveCell {
   uint cell_case;
   uvec4 first;  // by row
-  uvec3 owned;  // by row; of row 3 a cell has the x-edge of sample x alone
-  uint index;   // the first of its indices, in its part
+  uvec3 owned;  // by row; of row 3, a cell uses only the x-edge of sample x
+  uint index;   // number of its first index in the part
   uint part;
 };
 

@@ -1,22 +1,23 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// What a chunk's body has, from signs alone: a workgroup a chunk, an invocation a run of rows. It walks them twice,
-// once for the sums and once for the running counts.
+// Counts the output of a chunk's body from signs alone: one workgroup per chunk, one invocation per run of rows. An
+// invocation processes its rows twice: first for their total, then for the counts before each row.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/edges.glsl"
 #include "mesher/scan.glsl"
 
-const uint kPairs = 545u;       // of rows
-const uint kPairsInRun = 9u;    // 64 runs are at least as many
-const uint kPairsToPlane = 16u; // from a pair to that which holds the next row but 32
+const uint kPairs = 545u;       // number of pairs of rows
+const uint kPairsInRun = 9u;    // 64 runs of this length contain all pairs
+const uint kPairsToPlane = 16u; // distance from a pair to the pair of the next plane, 32 or 33 rows later
 
-// Triangles of a row of cells between the sample rows a, b (next in y), c (next in z) and d (both), 32 cells at once.
+// Returns the number of triangles of a row of cells between the sample rows a, b (next in y), c (next in z) and d (next
+// in both), for 32 cells at once.
 //
-// E cut edges in L loops make E - 2 L triangles. With n solid corners, e edges and f faces wholly in the solid, E is
-// 3 n - 2 e, and by Euler's formula L is n - e + f: together n - 2 f. Two cases stand apart: a ring around two opposite
-// void corners has two loops more than the formula, and the solid cube two less.
+// E cut edges in L loops make E - 2 L triangles. If n corners are solid, and e edges and f faces lie wholly in the
+// solid, E is 3 n - 2 e and, by Euler's formula, L is n - e + f: together n - 2 f. Two cases differ: a ring around two
+// opposite void corners has two loops more than the formula, and the solid cube two less.
 uint trianglesOf(uint a, uint b, uint c, uint d, uint a1, uint b1, uint c1, uint d1) {
   uint low = a & b & c & d, high = a1 & b1 & c1 & d1;
   uint corners = bitCount(a) + bitCount(b) + bitCount(c) + bitCount(d) + bitCount(a1) + bitCount(b1) + bitCount(c1) +
@@ -29,7 +30,7 @@ uint trianglesOf(uint a, uint b, uint c, uint d, uint a1, uint b1, uint c1, uint
 }
 
 struct Row {
-  uvec4 counts;  // vertices, indices, active cells; 1 where there are such cells
+  uvec4 counts;  // numbers of vertices, indices, active cells; 1 if there are active cells
   uint live;
 };
 
@@ -44,7 +45,7 @@ Row countRow(uint r, uvec2 a, uvec2 b, uvec2 c, uvec2 d) {
   return Row(uvec4(vertex_count, 3u * triangles, bitCount(live), min(live, 1u)), live);
 }
 
-// Two rows' signs; none are asked for beyond the last.
+// Returns the signs of two rows; beyond the last row they are not used.
 uvec4 signPair(uint signs, uint pair) { return scratch_fours[signs / 4u + min(pair, kPairs - 1u)]; }
 
 void writeRow(uint rows, uint r, Row row, inout uvec4 before) {
@@ -53,7 +54,7 @@ void writeRow(uint rows, uint r, Row row, inout uvec4 before) {
   before += row.counts;
 }
 
-// Goes through the rows of a run, adding to `before`; with `write` leaves what lies before each.
+// Processes the rows of a run, and adds their counts to `before`; if `write`, stores the counts before each row.
 void walk(uint signs, uint rows, uint first, bool write, inout uvec4 before) {
   uvec4 here = signPair(signs, first), there = signPair(signs, first + kPairsToPlane);
   uint pair = first;

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// What a seam has, from signs alone: a workgroup a seam. Leaves the plane of the chunk's signs for the kernels to come.
+// Counts the output of a seam from signs alone: one workgroup per seam. Stores the plane of the chunk's signs for later
+// kernels.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
@@ -10,9 +11,9 @@ layout(local_size_x = 64) in;
 #include "mesher/scan.glsl"
 #include "mesher/case_layout.h"
 
-const uint kCellsOfOne = 4u;  // neighbours in a, for each invocation
+const uint kCellsOfOne = 4u;  // number of neighbouring cells along a for each invocation
 
-shared uvec2 fine[kSide + 1u];         // one more, whose edges nobody asks for
+shared uvec2 fine[kSide + 1u];         // one more row, whose edges are not used
 shared uint coarse[kCoarseSide + 1u];
 
 uvec2 rowOfPlane(Plane plane, uint signs, uint b) {
@@ -39,7 +40,7 @@ void main() {
   if (i < kCoarseSide) coarse[i] = scratch[batch[record + kSeamSigns] + i];
   barrier();
 
-  // Vertices of fine, coarse and lateral rows; triangles, and active cells from bit 16 on.
+  // numbers of vertices of the fine, coarse and lateral row; number of triangles and, from bit 16 on, of active cells
   uvec4 own = uvec4(0u), before, sum;
   if (i < kSide) own.x = verticesOf(fineEdges(fine[i], fine[i + 1u], i));
   if (i < kCoarseSide) {

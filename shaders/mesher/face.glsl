@@ -3,11 +3,12 @@
 uint axisOf(uint face) { return face >> 1; }
 bool isHigh(uint face) { return (face & 1u) != 0u; }
 
-// How far apart neighbours along an axis lie among a chunk's samples.
+// Returns the distance of neighbours along an axis in the array of a chunk's samples.
 uint strideOf(uint axis) { return axis == 0u ? 1u : axis == 1u ? kSide : kSide * kSide; }
 
 struct Plane {
-  uint origin, step_u, step_v;  // among the chunk's samples
+  // index of the first sample, and steps along u and v, in the array of the chunk's samples
+  uint origin, step_u, step_v;
 };
 
 Plane planeOf(uint face) {
@@ -15,21 +16,21 @@ Plane planeOf(uint face) {
   return Plane(isHigh(face) ? kCells * strideOf(axis) : 0u, strideOf((axis + 1u) % 3u), strideOf((axis + 2u) % 3u));
 }
 
-// A point of the plane as coordinates of the chunk: u, v and the face's own place, in whatever unit.
+// Returns the chunk coordinates of a point of the plane: u, v, and the coordinate of the face itself; in any unit.
 uvec3 pointOf(uint face, uint u, uint v, uint high) {
   uint axis = axisOf(face), w = isHigh(face) ? high : 0u;
   return axis == 0u ? uvec3(w, u, v) : axis == 1u ? uvec3(v, w, u) : uvec3(u, v, w);
 }
 
-// The crossed edges of a row of the fine or of the coarse samples of a face.
+// Return the crossed edges of a row of the fine, or of the coarse, samples of a face.
 RowEdges fineEdges(uvec2 row, uvec2 above, uint b) { return crossedEdges(row, above, uvec2(0u), b, kCells); }
 RowEdges coarseEdges(uint row, uint above, uint b) {
   return RowEdges((row ^ row >> 1) & 0xFFFFu, b + 1u < kCoarseSide ? uvec2(row ^ above, 0u) : uvec2(0u), uvec2(0u));
 }
 
-// Where the fine and the coarse signs of one corner differ; bit a.
+// Returns a mask: bit a is set if the fine and the coarse sign of that corner differ.
 uint lateralEdges(uvec2 fine, uint coarse) {
-  uint even = fine.x & 0x55555555u;  // samples 0, 2, .. 30, to be moved together
+  uint even = fine.x & 0x55555555u;  // samples 0, 2, .. 30, which are then moved together
   even = (even | even >> 1) & 0x33333333u;
   even = (even | even >> 2) & 0x0F0F0F0Fu;
   even = (even | even >> 4) & 0x00FF00FFu;
@@ -37,7 +38,7 @@ uint lateralEdges(uvec2 fine, uint coarse) {
   return (even | fine.y << 16) ^ coarse;
 }
 
-// A seam cell's case: its fine rows 2 b .. 2 b + 2, its coarse rows b and b + 1.
+// Returns the case of a seam cell from its fine rows 2 b .. 2 b + 2 and its coarse rows b and b + 1.
 uint seamCase(uvec2 f0, uvec2 f1, uvec2 f2, uint c0, uint c1, uint a) {
   uvec3 low = uvec3(f0.x, f1.x, f2.x) >> (2u * a) & 7u, last = a == 15u ? uvec3(f0.y, f1.y, f2.y) << 2 : uvec3(0u);
   uvec3 rows = low | last;

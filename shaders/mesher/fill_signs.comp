@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The signs of all that is proven uniform, and zeros for the rest: a workgroup a chunk, then one a seam.
+// Writes the signs of boxes that are proven uniform, and zeroes for all others: one workgroup per chunk, then one per
+// seam.
 
 layout(local_size_x_id = 0) in;
 

@@ -1,13 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Lists the active cells of all bodies that have room: a workgroup a chunk, an invocation a row that has some.
+// Lists the active cells of all bodies for which there is memory: one workgroup per chunk, one invocation per row that
+// has active cells.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 #include "mesher/edges.glsl"
 #include "mesher/cells.glsl"
 
-// The triangles of one case (census_body.comp says why).
+// Returns the number of triangles of a case (see census_body.comp).
 uint trianglesOf(uint cell_case) {
   const uint kFaces[6] = uint[](0x55u, 0xAAu, 0x33u, 0xCCu, 0x0Fu, 0xF0u);
   uint count = bitCount(cell_case) + (cell_case == 0xFFu ? 4u : 0u);
@@ -16,7 +17,7 @@ uint trianglesOf(uint cell_case) {
   return hollow == 0x81u || hollow == 0x42u || hollow == 0x24u || hollow == 0x18u ? count - 4u : count;
 }
 
-// Three rows' signs from row r on; what lies beyond the chunk does not matter.
+// Reads the signs of three rows from row r on; beyond the chunk their content does not matter.
 void readRows(uint signs, uint r, out uvec2 a, out uvec2 b, out uvec2 c) {
   uint pair = signs / 4u + min(r, kRows - 2u) / 2u;
   uvec4 low = scratch_fours[pair], high = scratch_fours[pair + 1u];

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The units of attributes of all seams that have room: an invocation a plane. What lies on fine edges and what is
-// lateral is decided by the chunk's own field, the rest by the coarser level's.
+// Makes the units of attributes of all seams for which there is memory: one invocation per plane. Vertices on fine
+// edges and lateral ones are evaluated with the chunk's own field, all others with the coarser level's.
 
 layout(local_size_x_id = 0) in;
 

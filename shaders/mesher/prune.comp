@@ -3,9 +3,9 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-// A program cut down to what matters in each of up to 64 boxes, one an invocation: field/prune.h says how, and why no
-// sample in the box changes a bit. Forward, bounds flow through all records; backward, the list of those that are left
-// is written from its end.
+// Prunes a program to each of up to 64 boxes, one per invocation. field/prune.h explains the method, and why no sample
+// in the box changes a bit. A forward pass computes the bounds of all records; a backward pass writes the list of those
+// that stay, from its end.
 
 layout(local_size_x_id = 0) in;
 
@@ -21,10 +21,10 @@ layout(local_size_x_id = 0) in;
 const uint kEndOfWindow = 0xFFu;
 const uint kMostRecords = 1024u;
 
-float mark[kMostRecords];   // what decides whether a record stays
+float mark[kMostRecords];   // the value that decides whether a record stays
 float whole_mark[kMostRecords];
 float layer_add[64], layer_cut[64], layer_joined[64], layer_replaced[64];
-float nearest_high[64];     // by slot: of a round union that ends
+float nearest_high[64];     // by slot: upper bound of the nearest operand of a round union
 
 #define MARK(value) mark[record_number] = value;
 #define MARK_WHOLE(value) whole_mark[record_number] = value;
@@ -35,13 +35,13 @@ float nearest_high[64];     // by slot: of a round union that ends
   layer_replaced[layer] = replaces ? 1.0f : 0.0f;
 #include "mesher/bound_forms.glsl"
 
-// The far slot has none: it is there without being made.
+// The far slot has no bit: it needs no record that makes it.
 uvec2 bitOf(uint slot) {
   const uint bit = 1u << (slot & 31u);
   return uvec2(slot < 32u ? bit : 0u, slot >= 32u && slot < kFarSlot ? bit : 0u);
 }
 
-// Records from..end of the program into the window; returns the first that found no room.
+// Reads records from..end of the program into the window; returns the first record for which it had no space.
 uint fillWindow(uint headers, uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
   uint filled = 0u, at = from, base = from, piece = 0u;
@@ -79,7 +79,8 @@ void main() {
   const float scale = uintBitsToFloat(batch[job + kJobScale]);
   const float initial = uintBitsToFloat(batch[job + kJobInitial]);
 
-  // A uniform brick is proven with one sample around it, so that no edge that leaves it changes sign either.
+  // Bricks are bounded together with one more sample on each side, so if a brick is uniform, no edge that leaves it
+  // changes sign.
   ivec3 lo = origin + max(ivec3(firstOfBrick(which)) - 1, ivec3(0)) * cell;
   ivec3 hi = origin + min(ivec3(lastOfBrick(which)) + 1, ivec3(32)) * cell;
   if (!bricks) {
@@ -108,9 +109,10 @@ void main() {
   const bool solid = field.hi * scale < -0.55f, empty = field.lo * scale > -0.45f;
   const uint list_end = batch[job + kJobLists] + (which + 1u) * records;
   uint begin = list_end;
-  uvec2 live = uvec2(0u);  // slots
+  uvec2 live = uvec2(0u);  // slots whose values are needed
   uint live_places = 0u;
-  bool below = false, replaced = false;  // what lies below a layer that covers all never shows
+  // true if a layer was found that covers everything: the layers below it have no effect
+  bool below = false, replaced = false;
   float limit_add = 0.0f, limit_cut = 0.0f, limit_joined = 0.0f;
   const bool listed = used && (!bricks || !(solid || empty));
   uint r = records;
@@ -161,7 +163,7 @@ void main() {
         replaced = keep && uint(w) >= 2u;
       }
 
-      // What it makes is not wanted any more, what it reads is.
+      // The value that the record makes is not needed before it, but its operands are.
       if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
         live &= ~made;
         if ((traits & kBeginsTwo) != 0u) live &= ~second;
@@ -189,13 +191,13 @@ void main() {
     scratch[item + kItemList] = begin;
     scratch[item + kItemCount] = list_end - begin;
     scratch[item + kItemFlags] = (solid ? kItemSolid : 0u) | (empty ? kItemEmpty : 0u);
-    // What the layers below the last that covers all would have been is hidden by it.
+    // The layers below the last layer that covers everything are hidden by it.
     scratch[item + kItemInitial] = below || replaced ? floatBitsToUint(1.0e30f) : batch[job + kJobInitial];
     scratch[item + kItemLabel] = below || replaced ? 0u : batch[job + kJobLabel];
     scratch[item + kItemScale] = batch[job + kJobScale];
     scratch[item + kItemOwner] = bricks ? chunk : seam;
-    scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);  // where it is not sampled
-    // Where only seams are asked for, only what touches their faces is sampled.
+    scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);  // for an item that is not sampled
+    // If only seams are requested, only bricks at their faces are sampled.
     const uint faces = batch[chunk + kChunkFaces];
     const uvec3 at_low = uvec3(equal(firstOfBrick(which), uvec3(0u))), at_high = uvec3(equal(lastOfBrick(which), uvec3(32u)));
     const uint touched = at_low.x | at_high.x << 1 | at_low.y << 2 | at_high.y << 3 | at_low.z << 4 | at_high.z << 5;

@@ -1,9 +1,9 @@
-// Where a loop of at most seven points is cut: the definition in mesh/triangulate.h, by dynamic programming over
-// chords, without a branch or an access to memory. What lies beyond the loop's n points is computed and not looked at.
+// Triangulates a loop of at most seven points as defined in mesh/triangulate.h, by dynamic programming over chords,
+// without branches and memory accesses. What lies beyond the loop's n points is computed, but not used.
 
 const uint kPoints = 7u;
 
-// A vertex's place in one word, modulo 1024 on each axis: the points of a cell are at most 256 apart.
+// Packs a vertex's position into one word, modulo 1024 on each axis: the points of a cell are at most 256 apart.
 uint packPlace(uvec2 vertex) {
   return (vertex.x & 0x3FFu) | (vertex.x >> 6 & 0xFFC00u) | (vertex.y & 0x3FFu) << 20;
 }
@@ -16,8 +16,8 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The piece of the loop between two points: the largest possible smallest triangle, -1 where their chord is
-// forbidden; and the apexes of its triangles in pre-order, three bits each.
+// The piece of the loop between two points: its largest possible smallest triangle, -1 if the chord is forbidden; and
+// the apexes of its triangles in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;
@@ -34,16 +34,17 @@ void forbid(inout Piece piece, uint forbidden, uint i, uint j) {
   if ((forbidden >> (i + (j - 1u) * (j - 2u) / 2u) & 1u) != 0u) piece.best = -1;
 }
 
-// The loop's places: an invocation's own, since an argument would be copied, element by element.
+// Positions of the loop's points. A global, because an array argument would be copied element by element.
 uint place[kPoints];
 
-// forbidden: a bit for each chord (case_layout.h). The apexes of the whole loop of n points.
+// Returns the apexes of the triangles of a loop of n points. forbidden: one bit per chord (case_layout.h).
 uint chooseApexes(uint n, uint forbidden) {
   const Piece side = Piece(0x7FFFFFFF, 0u), none = Piece(-1, 0u);
   uvec3 origin = highBits(place[0]);
-  ivec3 p[kPoints];  // all indices are constants: these arrays are registers
+  ivec3 p[kPoints];  // all indices are constants, so these arrays are in registers
   Piece piece[kPoints * kPoints];
-  ivec3 area[kPoints * kPoints];  // twice that of the triangle at point 0; any other is a sum of three
+  // twice the area of the triangle with point 0; any other triangle's is a sum of three of these
+  ivec3 area[kPoints * kPoints];
 #define AT(i, j) [(i) * kPoints + (j)]
 #define POINT(i) p[i] = placeFrom(origin, place[i]); piece AT(i - 1u, i) = side;
 #define AREA(i, j) area AT(i, j) = crossOf(p[i], p[j]);

@@ -1,15 +1,15 @@
-// The push constants of all kernels that mesh (backend/vulkan/batch_layout.h, Sizes).
+// The push constants of all kernels of the mesher (struct Sizes in backend/vulkan/batch_layout.h).
 layout(push_constant) uniform Sizes {
   uint part_count;
-  uint seam_records;  // where in batch the seams' records begin
-  uint cell_list;     // where in scratch the list of active cells begins
-  uint max_vertices;  // what the buffers have room for
+  uint seam_records;  // offset in `batch` of the seams' records
+  uint cell_list;     // offset in scratch of the list of active cells
+  uint max_vertices;  // the number of vertices for which the buffers have memory
   uint max_indices;
   uint max_cells;
   uint chunk_count;
-  uint jobs_at;      // where in batch the jobs of pruning begin
-  uint items_at;     // in scratch: bricks and planes (items.glsl),
-  uint sampled_at;   // what is to be sampled,
-  uint vertices_at;  // the vertices of each brick,
-  uint units_at;     // and the units of attributes
+  uint jobs_at;      // offset in `batch` of the jobs of pruning
+  uint items_at;     // offset in scratch of the items, which are bricks and planes (items.glsl)
+  uint sampled_at;   // offset in scratch of the list of sampled items
+  uint vertices_at;  // offset in scratch of the list of vertices by brick
+  uint units_at;     // offset in scratch of the units of attributes
 };

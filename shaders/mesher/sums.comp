@@ -1,12 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The sums over the triangles of all parts that have room, as mesh/part_sums.h has them: some workgroups a part, an
-// invocation a triangle. Runs when triangles are there. Numbers of 64 bits are a low and a high word.
+// Computes the sums over the triangles of all parts for which there is memory, as defined in mesh/part_sums.h: several
+// workgroups per part, one invocation per triangle. Runs after the triangles are written. 64-bit numbers are a low and
+// a high word.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 
-const uint kSums = 5u;  // area, three of the cross product, six volumes
+const uint kSums = 5u;  // area, three components of the cross product, six volumes
 shared uvec2 shares[kSums * gl_WorkGroupSize.x];
 
 uvec2 add(uvec2 a, uvec2 b) {
@@ -39,9 +40,9 @@ bool isAbove(uvec2 a, uvec2 b) { return a.y > b.y || (a.y == b.y && a.x > b.x); 
 
 float toFloat(uvec2 a) { return float(a.y) * 4294967296.0 + float(a.x); }
 
-// The square root, rounded to the nearest integer. x < 2^62.
+// Returns the square root, rounded to the nearest integer, for x < 2^62.
 uint roundedRoot(uvec2 x) {
-  // However inexact a device's floats are: the loops end at the one root there is.
+  // Correct however inexact the device's floats are: the loops end at the exact root.
   uint root = uint(min(sqrt(toFloat(x)), 2147483520.0));
   if (root > 0u) {
     uvec2 squared = square(root);
@@ -54,7 +55,7 @@ uint roundedRoot(uvec2 x) {
   return root + (subtract(x, square(root)).x > root ? 1u : 0u);
 }
 
-// fixedRoot of mesh/triangle_terms.h.
+// Same as fixedRoot of mesh/triangle_terms.h.
 uvec2 fixedRoot(uvec2 squared) {
   const uint kLengthBits = 12u;
   uint bits = squared.y < 1u << 6 ? kLengthBits : squared.y < 1u << 18 ? kLengthBits / 2u : 0u;
@@ -90,7 +91,8 @@ void main() {
   if (lane >= kSums) return;
   uvec2 sum = uvec2(0u);
   for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) sum = add(sum, shares[lane * gl_WorkGroupSize.x + i]);
-  // A carry is added by whoever has made the low word pass its end: the order does not matter.
+  // The invocation whose addition makes the low word overflow adds the carry to the high word, so the order does not
+  // matter.
   uint place = kHeadWords + part_count * kPartWords + part * kSumWords + 2u * lane;
   uint before = atomicAdd(parts[place], sum.x);
   atomicAdd(parts[place + 1u], sum.y + (before + sum.x < before ? 1u : 0u));

@@ -1,11 +1,11 @@
-// One pass over the records of the window, in sweeps: of each kind of op in turn, as many as stand in a row. Included
-// in a function where the forms (FORM_*) are defined for whatever flows through the program: values, values with
-// gradients, or bounds. They see dst, ra, rb, rc, place and P, and read words by PU.
+// One pass over the records in the window, in sweeps: for each kind of op in turn, processes all successive records of
+// that kind. Included in a function for which the forms (FORM_*) are defined: for values, values with gradients, or
+// bounds. The forms can use dst, ra, rb, rc, place and P, and read words by PU.
 //
-// Software Vulkan runs a loop's body once even where no record is of its kind. So ops that only join values may share a
-// loop, which pays where they are short: READ_JOINED reads the operands, the form of the one at hand sets the result,
-// WRITE_JOINED stores it. And so what a body reads is zeros then: the words of another kind's record, taken for floats,
-// may be denormals, over each of which a processor stumbles for a hundred cycles.
+// Software Vulkan runs the body of a loop once even if no record is of its kind. Therefore ops that only join values
+// may share a loop, which saves time because they are short: READ_JOINED reads the operands, the form of the current op
+// sets the result, WRITE_JOINED stores it. And therefore a body that runs without a record reads zeroes: words of a
+// record of another kind could be denormals when read as floats, each of which costs a processor a hundred cycles.
 
 #ifndef FORM_NOISE
 #define FORM_NOISE(F) FORM_POSITION(F)

@@ -1,25 +1,27 @@
-// How a shader holds a program (backend/vulkan/tape.h): records in a private window, the current one in registers, its
-// words handed around by shuffles. What it costs on software Vulkan decides this: a read of a buffer there is a loop
-// over the lanes, hundreds of cycles for one word as for four; an array that is indexed at run time is eight loads; and
-// a shuffle is one instruction. Hardware has no quarrel with any of it.
+// How a shader stores a program (backend/vulkan/tape.h): records are in a private window, and the current record is in
+// registers, whose words are exchanged by shuffles. The costs on software Vulkan are the reason: there, reading a
+// buffer is a loop over the lanes, which takes hundreds of cycles, for one word as for four; reading an array with a
+// variable index is eight loads; and a shuffle is one instruction. On hardware all of this is fast.
 //
-// Needs: every lane of a subgroup active, which all of a workgroup's control flow here grants; subgroups of 8 or more.
+// Requires that every lane of a subgroup is active, as in all control flow here, and that subgroups have at least 8
+// lanes.
 
-const uint kSlots = 65u;    // of values; the last is never written: farther than anything
+// number of slots for values; the last one is never written, and means farther than anything
+const uint kSlots = 65u;
 const uint kFarSlot = 64u;
-const uint kWindow = 128u;  // records in sight
-uvec4 window[kWindow];      // lane l of 8 holds words 4 l to 4 l + 3
-uvec4 record;               // the current one
-uvec4 own;                  // what an op reads of it (sweep.glsl)
-uint record_at;             // its place in the window
-uint record_number;         // how many came before it
+const uint kWindow = 128u;  // number of records in the window
+uvec4 window[kWindow];      // lane l of each 8 lanes has words 4 l to 4 l + 3
+uvec4 record;               // the current record
+uvec4 own;                  // the operands of the current op (sweep.glsl)
+uint record_at;             // index of the current record in the window
+uint record_number;         // number of records before it in the list
 
 uint wordOfRecord(uint i) {
   uint k = i & 3u;
   return subgroupShuffle(k == 0u ? own.x : k == 1u ? own.y : k == 2u ? own.z : own.w, i >> 2);
 }
 
-// A parameter whose number is no constant: in the first 28, or in what follows the first 32 words.
+// Returns a parameter word whose number is not a constant: one of the first 28, or of those behind the first 32 words.
 uint farWord(uint i) {
   uint k = i < 28u ? i + 2u : i + 4u;
   uvec4 piece = window[record_at + (k >> 5)];
@@ -27,7 +29,7 @@ uint farWord(uint i) {
   return subgroupShuffle(c == 0u ? piece.x : c == 1u ? piece.y : c == 2u ? piece.z : piece.w, (k >> 2) & 7u);
 }
 
-// Only kinds of op that occur are compiled in on software Vulkan: it would run each of them at least once a sweep.
+// Only kinds of op that occur are compiled on software Vulkan, which would run each of them at least once per sweep.
 layout(constant_id = 1) const uint kKindsLow = 0xFFFFFFFFu;
 layout(constant_id = 2) const uint kKindsHigh = 0xFFFFFFFFu;
 #define OCCURS(NUMBER) ((((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u)

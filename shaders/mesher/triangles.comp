@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-// The triangles of all bodies that have room: an invocation an active cell. Runs when vertices have their positions.
+// Writes the triangles of all bodies for which there is memory: one invocation per active cell. Runs after the vertices
+// have their positions.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"

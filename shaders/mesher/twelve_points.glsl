@@ -1,10 +1,10 @@
-// Where a flat loop of up to 12 points is cut: triangulateFlatLoop of mesh/triangulate_any.h as it stands there.
+// Triangulates a flat loop of up to 12 points: the same as triangulateFlatLoop of mesh/triangulate_any.h.
 
 const uint kLongestLoop = 12u;
 
 struct Point {
-  uint place;  // in the cell, ten bits an axis
-  uint rest;   // number of the vertex, and from bit 16 on the faces of its edge
+  uint place;  // position in the cell, ten bits per axis
+  uint rest;   // number of the vertex and, from bit 16 on, the mask of its edge's faces
 };
 
 Point packPoint(uvec3 place, uint faces, uint vertex) {
@@ -19,18 +19,19 @@ int measureOf(ivec3 a, ivec3 b, ivec3 c) {
   return n.x + n.y + n.z;
 }
 
-// A chord in a word: the largest possible smallest triangle of its piece, and in four bits the apex that reaches it.
+// A chord is stored in a word: the largest possible smallest triangle of its piece and, in the lowest four bits, the
+// apex that gives it.
 uint apexOf(uint chord) { return chord & 15u; }
 int bestOf(uint chord) { return int(chord) >> 4; }
 
-// An invocation's own. As arguments they would be copied, element by element.
+// Globals, because array arguments would be copied element by element.
 Point loop[kLongestLoop];
 uint chord[kLongestLoop * kLongestLoop];
-int total[kLongestLoop * kLongestLoop];  // by chord: the least area of its piece
+int total[kLongestLoop * kLongestLoop];  // by chord: the smallest total area of its piece
 
-// Fills the chords of the loop of n points.
+// Computes the chords of the loop of n points.
 void cutLoop(uint n) {
-  const int side = 0x7FFFFFF;  // more than any triangle
+  const int side = 0x7FFFFFF;  // more than the size of any triangle
   const int never = 1 << 24;   // more than the area of any loop
   uint i = 0u, span = 2u;
   do {
