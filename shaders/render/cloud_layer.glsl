@@ -1,19 +1,20 @@
-// Clouds of fair weather in the sky behind everything: small cumulus at one height and, far above, streaks of cirrus.
-// They hang on the sky and depend on the direction alone, so that they stay where they are while an eye moves.
-// Whoever includes this has render/noise.glsl.
+// Clouds of fair weather behind everything else: small cumulus at one height and, far above it, streaks of cirrus. They
+// depend on the view direction alone, so that they stay where they are while the eye moves. The including file must
+// include render/noise.glsl.
 
-// The way in metres to a level over a round earth. up: the direction's sine over the horizon.
+// Returns the distance in metres along a direction to a height over a spherical earth. up: sine of the direction's
+// elevation.
 float wayTo(float level, float up) {
   const float kEarth = 6.371e6;
   float b = kEarth * up, c = level * (2.0 * kEarth + level);
   return c / (sqrt(b * b + c) + b);
 }
 
-const float kCloudBase = 1250.0;  // metres over the land
+const float kCloudBase = 1250.0;  // metres above the land
 const float kCloudDepth = 800.0;
 
-// Where cumulus stands: 0 at its rim, up to 1 in its middle, below 0 outside. Of what lies below `least` for
-// certain no more is found than that.
+// Where cumulus is: 0 at its border, up to 1 in its middle, below 0 outside. If the result is certainly below `least`,
+// an upper bound of it is returned.
 float cumulusAt(vec2 at, float least) {
   vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;
   float heap = -0.40, size = 0.55;
@@ -26,10 +27,12 @@ float cumulusAt(vec2 at, float least) {
   return heap;
 }
 
-// The least of cumulusAt() with which there may be a cloud, at a share of its depth over its base.
+// Returns the smallest cumulusAt() at which there may be a cloud. share: height above the cloud's base, divided by its
+// depth.
 float leastHeap(float share) { return 0.76 * share * share - 0.24; }
 
-// 0..1. heap: cumulusAt() there; share: of the cloud's depth over its base. Bases are flat, tops are heaped.
+// Returns the density, 0..1. heap: cumulusAt() there; share: height above the cloud's base, divided by its depth. Bases
+// are flat, tops are heaped.
 float cumulusDensity(vec3 p, float heap, float share, int octaves) {
   float body = 1.25 * heap - 0.95 * share * share - 0.3 * (1.0 - smoothstep(0.0, 0.10, share)) - 0.14;
   if (body <= -0.5) return 0.0;
@@ -43,17 +46,18 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
   return smoothstep(0.0, 0.34, body);
 }
 
-// Clouds as an eye sees them.
+// The parameters of a cloud layer, as the eye sees it.
 struct CloudLayer {
-  float base;    // over the eye, metres
-  float beyond;  // metres: no cloud stands nearer than this
-  int steps;     // along a direction
+  float base;    // height above the eye in metres
+  float beyond;  // metres: clouds are not nearer than this
+  int steps;     // number of steps along a direction
 };
 
-// Light, and how much of what is behind shows, along a direction. turn: 0..1, where within a step it begins.
+// Returns the light of cumulus in direction d (rgb), and the share of what is behind it that remains visible (a). turn:
+// 0..1, where within a step the first sample is.
 vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind, float turn) {
   const int kShort = 4;
-  const float kLost = 0.0075;  // of light, a metre, in the full density
+  const float kLost = 0.0075;  // share of light lost per metre at full density
   int steps = layer.steps;
   float step_share = 1.0 / float(steps), base = layer.base, beyond = layer.beyond;
   if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
@@ -61,7 +65,8 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
   if (begin + way < beyond) return vec4(0.0, 0.0, 0.0, 1.0);
   float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
   vec3 sum = vec3(0.0);
-  // Short steps where a cloud may be: it stands there as it does at both ends of the long step.
+  // Long steps are divided where there may be a cloud; its outline is interpolated between the two ends of the long
+  // step.
   float after = -1.0;
   for (int i = -1; i < steps && through > 0.02; ++i) {
     float low = step_share * (float(i) + turn), before = after, least = leastHeap(max(low, 0.0));
@@ -71,11 +76,11 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
     for (int k = 0; k < kShort; ++k) {
       float part = float(k) / float(kShort), share = low + step_share * part, heap = mix(before, after, part);
       vec3 p = d * (begin + share * way);
-      // Here, and then on the way to the sun.
+      // Density here, and then on the way to the sun.
       float density = 0.0, deep = 0.0;
       for (int j = 0; j < 3; ++j) {
         float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
-        // Short ways away the cloud stands as it does here.
+        // At small distances the outline of the cloud is assumed to be the same as here.
         float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
         float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
         if (j == 0) density = one;
@@ -90,12 +95,12 @@ vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind,
       through *= passed;
     }
   }
-  // Far clouds drown in the air before them.
+  // Haze hides distant clouds.
   float shown = smoothstep(0.012, 0.05, d.y), clear = exp(-begin / 21000.0);
   return vec4(shown * mix(behind * (1.0 - through), sum, clear), mix(1.0, through, shown));
 }
 
-// How much of the sky cirrus hides: streaks along the wind, in patches.
+// Returns how much of the sky cirrus hides: streaks along the wind, in patches.
 float cirrus(vec3 d) {
   if (d.y < 0.02) return 0.0;
   vec2 at = d.xz * wayTo(8500.0, d.y), along = vec2(0.83 * at.x + 0.56 * at.y, 0.83 * at.y - 0.56 * at.x);

@@ -1,13 +1,13 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// The ground between the blades of a lawn, in their shade: a skin upon the lawn's own surface.
+// Draws the shaded ground between the blades of a lawn, as a layer on the lawn's own surface.
 #include "render/foliage.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
-layout(location = 3) in vec2 grown;  // as Foliage::ground tells, runtime/tools/render/foliage.h
+layout(location = 3) in vec2 grown;  // see Foliage::ground in runtime/tools/render/foliage.h
 layout(location = 4) in uint second;
 layout(location = 5) in float share;
 layout(location = 0) out vec3 out_position;

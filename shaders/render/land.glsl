@@ -1,8 +1,8 @@
-// The land around the world: where a region is cut off its ground goes on as a plane at the height of its border, under
-// meadows and fields or bare, and woods and hills stand before the horizon. frame.land says which.
+// The land around the world. Where a region is cut off, its ground continues as a plane at the height of the region's
+// border, bare or with meadows and fields; woods and hills stand before the horizon. frame.land has the parameters.
 
-// What air does to what lies t metres away: it takes the light's red last and adds its own blue.
-// Haze lies low: from high above one sees farther.
+// Applies air to what lies t metres away: it removes red light last, and adds its own blue. Haze lies low, so that one
+// sees farther from high above.
 vec3 throughAir(vec3 colour, vec3 haze, float t) {
   float low = 1.0 / (1.0 + max(frame.eye.y - frame.land.x, 0.0) / 700.0);
   return mix(haze, colour, exp(-t * low / vec3(9200.0, 7400.0, 5600.0)));
@@ -12,16 +12,17 @@ vec3 landLight(vec3 n, float open) {
   return sunLight() * (open * max(dot(n, frame.sun.xyz), 0.0)) + 0.8 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz);
 }
 
-// Fields, hedges between them and woods; bare land has broad stains alone. Near the world it is what the world ends in.
+// Returns the colour of fields, hedges between them, and woods; bare land has only broad stains. Near the world it has
+// the colour of the world's ground (own).
 vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
-  // Metres of each noise; a loop, for its body is compiled once.
+  // Wavelength in metres of each noise. A loop, because its body is compiled only once.
   const float kWide[8] = float[8](210.0, 37.0, 4.1, 6.0, 330.0, 41.0, 1500.0, 110.0);
   float n[8];
   for (int i = 0; i < 8; ++i) n[i] = plainNoise(vec3(at.x, 5.0 * float(i), at.y) / kWide[i]);
   float middle = n[1] * visible(20.0, footprint), fine = n[2] * visible(3.0, footprint);
   vec3 near = own * (1.0 + 0.22 * n[0] + 0.14 * middle);
   if (isBare()) return near;
-  // Parishes of fields in rows, each turned its own way.
+  // The land is divided into parishes, whose fields are in rows of different directions.
   Block parish = cellAt(at + 60.0 * vec2(n[4], n[0]), 900.0, 1.0, 407);
   float turn = 3.1 * parish.lot.x;
   vec2 rows = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * (at + 9.0 * vec2(n[1], n[5]));
@@ -30,7 +31,7 @@ vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   vec2 wide = mix(vec2(130.0, 95.0), vec2(340.0, 170.0), open) * (0.8 + 0.5 * parish.lot.z);
   Block field = blockAt(rows, wide, 0.37, 0.5, 1.0);
   field.edge = min(field.edge, parish.edge);
-  // A farmer sows much of the same side by side.
+  // Neighbouring fields often have the same crop.
   float sown = fract(0.55 * field.lot.y + 0.45 * random3(ivec3(floor(rows / (2.3 * wide.yx)), 5)).x + parish.lot.z);
   vec3 meadow = mix(vec3(0.098, 0.132, 0.046), vec3(0.158, 0.162, 0.076), field.lot.x);
   vec3 grain = mix(vec3(0.235, 0.200, 0.100), vec3(0.180, 0.168, 0.080), field.lot.x);
@@ -41,14 +42,14 @@ vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   c = mix(near * (1.0 + 0.1 * fine), c, smoothstep(60.0, 420.0, away));
   float kept = smoothstep(-0.25, 0.15, n[7] + 0.5 * n[5] - 0.55 * open);
   float hedge = (1.0 - smoothstep(1.5, 4.0, field.edge + 1.8 * n[3])) * kept * seen * smoothstep(90.0, 160.0, away);
-  // Woods lie together, with ragged edges and copses about them.
+  // Woods are in groups, with ragged borders and small copses around them.
   float wood = smoothstep(0.24, 0.30, 0.62 * n[4] + 0.85 * n[6] + 0.30 * n[7] + 0.16 * n[5]) * smoothstep(150.0, 300.0, away);
   float crowns = 1.0 + 0.3 * fine + 0.25 * n[3] * visible(6.0, footprint) + 0.2 * n[5];
   return mix(c, vec3(0.042, 0.058, 0.026) * crowns, max(0.8 * hedge, 0.92 * wood));
 }
 
-// How high a row of woods or hills, `away` metres off, stands over the plane in a direction. tall: its lowest and its
-// highest; wave: metres from one rise to the next; crowns: how far trees stand out of it.
+// Returns the height of a row of woods or hills above the plane, `away` metres off in a direction. tall: minimum and
+// maximum height; wave: metres between rises; crowns: how far trees rise above the others.
 float skyline(vec2 way, float away, vec2 tall, float wave, float crowns, float seed) {
   float h = 0.5, size = 0.75, top = 0.0, every = wave;
   for (int i = 0; i < 5; ++i) {
@@ -62,7 +63,7 @@ float skyline(vec2 way, float away, vec2 tall, float wave, float crowns, float s
   return mix(tall.x, tall.y, clamp(h, 0.0, 1.0)) + top;
 }
 
-// What is seen in a direction under or just over the horizon where nothing stands before it; above that, `above`.
+// Returns what is visible in a direction below or just above the horizon; `above` where only sky is visible.
 vec3 land(vec3 d, vec3 above, vec3 own) {
   if (d.y > 0.2 || frame.land.y < 0.0) return above;
   float eye = max(frame.eye.y - frame.land.x, 0.3);
@@ -70,19 +71,19 @@ vec3 land(vec3 d, vec3 above, vec3 own) {
   float slope = d.y / max(length(d.xz), 1e-4);
   vec3 haze = hazeIn(vec3(d.x, 0.0, d.z)) * vec3(0.88, 0.94, 1.0);
   vec3 wood = isBare() ? 0.75 * own : vec3(0.050, 0.066, 0.032);
-  // From near to far; a row hides all that is behind it.
+  // The rows, from near to far; a row hides everything behind it.
   const float kAway[4] = float[4](420.0, 1300.0, 4800.0, 13000.0), kWave[4] = float[4](150.0, 700.0, 2100.0, 4700.0);
   const vec2 kTall[4] = vec2[4](vec2(-20.0, 15.0), vec2(6.0, 36.0), vec2(10.0, 230.0), vec2(60.0, 620.0));
   const float kCrowns[4] = float[4](5.0, 6.0, 0.0, 0.0);
   for (int row = isBare() ? 1 : 0; row < 4; ++row) {
     float away = kAway[row];
-    // From high above, hills that are lower are land like the rest.
+    // If the eye is high above the hills, they are part of the plane.
     if (eye > 1.5 * (kTall[row].y + kCrowns[row])) continue;
     if (slope < -eye / away || slope > (kTall[row].y + kCrowns[row] - eye) / away) continue;
     float high = skyline(way, away, kTall[row], kWave[row], isBare() ? 0.0 : kCrowns[row], float(10 * row + 1));
     float over = slope * away + eye;
     if (high <= 0.5 || over > high) continue;
-    // Crowns: lit above, dark below; hills: woods and meadows by turns.
+    // Crowns of trees are lit above and dark below; hills have woods and meadows in turn.
     bool hill = row >= 2;
     vec2 wide = hill ? vec2(420.0, 60.0) : vec2(5.0, 4.0);
     float grain = plainNoise(vec3(way * (away / wide.x), over / wide.y + 3.0));

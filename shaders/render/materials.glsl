@@ -1,4 +1,4 @@
-// What each pattern looks like. Numbers as SurfacePattern has them, runtime/tools/materials/material.h.
+// Selects the function of each pattern. The numbers are those of SurfacePattern in runtime/tools/materials/material.h.
 #include "render/material/surface.glsl"
 #include "render/material/stone.glsl"
 #include "render/material/masonry.glsl"
@@ -6,8 +6,8 @@
 #include "render/material/ground.glsl"
 #include "render/material/fluid.glsl"
 
-// A bit for each pattern that the scene has, and the highest for a sky: the others are not compiled. The constant alone
-// decides a branch, so that what it rules out is removed before a driver reads the shader.
+// One bit for each pattern that the scene contains; the highest bit for the sky. Other patterns are not compiled:
+// branches depend on this constant alone, so that unused ones are removed before a driver reads the shader.
 layout(constant_id = 0) const uint kPatterns = 0xFFFFFFFFu;
 const uint kSkyBit = 31u;
 #define has(pattern) ((kPatterns >> (pattern) & 1u) != 0u)

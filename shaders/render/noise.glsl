@@ -1,4 +1,4 @@
-// Procedural noise for surfaces. Pictures only: nothing here feeds derived data.
+// Procedural noise for surfaces. Only pictures use it: it does not affect derived data.
 
 uvec3 scramble(uvec3 v) {  // Jarzynski and Olano, "Hash functions for GPU rendering" (pcg3d)
   v = v * 1664525u + 1013904223u;
@@ -11,10 +11,10 @@ uvec3 scramble(uvec3 v) {  // Jarzynski and Olano, "Hash functions for GPU rende
 vec3 random3(ivec3 c) { return vec3(scramble(uvec3(c)) >> 8) * (1.0 / 16777216.0); }
 vec3 gradientAt(ivec3 c) { return random3(c) * 2.0 - 1.0; }
 
-// Loops over the neighbours of a place are marked [[dont_unroll]]: drivers inline each of hundreds of calls, and the time
-// that Mesa takes to unroll one loop grows with the size of the whole shader.
+// Loops over the neighbours of a point are marked [[dont_unroll]]: drivers inline hundreds of calls of them, and Mesa
+// takes the longer to unroll a loop the larger the whole shader is.
 
-// Gradient noise, about -1..1 in x, with its derivative in yzw.
+// Returns gradient noise, about -1..1, in x, and its derivative in yzw.
 vec4 noise(vec3 p) {
   vec3 cell = floor(p), f = p - cell;
   vec3 u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
@@ -30,7 +30,7 @@ vec4 noise(vec3 p) {
   return sum * 1.4;
 }
 
-// The same noise without its derivative, for what is asked often.
+// Returns the same noise without its derivative, which is faster.
 float plainNoise(vec3 p) {
   vec3 cell = floor(p), f = p - cell, u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
   float sum = 0.0;
@@ -42,7 +42,7 @@ float plainNoise(vec3 p) {
   return sum * 1.4;
 }
 
-// Distance from p to the nearest border of a Voronoi cell, in cells.
+// Returns the distance from p to the nearest border of a Voronoi cell, where cells are about 1 wide.
 float borderDistance(vec2 p, int seed) {
   vec2 cell = floor(p), f = p - cell;
   ivec2 i = ivec2(cell);

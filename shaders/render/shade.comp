@@ -1,7 +1,7 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Lights every sample of the picture and averages them into pixels.
+// Lights all samples of the picture, and averages them to pixels.
 #include "render/frame.glsl"
 #include "render/noise.glsl"
 #include "render/patterns.h"
@@ -14,7 +14,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Spot::light of a place.
+// Returns Spot::light at a point.
 vec3 lightOn(vec3 p, vec3 n, Traced traced) {
   const vec3 kSeen = vec3(0.2126, 0.7152, 0.0722);
   float all = dot(traced.light, kSeen);
@@ -45,7 +45,7 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, T
   return s;
 }
 
-// Texture coordinates in the place of a material: what surface.frag has found of them.
+// Draws texture coordinates as a checkerboard instead of the material. field: from surface.frag.
 Surface chequered(float field, vec3 n) {
   Surface s;
   s.albedo = mix(vec3(0.16), vec3(0.55), clamp(field - 1.0, 0.0, 1.0));
@@ -58,8 +58,8 @@ Surface chequered(float field, vec3 n) {
   return s;
 }
 
-// Blades and leaves, as sprout.vert tells of them: how bright one is by how deep it lies; white and yellow blossoms, and
-// stalks that are dry. open: the share of the sun's light that comes there.
+// Sets the surface of blades and leaves from what sprout.vert stores: brightness by how deep they are in the foliage;
+// white and yellow blossoms, and dry stalks. open: share of the sun's light that reaches the point.
 void growing(inout Surface s, float told, uint pattern, vec3 d, float open) {
   float kind = floor(told / 4.0), bright = told - 4.0 * kind;
   if (kind == 1.0 || kind == 2.0) {
@@ -67,16 +67,16 @@ void growing(inout Surface s, float told, uint pattern, vec3 d, float open) {
     return;
   }
   if (kind == 3.0) s.albedo = mix(s.albedo, vec3(0.30, 0.245, 0.125), 0.85);
-  // Tips are young.
+  // Leaves near the tips are younger and brighter.
   bool leafy = pattern == kLeafy;
   s.albedo *= bright * mix(vec3(1.0), leafy ? vec3(1.18, 1.06, 0.72) : vec3(1.06, 1.0, 0.85), clamp(1.4 * (bright - 0.9), 0.0, 1.0));
   if (frame.size.w != 1u) return;
-  // Against the sun they glow.
+  // Leaves glow when they are seen against the sun.
   s.translucency = leafy ? 0.7 : 0.5;
   float against = max(dot(d, frame.sun.xyz), 0.0);
   s.within += s.albedo * vec3(1.30, 1.25, 0.40) * sunLight() * (open * 0.45 * against * against);
   if (!leafy) return;
-  // Light that has come through the crown's other leaves, from above and from the sun, green as they are.
+  // Light that has come through other leaves of the crown, from above and from the sun, and so is green.
   vec3 above = 0.5 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz) + 0.10 * sunLight() * max(frame.sun.y, 0.0);
   s.within += s.albedo * vec3(1.0, 1.15, 0.55) * above * (0.55 - 0.25 * s.normal.y);
 }
@@ -112,7 +112,7 @@ vec3 haze(vec3 colour, vec3 d, float t) {
   return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
 
-// What is seen outdoors where no body is. overhead: the sky there.
+// Returns what is visible outdoors where there is no body. overhead: the sky there.
 vec3 outdoors(vec3 d, vec3 overhead) {
   if (frame.land.y < 0.0 || !has(kSkyBit)) return overhead;
   vec3 own = frame.land.y >= 1e6 ? vec3(0.125, 0.150, 0.060) : materials[uint(frame.land.y)].colour_roughness.rgb;
@@ -126,14 +126,15 @@ vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   vec4 facing = texelFetch(normal_plane, at, 0);
   vec3 p = seen.xyz, n = normalize(facing.xyz);
   float t = length(p - frame.eye.xyz);
-  // Seen edge-on, a sample covers more of the surface; half of that is what looks sharp without flicker.
+  // At grazing angles, a sample covers more of the surface. Half of the increase is used, which looks sharp without
+  // flicker.
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
   Traced traced = tracedAt(at, p, n, t);
   Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced);
   if (facing.w > 0.0) s = chequered(facing.w, n);
   if (facing.w < 0.0) growing(s, -facing.w, materials[min(uint(seen.w) - 1u, frame.counts.y - 1u)].pattern.x, d, traced.open[0].x);
   s.normal = turnedTo(-d, s.normal, n);
-  // Rays are too few to find what lies a hand's breadth away.
+  // Rays are too few to find occluders within a hand's breadth, so screen-space occlusion is added.
   float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);
   vec3 colour = s.within;
   if (frame.size.w == 1u) {
@@ -162,7 +163,7 @@ vec3 sampleAt(ivec2 at, vec3 overhead) {
   return mix(hazeIn(d) * (1.0 - clouds.through), clouds.light, clear) + behind;
 }
 
-// The sky of a pixel, which is soft enough to be found once for all of its samples.
+// Returns the sky of a pixel. It is so smooth that it is computed once for all samples of the pixel.
 vec3 skyOver(ivec2 pixel, int side) {
   if (frame.size.w != 1u || !has(kSkyBit)) return vec3(0.0);
   vec3 d = directionAt((vec2(pixel) + 0.5) * float(side));

@@ -1,14 +1,14 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// A blade, a leaf or a blossom is an instance: a strip of seven corners, of which leaves and blossoms use six.
+// An instance is a blade, a leaf or a blossom: a strip of seven corners, of which leaves and blossoms use six.
 #include "render/foliage.glsl"
 #include "render/noise.glsl"
 
-layout(location = 0) in vec4 root;    // w: how long it is, metres
-layout(location = 1) in vec4 normal;  // of the surface that it grows on; w: how wide it is, metres
+layout(location = 0) in vec4 root;    // w: its length in metres
+layout(location = 1) in vec4 normal;  // normal of the surface on which it grows; w: its width in metres
 layout(location = 2) in uint material;
-layout(location = 3) in uint lot;   // tells it from others
+layout(location = 3) in uint lot;   // random number of the instance
 layout(location = 4) in uint form;  // SproutForm, runtime/tools/render/foliage.h
 layout(location = 5) in float bright;
 layout(location = 0) out vec3 out_position;
@@ -17,13 +17,13 @@ layout(location = 2) out float out_told;
 layout(location = 3) flat out uint out_material;
 
 const uint kBlade = 0u, kLeaf = 1u, kDry = 4u;
-// Along and across a leaf: from its stalk to its tip.
+// Outline of a leaf from its stalk to its tip: positions along and across it.
 const vec2 kOutline[7] = vec2[7](vec2(0.0, 0.0), vec2(0.30, -0.42), vec2(0.34, 0.44), vec2(0.66, -0.40), vec2(0.70, 0.38),
                                  vec2(1.0, 0.0), vec2(1.0, 0.0));
 
 void placeLeaf(vec3 dice, vec3 more) {
   vec3 n = normal.xyz;
-  // Leaves turn to the light and outwards, and hang a little.
+  // Leaves turn towards the light and outwards, and hang a little.
   vec3 facing = normalize(2.0 * dice - 1.0 + 0.5 * n + vec3(0.0, 0.45, 0.0) + 1e-3);
   vec3 along = normalize(cross(facing, 2.0 * more - 1.0 + vec3(0.013, 0.007, 0.011)) + 0.35 * n - vec3(0.0, 0.30, 0.0));
   vec3 across = normalize(cross(facing, along));
@@ -56,7 +56,7 @@ void placeBlade(vec3 dice, vec3 more) {
   bool dry = form == kDry;
   float bend = (dry ? 0.25 : 0.75) * (0.12 + dice.y * dice.y), shape = dry ? 1.0 : 1.0 - 0.55 * along * along;
   vec3 stem = root.w * (up * (along - 0.35 * bend * along * along) + lean * (bend * along * along));
-  // The ears of dry stalks are wider than their stems.
+  // The ears of dry stalks are wider than the stalks.
   float wide = normal.w * (dry && row == 2 ? 2.4 : shape);
   out_position = root.xyz - up * 0.01 + stem + across * (wide * side);
   vec3 face = normalize(across * (1.2 * side) + cross(across, up + 2.0 * bend * along * lean));

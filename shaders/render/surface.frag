@@ -1,7 +1,7 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// What is seen at a sample: where it lies, which way it faces, what it is made of. Lit later, once.
+// Stores what is visible at a sample: its position, normal and material. It is lit once, in a later pass.
 #include "render/noise.glsl"
 
 layout(location = 0) in vec3 position;
@@ -10,10 +10,11 @@ layout(location = 2) flat in uint material;
 layout(location = 3) in vec2 texture_at;
 layout(location = 4) flat in uint second;
 layout(location = 5) in float share;
-layout(location = 0) out vec4 out_position;  // w: material + 1; 0 is the background
-layout(location = 1) out vec4 out_normal;    // w: what the chequers show, 0 where there are none
+layout(location = 0) out vec4 out_position;  // w: material + 1; 0 for the background
+layout(location = 1) out vec4 out_normal;    // w: the checkerboard's field, 0 if there is none
 
-// 1 and 2: the fields; 3: a line along u, 4: along v. Where a field is smaller than a sample it is 1.5.
+// Returns the field of a checkerboard: 1 or 2; 3 on a line along u, 4 on a line along v; 1.5 if a field is smaller than
+// a sample.
 float chequers(vec2 at) {
   vec2 width = fwidth(at);
   if (width.x + width.y == 0.0) return 0.0;
@@ -30,9 +31,10 @@ void main() {
   float area = dot(facet, facet);
   facet = area > 0.0 ? facet * inversesqrt(area) : vec3(0.0, 1.0, 0.0);
   float length2 = dot(normal, normal);
-  // The viewport is turned upside down, and so is the sense of dFdy: the facet's side is settled by the front face.
+  // The viewport is upside down, and therefore the sign of dFdy, too: the front face decides to which side the facet
+  // faces.
   vec3 n = length2 > 0.01 ? normal * inversesqrt(length2) : (gl_FrontFacing ? -facet : facet);
-  // One stone ends where another begins, along a ragged line; only paint would pass over evenly.
+  // Two kinds of stone meet along a ragged line; only paint would blend evenly.
   float ragged = 0.5 + 0.22 * noise(position * 3.1).x + 0.10 * noise(position * 13.0).x;
   out_position = vec4(position, float((share > ragged ? second : material) + 1u));
   out_normal = vec4(n, chequers(texture_at));

@@ -1,15 +1,16 @@
-// Light that rays have found, for the pixels and, softly, for squares of them: runtime/tools/render/light_planes.h. Each
-// sample takes it from neighbours that lie on its own surface.
+// The light that traced rays have found, for pixels and, filtered, for squares of pixels: see
+// runtime/tools/render/light_planes.h. Each sample takes it from neighbours that lie on its own surface.
 struct DirectLight { uvec2 open; uvec2 mirror; };
 struct SoftLight { vec4 light; vec4 lean; vec4 lie; };
 layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
 layout(std430, binding = 6) readonly buffer Soft { SoftLight soft[]; };
 const int kSoftPixels = 2;
-// What lies before the pixel's first sample of clouds: halves (red, green, blue, the share of what is behind that shows).
+// Clouds in front of the pixel's first sample, as half floats: red, green, blue, and the share of what is behind that
+// is visible.
 struct VapourLight { uvec2 light; float distance; float reserved; };
 layout(std430, binding = 7) readonly buffer Vapour { VapourLight vapour[]; };
 
-// How much the light at a sample of the planes tells of the light at p.
+// Returns the weight, at p, of the light that was found at a sample of the planes.
 float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
   vec4 q = texelFetch(position_plane, at, 0);
   if (q.w == 0.0) return 0.0;
@@ -17,7 +18,8 @@ float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
   return exp(-min(off, 30.0)) * pow(facing, 8.0) + 1e-6;
 }
 
-// Four elements around a sample, those of `scale` samples on a side, and their weights.
+// Returns the four elements around a sample, in a plane with one element per `scale` x `scale` samples, and their
+// weights.
 void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out ivec4 elements, out vec4 weights) {
   vec2 place = vec2(at) / float(scale), base = floor(place), f = place - base;
   float sum = 0.0;
@@ -34,13 +36,13 @@ void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out iv
 }
 
 struct Traced {
-  vec4 open[2];  // of lamps 0 to 3 and 4 to 7; the sun's first
-  vec3 light;    // mean radiance from all sides
+  vec4 open[2];  // visibility of lamps 0 to 3 and 4 to 7; lamp 0 is the sun
+  vec3 light;    // mean radiance from all directions
   vec3 lean;
   vec3 mirror;
-  float wet;    // 1 at the edge of standing water
-  float depth;  // of water, metres
-  vec3 lie;     // how much is near, how much a ledge keeps rain off, how near a wall's foot is, 0..1
+  float wet;    // 1 at the border of standing water
+  float depth;  // depth of water in metres
+  vec3 lie;     // 0..1 each: how much is near; how much a ledge shields from rain; how near the foot of a wall is
 };
 
 Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
@@ -67,7 +69,7 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
     traced.wet += weights[i] * max(-last.y, 0.0);
     traced.depth += weights[i] * max(last.y, 0.0);
   }
-  // The outermost leaves have no surface behind them that rays could have met: nothing stands before them either.
+  // Rays from the outermost leaves hit no surface, which means that nothing is in front of them.
   if (met < 1e-3) {
     traced.open[0] = traced.open[1] = vec4(1.0);
   } else {
@@ -93,17 +95,17 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
   return traced;
 }
 
-// The soft light that reaches a surface whose relief turns it from n to another normal.
+// Returns the filtered light on a surface whose relief turns the normal from n to `turned`.
 vec3 softOn(Traced traced, vec3 n, vec3 turned) {
   return traced.light * clamp(1.0 + 1.5 * dot(traced.lean, turned - n), 0.25, 2.5);
 }
 
-// Light of clouds before a sample, and the share of what is behind them. At the edges of bodies it is that of the pixels
-// whose first sample lies as far away.
+// The light of clouds in front of a sample, and the share of what is behind them that is visible. At the edges of
+// bodies, it is taken from those pixels whose first sample is about as far away.
 struct Clouds {
   vec3 light;
   float through;
-  float distance;  // metres, on a mean
+  float distance;  // mean distance in metres
 };
 
 Clouds cloudsBefore(ivec2 at) {

@@ -1,12 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Lays the volume's light over the sky.
+// Draws the volume's light over the sky.
 #include "volume/volume.glsl"
 #include "render/sky.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 5) readonly buffer Light { vec4 light[]; };
-layout(std430, binding = 6) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/tools/render/lens.h
+// three words per pixel: runtime/tools/render/lens.h
+layout(std430, binding = 6) writeonly buffer Pixels { uint pixels[]; };
 
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;

@@ -1,13 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Marches from points of the volume towards the sun and the sky, once, so that no ray from the eye needs to.
+// Computes the light that reaches points of the volume from the sun and the sky, once, so that rays from the eye need
+// not do it.
 #include "volume/volume.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-// Optical depth to the sun, share of the sky's light.
+// optical depth to the sun; share of the sky's light
 layout(rgba16f, binding = 3) writeonly uniform image3D lit_volume;
 
-// In steps of a cell, sampled in their middles.
+// Returns the optical depth along a ray, by steps of a cell that are sampled in their middles.
 float opticalDepth(vec3 from, vec3 direction) {
   vec3 d = withoutZeros(direction);
   float end = crossing(from, d, vec3(0.0), volumeEnd()).y, depth = 0.0;
@@ -24,8 +25,9 @@ float opticalDepth(vec3 from, vec3 direction) {
   return depth * frame.corner.w;
 }
 
-// What comes down from the sky is scattered so often that it loses its way as slowly as scattered()'s third octave.
-// From straight above and four sides, for one direction alone would show as streaks.
+// Returns the share of the sky's light. It has been scattered so often that it is absorbed as slowly as the third
+// octave in scattered(). It is taken from straight above and from four sides, because a single direction would cause
+// streaks.
 float skyShare(vec3 place) {
   float sum = 0.0;
   const vec3 kFrom[] =
@@ -34,8 +36,8 @@ float skyShare(vec3 place) {
   return sum / float(kFrom.length());
 }
 
-// Whether a place that has density is lit by this point, or by others around it with this one: march.comp reads up to a
-// point and a half away.
+// True if a place with density uses the light at this point, alone or interpolated with other points: march.comp reads
+// up to one and a half points away.
 bool isSeen(vec3 place, vec3 apart) {
   ivec3 lo = brickAt(place - 1.5 * apart), hi = brickAt(place + 1.5 * apart);
   for (int i = 0; i < 8; ++i) {

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-// Marches rays through the volume for each pixel, front to back: the light that comes to the eye, and the share of
-// what is behind that still shows. An engine lays that over its scene.
+// Marches rays through the volume for each pixel, front to back. The result is the light that reaches the eye, and the
+// share of what is behind the volume that remains visible. An engine draws it over its scene.
 #include "volume/volume.glsl"
 #include "volume/scattering.glsl"
 #include "render/noise.glsl"
@@ -12,11 +12,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 4) uniform sampler3D lit_volume;
 layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // by pixel; w: transmittance
 
-const float kStep = 0.7;     // cells
-const float kOpaque = 0.004;  // less than half a step of 8 bits shows through
+const float kStep = 0.7;     // in cells
+const float kOpaque = 0.004;  // below this, less than half a step of 8 bits is visible through the volume
 
-// turn: random numbers 0..1. Light is read from around the place, half a point of its volume away at most in each
-// direction: else that volume's own cells would show.
+// Returns the light that a place sends to the eye. turn: random numbers 0..1: light is read at a random place up to
+// half a point away in each direction, because otherwise the cells of the light volume would be visible.
 vec3 sourceAt(vec3 place, float cosine, vec3 turn) {
   vec3 lit_place = place * (vec3(frame.lit_size.xyz) - 1.0) / volumeEnd() + turn - 0.5;
   vec2 lit = textureLod(lit_volume, (lit_place + 0.5) / vec3(frame.lit_size.xyz), 0.0).rg;
@@ -25,12 +25,13 @@ vec3 sourceAt(vec3 place, float cosine, vec3 turn) {
   return frame.up.w * (sun + around);
 }
 
-// What a ray from the eye meets: light, and the share of what is behind. turn: tells it from other rays.
+// Returns the light along a ray from the eye, and the share of what is behind. turn: numbers that differ from ray to
+// ray.
 vec4 march(vec3 view, ivec2 turn) {
   vec3 d = withoutZeros(view), from = placeOf(frame.eye.xyz);
   vec2 ends = crossing(from, d, vec3(0.0), volumeEnd());
   float cosine = dot(view, frame.sun.xyz), transmittance = 1.0;
-  // Each ray samples its steps elsewhere: banding becomes noise, finer than what is seen.
+  // Each ray samples its steps at other positions: banding becomes noise that is too fine to be visible.
   float jitter = random3(ivec3(turn, 0)).x;
   int steps = 0;
   vec3 sum = vec3(0.0), haze = hazeIn(view);
@@ -60,7 +61,7 @@ vec4 march(vec3 view, ivec2 turn) {
 void main() {
   uvec2 pixel = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(pixel, frame.picture.xy))) return;
-  // On a grid in the pixel: one ray goes through its middle.
+  // Rays are on a grid within the pixel; one of them goes through the pixel's middle.
   int side = int(frame.picture.z);
   vec4 sum = vec4(0.0);
   for (int i = 0; i < side * side; ++i) {

@@ -1,4 +1,4 @@
-// What lies on the ground and what grows on it.
+// Materials of the ground, and plants on it.
 
 // Sand, soil, mud: grains and ripples.
 Surface granular(Spot at) {
@@ -14,18 +14,18 @@ Surface granular(Spot at) {
   return s;
 }
 
-// Sand and snow that the wind has moved: ripples across it, in fields that end where the ground is firm, and on sand the
-// small stones that it has left behind.
+// Sand and snow moved by the wind: ripples across the wind, in fields that end where the ground is firm; on sand, also
+// small stones that the wind has left behind.
 Surface windblown(Spot at) {
   Surface s = granular(at);
   float flat_share = smoothstep(0.80, 0.94, at.n.y);
-  const float kSoil = 0.3;  // and mud: darker, and they stick
+  const float kSoil = 0.3;  // darker colours are soil and mud, which the wind does not move
   if (at.sheltered || flat_share <= 0.0 || at.colour.r < kSoil) return s;
   vec2 q = at.p.xz;
   vec4 broad = noise(vec3(q * 0.16, 31.0)), patches = noise(vec3(q * 0.9, 17.0));
   float fine = noise(vec3(q * 4.3, 9.0)).x;
   float firm = smoothstep(-0.05, 0.35, broad.x + 0.35 * patches.x + 0.10 * fine);
-  // Ripples lie across the wind; their crests wander, part and meet, and their lee is steep.
+  // Ripples run across the wind. Their crests meander, divide and join, and their lee side is steep.
   const float kLength = 0.115;
   vec2 wind = normalize(vec2(0.86, 0.51));
   float phase = dot(q, wind) / kLength + 1.1 * patches.y + 0.32 * fine + 2.6 * broad.y;
@@ -36,7 +36,7 @@ Surface windblown(Spot at) {
   s.normal = bend(s.normal, vec3(tilt.x, 0.0, tilt.y), 0.17 * at.relief);
   s.albedo *= 1.0 + seen * (crest < 0.70 ? 0.05 * crest : -0.10);
   s.albedo *= mix(vec3(1.0), vec3(0.90, 0.87, 0.84), flat_share * firm);
-  const float kSand = 0.75;  // snow is paler
+  const float kSand = 0.75;  // brighter colours are snow, which has no stones
   if (max(at.colour.r, at.colour.g) > kSand) return s;
   const float kStones = 0.05;
   float near = visible(0.9 * kStones, at.footprint) * flat_share, many = 0.40 * firm - 0.14 + 0.16 * patches.z;
@@ -52,12 +52,12 @@ Surface windblown(Spot at) {
   return s;
 }
 
-// Stones of two sizes over fines, the larger ones lying on the smaller: each has its height, its shadow and its colour.
+// Gravel: stones of two sizes over fine material, larger ones on smaller ones; each has its height, shadow and colour.
 Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
   const float kLarge = 0.062, kSmall = 0.024;
   Surface s = granular(at);
-  // Water and wheels have sorted it: coarse here, fine there, and dust in between.
+  // Water and wheels have sorted it: coarse in one place, fine in another, with dust in between.
   float sorted = noise(at.p * 0.43 + 3.0).x + 0.5 * noise(at.p * 1.3 + 12.0).x;
   float many = clamp(0.42 + 0.45 * sorted, 0.08, 0.85), strewn_small = clamp(0.95 + 0.75 * sorted, 0.35, 1.0);
   s.albedo *= 1.0 - 0.14 * clamp(sorted, -1.0, 1.0);
@@ -85,7 +85,7 @@ Surface gravelly(Spot at) {
   return s;
 }
 
-// Blades that lean all ways, clumps, and dry patches.
+// Grass: blades in all directions, clumps, and dry patches.
 Surface grassy(Spot at) {
   Surface s = surfaceOf(at);
   vec4 clump = noise(at.p * 3.1), broad = noise(at.p * 0.22 + 3.0);
@@ -94,18 +94,18 @@ Surface grassy(Spot at) {
   vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.42), lush = at.colour * vec3(0.62, 0.90, 0.52);
   s.albedo = mix(at.colour, dry, smoothstep(0.1, 0.8, broad.x + 0.4 * clump.x));
   s.albedo = mix(s.albedo, lush, 0.75 * smoothstep(-0.1, 0.6, -broad.x + 0.3 * noise(at.p * 1.1).x));
-  // Where it has not been mown it stands high and pale, in stands with an edge; and from afar tussocks are dark dots.
+  // Unmown grass is high and pale, in areas with clear borders; from far away, tussocks are dark dots.
   float stand = noise(at.p * 0.045 + 11.0).x + 0.35 * noise(at.p * 0.19).x + 0.12 * clump.x;
   s.albedo = mix(s.albedo, vec3(0.205, 0.180, 0.085) * (1.0 + 0.2 * clump.x), 0.55 * smoothstep(0.16, 0.34, stand));
   float tussock = smoothstep(0.15, 0.6, fineNoise(at.p * 1.6 + 5.0, 0.6, at.footprint));
   s.albedo *= mix(vec3(1.0), vec3(0.60, 0.68, 0.55), 0.7 * tussock);
-  // Clover and moss in patches, and what has been trodden thin.
+  // Patches of clover and moss, and places where the grass is trodden thin.
   float clover = smoothstep(0.22, 0.42, noise(at.p * 0.55 + 21.0).x + 0.30 * noise(at.p * 2.7).x);
   s.albedo = mix(s.albedo, at.colour * vec3(0.58, 0.86, 0.72), 0.7 * clover);
   float worn = smoothstep(0.42, 0.75, noise(at.p * 0.33 + 60.0).x + 0.35 * clump.x + 0.2 * noise(at.p * 8.0).x);
   s.albedo = mix(s.albedo, vec3(0.185, 0.150, 0.090), 0.6 * worn);
   s.albedo *= 1.0 + 0.30 * blade + 0.14 * clump.x;
-  // Where it is too steep for grass the soil shows.
+  // Slopes that are too steep for grass show the soil.
   float bare = 1.0 - smoothstep(0.60, 0.80, at.n.y + 0.12 * clump.x);
   s.albedo = mix(s.albedo, vec3(0.20, 0.155, 0.105) * (1.0 + 0.3 * clump.x), 0.8 * bare);
   vec4 relief_slope = relief(at.p, 0.30, 6, 0, at.footprint);
@@ -116,7 +116,7 @@ Surface grassy(Spot at) {
   return s;
 }
 
-// Leaves of a crown, each its own way.
+// Foliage: leaves of a crown, each in a direction of its own.
 Surface leafy(Spot at) {
   Surface s = surfaceOf(at);
   vec3 w = planeWeights(at.n);
@@ -127,7 +127,7 @@ Surface leafy(Spot at) {
   s.albedo = at.colour * (1.0 + 0.35 * clump.x) * mix(vec3(1.0), vec3(1.3, 1.12, 0.7), 0.5 * b.lot.x * seen);
   s.albedo *= mix(0.85, mix(0.62, 1.0, smoothstep(0.0, 0.016, b.edge)) * (0.62 + 0.7 * b.lot.y), seen);
   s.albedo *= 0.55 + 0.45 * smoothstep(-0.6, 0.0, sprig);
-  // Trees and their boughs differ in hue.
+  // Trees and their branches differ in hue.
   float hue = noise(at.p * 0.07 + 30.0).x + 0.4 * noise(at.p * 0.75 + 50.0).x;
   s.albedo *= mix(vec3(0.84, 0.97, 1.0), vec3(1.22, 1.06, 0.76), smoothstep(-0.7, 0.7, hue));
   vec3 turn = vec3(b.lot.x, b.lot.y, b.lot.z) - 0.5;
@@ -139,11 +139,11 @@ Surface leafy(Spot at) {
   return s;
 }
 
-// Bark: ridges up the stem with furrows between. Thatch: straw down the slope.
+// Bark: ridges along the stem with furrows between them. Thatch: straw down the slope.
 Surface fibrous(Spot at) {
   Surface s = surfaceOf(at);
   Chart chart = chartOf(at.p, at.n);
-  // Furrows are where a noise passes through zero: long lines that part and meet again, with plates between them.
+  // Furrows are where a noise is zero: long lines that divide and join, with plates between them.
   vec3 q = vec3(at.p.x * 16.0, at.p.y * 0.50, at.p.z * 16.0) + vec3(0.30, 0.06, 0.30) * noise(at.p * 3.1).yzw;
   vec4 ridge = noise(q), narrow = noise(q * 2.3 + 11.0), fine = noise(q * 7.1);
   float seen = visible(0.07, at.footprint), close = visible(0.03, at.footprint), grain = fine.x * visible(0.012, at.footprint);
@@ -151,7 +151,7 @@ Surface fibrous(Spot at) {
   furrow = max(furrow, 0.6 * (1.0 - smoothstep(0.0, 0.34, abs(narrow.x) + 0.15 * fine.x)) * close);
   float broad = noise(at.p * 1.3).x;
   s.albedo = at.colour * (1.0 + 0.16 * broad + 0.22 * ridge.x * seen + 0.25 * grain);
-  // Grey where it has weathered, green with algae in patches.
+  // Weathered bark is grey, with green algae in patches.
   s.albedo = mix(s.albedo, vec3(dot(s.albedo, vec3(0.34))) * vec3(1.04, 1.02, 0.94), 0.30 + 0.40 * smoothstep(-0.3, 0.4, broad));
   s.albedo *= mix(vec3(1.0), vec3(0.40, 0.37, 0.35), furrow);
   vec3 slope = (sign(ridge.x) * ridge.yzw * (1.0 - smoothstep(0.1, 0.4, abs(ridge.x))) * seen +
@@ -162,7 +162,7 @@ Surface fibrous(Spot at) {
   return s;
 }
 
-// Cushions of moss.
+// Moss in cushions.
 Surface mossy(Spot at) {
   Surface s = surfaceOf(at);
   vec4 cushion = noise(at.p * 9.0);

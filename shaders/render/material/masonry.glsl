@@ -1,20 +1,20 @@
-// What masons, tilers and pavers laid.
+// Surfaces made by masons, tilers and pavers.
 
-// Joins stones and mortar: `joint` metres of mortar on each side of a block's edge; rough: how uneven the stones are.
+// Combines stones and mortar. joint: metres of mortar on each side of a block's edge; rough: how uneven the stones are.
 Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone, vec3 mortar, float tilt, float rough) {
   Surface s = surfaceOf(at);
   float seen = visible(0.5 * size, at.footprint);
-  // A joint that is thinner than a sample darkens it by its share.
+  // A joint thinner than a sample darkens the sample by its share.
   float blur = 0.5 * at.footprint;
   float gap = (1.0 - smoothstep(max(0.6 * joint - blur, 0.0), 1.3 * joint + blur, b.edge)) * min(1.0, joint / blur);
   float grain = fineNoise(at.p * 23.0, 0.04, at.footprint) + fineNoise(at.p * 71.0, 0.014, at.footprint);
   float broad = noise(at.p * 0.6).x;
-  // Far away a wall has the mean of both, and joints lie in shadow.
+  // From far away, a wall has the mean colour of stones and mortar; joints are in shadow.
   float share = min(1.0, 1.5 * joint / size);
   vec3 mean = mix(stone, mortar, share);
   s.albedo = mix(mean, mix(stone, mortar, gap), seen) * (1.0 + 0.10 * grain + 0.13 * broad);
   vec4 relief_slope = relief(at.p, 0.10, 4, 1, at.footprint);
-  // Stones are round at their edges: they fall towards them.
+  // Stones are rounded: near their edges the surface slopes down.
   vec3 slope = relief_slope.xyz * rough - (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
   slope += (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * (0.12 * seen);
   s.normal = bend(at.n, slope, 0.5 * at.relief);
@@ -24,7 +24,7 @@ Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone,
   return s;
 }
 
-// Rain washes walls in streaks and leaves dirt where it does not come.
+// Returns how weathered a wall is: rain washes it in streaks, and dirt stays where no rain comes.
 float weathered(vec3 p, vec3 n) {
   float wall = 1.0 - smoothstep(0.4, 0.8, abs(n.y));
   float streak = noise(vec3(p.x * 2.3, p.y * 0.22, p.z * 2.3) + 17.0).x + 0.5 * noise(vec3(p.x, p.y * 0.3, p.z) * 5.1).x;
@@ -38,10 +38,10 @@ Surface brickwork(Spot at) {
   vec3 grey = vec3(dot(at.colour, vec3(0.35, 0.45, 0.2)));
   vec3 fired = mix(at.colour, grey, 0.24) * (0.66 + 0.5 * b.lot.x);
   fired *= mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
-  // Some were burnt dark at the end that lay next to the fire.
+  // Some bricks are darker, because one end was next to the fire.
   fired *= b.lot.z > 0.86 ? vec3(0.62, 0.66, 0.74) : vec3(1.0);
   vec3 mean = mix(at.colour, grey, 0.26) * 0.86;
-  // Where single bricks are too fine to be seen, an eye still finds loads of them that differ, courses, and soot.
+  // Where single bricks are too small to be visible, batches of different colour, courses and soot still are.
   vec2 load = chart.at / vec2(0.9, 0.3);
   float loads = fineNoise(vec3(load, dot(at.p, at.n) * 0.3), 0.15, at.footprint) +
                 0.8 * fineNoise(vec3(load * vec2(3.1, 2.3), 4.0), 0.06, at.footprint);
@@ -62,7 +62,7 @@ Surface ashlar(Spot at) {
   return laid(at, b, chart, 0.005, 0.34, stone, at.colour * 0.62, 0.9, 0.20);
 }
 
-// Walling of rough stones.
+// Walls of rough stones.
 Surface rubble(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   vec2 bent = chart.at + 0.06 * vec2(noise(at.p * 2.1).x, noise(at.p * 2.1 + 50.0).x);
@@ -72,7 +72,7 @@ Surface rubble(Spot at) {
   return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1, 0.22);
 }
 
-// Flags of a pavement: some were laid anew, some are cracked; dirt lies in joints, and gum is trodden on all.
+// Flags of a pavement: some are new, some are cracked; there is dirt in the joints, and chewing gum everywhere.
 Surface paving(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(0.75, 0.5), 0.5, 0.2, 0.008);
@@ -89,18 +89,18 @@ Surface paving(Spot at) {
   return laid(at, b, chart, 0.007, 0.5, stone, at.colour * 0.34, 0.7, 0.06);
 }
 
-// Setts of a street, rounded and polished by wheels, with earth and moss between them.
+// Cobbles of a street, rounded and polished by wheels, with earth and moss between them.
 Surface cobbles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
-  // The ground has sunk under the rows.
+  // The rows have sunk unevenly.
   vec2 sunk = chart.at + 0.06 * noise(at.p * 0.55).yz + 0.012 * noise(at.p * 2.6 + 3.0).yz;
   Block b = settAt(sunk, vec2(0.155, 0.125), 0.2, 0.06, 83);
   float seen = visible(0.12, at.footprint), broad = noise(at.p * 0.37).x, patchy = noise(at.p * 1.7 + 9.0).x;
   float grain = fineNoise(at.p * 60.0, 0.017, at.footprint) + 0.7 * fineNoise(at.p * 190.0, 0.006, at.footprint);
-  // Loads from several quarries: most are grey, some brown, some nearly black.
+  // Stones come from several quarries: most are grey, some brown, some nearly black.
   vec3 stone = at.colour * (0.74 + 0.52 * b.lot.x) * mix(vec3(0.96, 1.0, 1.04), vec3(1.14, 0.98, 0.82), b.lot.y * b.lot.y);
   stone *= b.lot.z > 0.9 ? 0.62 : 1.0;
-  // Tops are worn bright and smooth.
+  // The tops are worn bright and smooth.
   float worn = smoothstep(0.012, 0.05, b.edge);
   stone *= (0.86 + 0.22 * worn) * (1.0 + 0.22 * grain);
   float blur = 0.5 * at.footprint, joint = 0.010 + 0.006 * patchy;
@@ -123,14 +123,14 @@ Surface cobbles(Spot at) {
   return s;
 }
 
-// Roofs are mended in pieces, and rows of one year differ from those of another.
+// Returns the difference in colour of a roof's parts: roofs are mended in pieces, and rows of different years differ.
 float mended(vec2 at, float footprint) {
   Block piece = blockAt(at, vec2(2.3, 0.95), 0.4, 0.8, 0.1);
   float row = random3(ivec3(int(floor(at.y / 0.33)), 71, 3)).x - 0.5;
   return 1.0 + (0.30 * (piece.lot.x - 0.5) * visible(0.9, footprint)) + 0.20 * row * visible(0.33, footprint);
 }
 
-// Rows of clay tiles, round ones side by side, each row over the one below.
+// Rows of round clay tiles side by side, each row overlapping the one below.
 Surface roofTiles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   const vec2 kTile = vec2(0.22, 0.32);
@@ -157,7 +157,7 @@ Surface roofTiles(Spot at) {
   return s;
 }
 
-// Rows of slates that lap.
+// Rows of overlapping slates.
 Surface slates(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(0.28, 0.20), 0.5, 0.25, 0.012);

@@ -1,8 +1,8 @@
-// Stone as it grew and broke: beds, stains, cracks, flowstone.
+// Natural stone: beds, stains, cracks, flowstone.
 
-// Basalt that has stood in the weather: dark and even, brown where its skin has weathered, browner and paler where it is
-// walked and washed. It has neither beds nor sinter; it is full of small pits, split by joints across its columns, and
-// crusts of lichen grow on it, most where the sun comes.
+// Weathered basalt: dark and even; brown where its surface has weathered, browner and paler where people walk and water
+// runs. It has no beds and no sinter, but many small pits; joints divide its columns; and crusts of lichen grow on it,
+// most of all in the sun.
 Surface basaltic(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -15,7 +15,7 @@ Surface basaltic(Spot at) {
   float weathered = smoothstep(-0.35, 0.55, patches.y + 0.45 * broad.y + 0.35 * mottle.y + 0.2 * fine);
   albedo = mix(albedo, skin * (1.0 + 0.16 * fine + 0.22 * grain), weathered * mix(0.42, 0.72, top));
 
-  // Ball joints part a column in drums of unequal height; their seams are thin and here and there chipped.
+  // Ball joints divide a column into drums of unequal height; their seams are thin, and chipped in places.
   float wall = 1.0 - smoothstep(0.35, 0.65, abs(n.y)), seam = 0.0;
   if (wall > 0.0) {
     vec3 drum = floor(p / vec3(0.47, 100.0, 0.41) + 0.35 * patches.yxw * vec3(1.0, 0.0, 1.0));
@@ -43,7 +43,7 @@ Surface basaltic(Spot at) {
   s.normal = bend(n, slope, 0.27 * at.relief);
   s.roughness = clamp(at.roughness + 0.14 * weathered, 0.10, 1.0);
   s.specular = 0.03;
-  // The sea blackens what it reaches.
+  // The sea blackens the rock that it reaches.
   s.albedo *= mix(1.0, 0.55, smoothstep(0.0, 0.5, at.wet + 0.2 * patches.x * step(0.01, at.wet)));
   wetten(s, at.wet);
   s.roughness = roughened(s.roughness, 0.09 * at.relief * at.relief * relief_slope.w);
@@ -51,7 +51,7 @@ Surface basaltic(Spot at) {
 }
 
 Surface rock(Spot at) {
-  const float kDarkest = 0.16;  // of other rock than basalt
+  const float kDarkest = 0.16;  // darker rock is basalt
   if (max(at.colour.r, max(at.colour.g, at.colour.b)) < kDarkest) return basaltic(at);
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -61,7 +61,7 @@ Surface rock(Spot at) {
   float grain = fineNoise(p * 11.0, 0.09, footprint) + 0.7 * fineNoise(p * 37.0, 0.027, footprint) +
                 0.6 * fineNoise(p * 131.0, 0.0076, footprint);
 
-  // Beds lie nearly level and are bent gently; some are pale, some carry iron.
+  // Beds are nearly level and gently folded; some are pale, some contain iron.
   float height = p.y + 1.6 * broad.x + 0.30 * patches.x + 0.05 * mottle.x;
   float bed = noise(vec3(height * 0.55, 3.0, broad.y)).x;
   float wall = 1.0 - smoothstep(0.55, 0.9, abs(n.y));
@@ -73,7 +73,7 @@ Surface rock(Spot at) {
   albedo = mix(albedo, iron, 0.55 * smoothstep(0.05, 0.65, -bed + 0.35 * patches.x));
   albedo *= 1.0 + 0.13 * lamina * wall + 0.16 * grain + 0.12 * mottle.x;
 
-  // Water runs down walls: thin dark films, and pale sinter where it has dried.
+  // Water runs down walls: it leaves thin dark films, and pale sinter where it has dried.
   vec3 run = vec3(p.x * 1.1, p.y * 0.11, p.z * 1.1) + 0.5 * vec3(patches.y, 0.0, mottle.x);
   float streak = 0.0;
   if (wall > 0.0) streak = noise(run + 70.0).x + 0.5 * noise(run * vec3(2.7, 1.7, 2.7) + 31.0).x;
@@ -86,16 +86,16 @@ Surface rock(Spot at) {
   split *= smoothstep(0.0, 0.5, patches.x + 0.5 * mottle.y);
   albedo *= 1.0 - 0.45 * split;
 
-  // Old seeps have left iron and manganese along their ways, in patches; between them the stone is fresh.
+  // Former seeps have left iron and manganese along their paths, in patches; between them the stone is clean.
   float seep = smoothstep(0.10, 0.55, noise(run * vec3(0.8, 1.4, 0.8) + 11.0).x + 0.45 * patches.z);
   albedo = mix(albedo, at.colour * vec3(0.95, 0.60, 0.34) * (1.0 + 0.25 * grain), 0.50 * seep * (0.4 + 0.6 * wall));
   float soot = smoothstep(0.30, 0.62, noise(p * 0.71 + 55.0).x + 0.35 * mottle.x);
   albedo = mix(albedo, at.colour * vec3(0.34, 0.31, 0.29), 0.45 * soot);
 
-  // Silt, clay and small stones settle on whatever is flat enough.
+  // Silt, clay and small stones cover surfaces that are flat enough.
   float floor_cover = smoothstep(0.70, 0.92, n.y + 0.18 * patches.x + 0.08 * mottle.x);
   vec3 silt = mix(vec3(0.27, 0.20, 0.135), at.colour * 0.7, 0.45) * (1.0 + 0.22 * grain + 0.2 * mottle.x);
-  float settled = at.sheltered ? 1.0 : 0.4;  // rain washes it away
+  float settled = at.sheltered ? 1.0 : 0.4;  // rain washes silt away
   albedo = mix(albedo, silt, 0.7 * settled * floor_cover);
   float mud = 0.0;
   if (floor_cover > 0.0 && at.sheltered) {
@@ -120,17 +120,17 @@ Surface rock(Spot at) {
     float shown = small.there * (large.there > 0.0 ? seen : fine);
     albedo = mix(albedo, at.colour * mix(0.42, 0.88, small.lot.y) * (1.0 + 0.30 * grain + 0.1 * mottle.x), shown);
     albedo *= mix(open.y, open.x, 0.6 * length(at.light));
-    // Broken, not rolled: faces meet at blunt edges.
+    // Stones are broken, not rounded: their faces meet at blunt edges.
     vec3 facing = small.normal + 0.16 * uneven.yzw;
     strewn = -vec3(facing.x, 0.0, facing.z) / max(facing.y, 0.4) * shown;
     mud *= 1.0 - shown;
   }
 
-  // Geometry has what is larger than a step; relief begins where that ends.
+  // The geometry contains all that is larger than a step; the relief begins at that size.
   vec4 relief_slope = relief(p, 0.36, 7, 2, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
-  // Faces that broke along a joint are smooth, others rough.
+  // Faces that broke along a joint are smooth, others are rough.
   slope *= mix(0.55, 1.10, smoothstep(-0.35, 0.45, patches.z + 0.6 * broad.z));
   slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
   slope += strewn / (0.34 * max(at.relief, 0.3));
@@ -138,7 +138,7 @@ Surface rock(Spot at) {
   Surface s = surfaceOf(at);
   s.albedo = albedo;
   s.normal = bend(n, slope, 0.29 * at.relief);
-  // Wet stone gleams where water runs, in drops and thin films; between, it is damp and dull, and paler.
+  // Wet stone is shiny where water runs, in drops and thin films; elsewhere it is damp, dull and paler.
   float base = at.roughness, gleam = max(max(0.9 * film, 0.5 * sinter), 0.9 * mud);
   if (base < 0.4) {
     float beads = smoothstep(0.10, 0.60, fineNoise(p * 19.0 + 7.0, 0.05, footprint) +
@@ -156,7 +156,7 @@ Surface rock(Spot at) {
   return s;
 }
 
-// Grains of several colours: granite.
+// Granite: grains of several colours.
 Surface speckled(Spot at) {
   Surface s = surfaceOf(at);
   float seen = visible(0.012, at.footprint);
@@ -171,7 +171,7 @@ Surface speckled(Spot at) {
   return s;
 }
 
-// Marble: veins through polished stone.
+// Marble: polished stone with veins.
 Surface veined(Spot at) {
   Surface s = surfaceOf(at);
   vec4 broad = noise(at.p * 0.9 + 3.0), fine = noise(at.p * 3.1 + 11.0);
@@ -182,18 +182,18 @@ Surface veined(Spot at) {
   return s;
 }
 
-// Calcite, which water has laid down film by film; ice, which it froze to.
+// Calcite, which water has deposited film by film; also ice.
 Surface flowstone(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
   vec4 broad = noise(p * 0.5 + 12.0), patches = noise(p * 1.9 + 4.0);
-  // Each run of water has its own colour, from white over honey to rust; it wanders on its way down.
+  // Each run of water has a colour of its own, from white over honey to rust; it meanders downwards.
   vec3 run = vec3(p.x * 6.0, p.y * 0.40, p.z * 6.0) + 0.9 * broad.yzw + 0.25 * patches.yzw;
   float wall = 1.0 - smoothstep(0.6, 0.95, abs(n.y));
   float fluted = visible(0.14, footprint) * wall;
   vec4 flute = fluted > 0.0 ? noise(run) * fluted : vec4(0.0);
   float stripe = noise(run * vec3(0.45, 0.8, 0.45) + 33.0).x;
-  // Films that dry leave bands of unequal width, which are broken where the water has found another way.
+  // Films that dry leave bands of unequal width, which are interrupted where the water has changed its path.
   float band = 0.0;
   if (wall > 0.0) {
     vec3 bands = vec3(p.x * 0.7, p.y * 11.0 + 2.5 * broad.x + 0.8 * patches.x, p.z * 0.7);
@@ -206,7 +206,7 @@ Surface flowstone(Spot at) {
   s.albedo = mix(at.colour, honey, smoothstep(-0.20, 0.45, age));
   s.albedo = mix(s.albedo, rust, 0.75 * smoothstep(0.28, 0.75, age + 0.15 * band));
   s.albedo *= 1.0 + 0.14 * flute.x + 0.10 * band + 0.10 * grain;
-  // Clay lies on what faces up and sticks to old, dry calcite.
+  // Clay lies on surfaces that face up, and sticks to old, dry calcite.
   float dirt = smoothstep(0.45, 0.95, n.y + 0.35 * patches.x) * smoothstep(-0.25, 0.25, patches.y + 0.5 * broad.z) +
                0.6 * smoothstep(0.25, 0.6, noise(p * 0.9 + 61.0).x + 0.3 * patches.z);
   dirt = min(dirt, 1.0);
@@ -216,7 +216,7 @@ Surface flowstone(Spot at) {
   slope += mix(0.45, 0.8, smoothstep(0.0, 0.5, patches.z)) * relief_slope.xyz;
   s.normal = bend(n, slope, 0.30 * at.relief);
   float flutes = visible(0.14, footprint), lost = 0.25 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);
-  // Water still runs here and there; elsewhere the calcite has dried to a dull crust.
+  // Water still runs in some places; elsewhere the calcite has dried to a dull crust.
   float runs = smoothstep(0.05, 0.45, noise(run * vec3(0.6, 0.5, 0.6) + 80.0).x + 0.3 * broad.y);
   s.roughness = clamp(mix(1.9, 0.85, runs) * at.roughness * (1.0 + 0.35 * dirt), 0.08, 1.0);
   s.albedo *= mix(1.0, 0.80, runs);
@@ -227,9 +227,9 @@ Surface flowstone(Spot at) {
   return s;
 }
 
-// Lava as it ran and froze: dark, matt and full of small bubbles, with level lines where a flow has stood for a while. In
-// patches hot gas has rusted it, a glaze is left that has dripped, or seeping water has put down a pale bloom. Floors are a
-// crust, which has cracked as it shrank.
+// Solidified lava: dark, matt and full of small bubbles, with level lines where the flow has stood for a while. In
+// patches, hot gas has rusted it, a glaze has dripped, or seeping water has deposited pale salts. Floors are a crust
+// that has cracked while it shrank.
 Surface lava(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
@@ -244,10 +244,10 @@ Surface lava(Spot at) {
   albedo = mix(albedo, vec3(0.098, 0.062, 0.048) * (1.0 + 0.2 * fine + 0.3 * grain), 0.30 * rust);
   float glaze = smoothstep(0.20, 0.50, patches.y + 0.4 * broad.y + 0.30 * mottle.z) * (1.0 - floor_share);
   albedo *= mix(vec3(1.0), vec3(0.72, 0.72, 0.76), glaze);
-  // Bloom clings to bubbles and ledges, in specks that grow together.
+  // Salts are on bubbles and ledges, in specks that grow together.
   float salt = smoothstep(0.30, 0.75, noise(p * 0.9 + 71.0).x + 0.30 * patches.w + 0.28 * mottle.w + 0.22 * fine + 0.22 * grain);
   albedo = mix(albedo, vec3(0.22, 0.212, 0.195) * (1.0 + 0.2 * grain), 0.30 * salt * (1.0 - 0.6 * floor_share));
-  // Where the flow stood: thin level lines, paler above and darker below, broken in places.
+  // Level lines where the flow stood: thin, paler above and darker below, interrupted in places.
   float height = p.y + 0.10 * broad.x + 0.025 * mottle.x;
   float line = fineNoise(vec3(0.5, height * 7.0, 0.5 + 0.4 * broad.y), 0.12, footprint) +
                0.6 * fineNoise(vec3(0.5, height * 19.0, 2.5), 0.045, footprint);
@@ -258,7 +258,7 @@ Surface lava(Spot at) {
   vec3 bent = p + 0.16 * patches.yzw + 0.05 * mottle.yzw;
   float split = floor_share > 0.0 ? cracks(bent, n, 0.9, 0.022, footprint) * smoothstep(-0.15, 0.25, patches.z) : 0.0;
   albedo *= 1.0 - 0.7 * split * floor_share;
-  // Grit and dust lie in what is flat.
+  // Grit and dust lie on flat surfaces.
   float dust = floor_share * smoothstep(-0.2, 0.5, patches.w + 0.4 * mottle.z + 0.3 * fine);
   albedo = mix(albedo, vec3(0.085, 0.077, 0.069) * (1.0 + 0.2 * fine + 0.25 * grain), 0.4 * dust);
 

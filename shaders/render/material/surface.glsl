@@ -1,16 +1,16 @@
-// What a surface looks like at a point, and tools that all patterns share.
+// The appearance of a surface at a point, and functions that all patterns use.
 
 struct Surface {
   vec3 albedo;
   vec3 normal;
   float roughness;
   float specular;      // reflectance at normal incidence
-  float translucency;  // how far light wraps around, 0..1
+  float translucency;  // how far light wraps around the surface, 0..1
   vec3 within;         // light that comes through the surface from behind it
-  vec3 clear;          // the share of what lies behind that is seen, 0..1
+  vec3 clear;          // share of what lies behind the surface that is visible, 0..1
 };
 
-// What a pattern starts from: a place on the surface of a body, in the patterns' own metres.
+// The input of a pattern: a point on the surface of a body, in metres from the patterns' origin.
 struct Spot {
   vec3 p;
   vec3 n;
@@ -18,11 +18,11 @@ struct Spot {
   vec3 colour;
   float roughness;
   float relief;
-  float footprint;  // metres that a sample covers
-  float wet;        // 1 at the edge of standing water, 0 away from it
-  float depth;      // of water, metres
-  vec3 light;       // towards most of its light, the longer the more of it comes from there, 0..1
-  bool sheltered;   // no rain comes here
+  float footprint;  // width in metres that a sample covers
+  float wet;        // 1 at the border of standing water, 0 away from it
+  float depth;      // depth under water in metres
+  vec3 light;       // direction from which most light comes; its length, 0..1, is the share of light from there
+  bool sheltered;   // true if no rain reaches the point
 };
 
 Surface surfaceOf(Spot at) {
@@ -37,19 +37,19 @@ Surface surfaceOf(Spot at) {
   return s;
 }
 
-// Weight of detail of a size where one sample covers `footprint` metres: gone before it would flicker.
+// Returns the weight of detail of this size if one sample covers `footprint` metres: 0 before the detail would flicker.
 float visible(float size, float footprint) { return clamp(size / (2.0 * footprint) - 1.0, 0.0, 1.0); }
 
-// Noise with details of a size, which is found only where they would be seen.
+// Noise with details of this size; it is computed only if they are visible.
 float fineNoise(vec3 p, float size, float footprint) {
   float seen = visible(size, footprint);
   return seen > 0.0 ? seen * plainNoise(p) : 0.0;
 }
 
-// Slope of a relief made of octaves from `period` metres down; ridged octaves have sharp crests, as broken rock has.
-// w: the variance of the slopes that are too fine to be seen.
+// Returns the slope of a relief that consists of octaves from `period` metres down. The first `ridged` octaves have
+// sharp crests, as broken rock has. w: variance of the slopes that are too fine to be visible.
 vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
-  const float kVariance = 0.5;  // of the slopes of one octave, along the surface
+  const float kVariance = 0.5;  // variance of the slopes of one octave along the surface
   vec4 slope = vec4(0.0);
   float strength = 1.0;
   for (int i = 0; i < octaves; ++i) {
@@ -65,14 +65,14 @@ vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
   return slope;
 }
 
-// Roughness with relief that is too fine to be seen (after Olano and Baker, "LEAN mapping"): it spreads a highlight as
-// roughness does. Without it whatever lies far away would be a mirror.
+// Returns the roughness including relief that is too fine to be visible (after Olano and Baker, "LEAN mapping"), which
+// spreads a highlight as roughness does. Otherwise everything far away would look like a mirror.
 float roughened(float roughness, float variance) {
   float a = roughness * roughness;
   return sqrt(sqrt(min(1.0, a * a + 2.0 * variance)));
 }
 
-// A relief's normal at a place that is seen: what faces away from the eye is hidden behind what does not.
+// Returns the normal of a relief at a visible point, turned towards the eye: parts that face away are hidden by others.
 vec3 turnedTo(vec3 to_eye, vec3 normal, vec3 n) {
   float least = 0.3 * max(dot(n, to_eye), 0.0), facing = dot(normal, to_eye);
   return facing >= least ? normal : normalize(normal + to_eye * (least - facing));
@@ -80,7 +80,7 @@ vec3 turnedTo(vec3 to_eye, vec3 normal, vec3 n) {
 
 vec3 bend(vec3 normal, vec3 slope, float strength) {
   vec3 along = slope - normal * dot(normal, slope);
-  // A slope beyond about 60 degrees would turn its back to every lamp and read as a black speck.
+  // Slopes beyond about 60 degrees would face away from every lamp and look like black specks, so they are limited.
   along *= strength;
   return normalize(normal - along * inversesqrt(1.0 + 0.35 * dot(along, along)));
 }
@@ -90,7 +90,7 @@ vec3 planeWeights(vec3 n) {
   return w / (w.x + w.y + w.z);
 }
 
-// Depth of cracks, 0..1, mapped along the three axes and blended by the normal.
+// Returns the depth of cracks, 0..1: projected along the three axes, and blended by the normal.
 float cracks(vec3 p, vec3 n, float size, float width, float footprint) {
   float w = visible(width * 3.0, footprint);
   if (w <= 0.0) return 0.0;
@@ -103,9 +103,10 @@ float cracks(vec3 p, vec3 n, float size, float width, float footprint) {
   return depth * w;
 }
 
-// A surface unrolled: metres along its level direction and up its slope. Courses are counted by height alone, so that they
-// meet at corners and do not slide where a wall, a rib or a vault curves; their lengths turn in steps, so that a column's
-// drum and a round tower show whole faces of stones. Where a surface leans its courses grow in steps too.
+// A wall unrolled into a plane: metres along its level direction, and up its slope. Courses depend on height alone, so
+// that they meet at corners and are continuous on curved walls, ribs and vaults. The level direction changes in steps,
+// so that the drum of a column or a round tower shows whole faces of stones. On leaning surfaces, the height of courses
+// changes in steps, too.
 struct Chart {
   vec2 at;
   vec3 along;
@@ -121,7 +122,7 @@ Chart chartOf(vec3 p, vec3 n) {
     c.at = p.xz;
     return c;
   }
-  // A little off the half: faces of an octagon's half angle would waver between two steps.
+  // 0.56 instead of 0.5: the faces of an octagon turned by half an angle would alternate between two steps.
   const float kStep = 6.2831853 / 8.0;
   float turn = floor(atan(n.z, n.x) / kStep + 0.56) * kStep;
   vec3 out_of = vec3(cos(turn), 0.0, sin(turn));
@@ -134,13 +135,14 @@ Chart chartOf(vec3 p, vec3 n) {
 
 // A block of masonry at a point of a chart.
 struct Block {
-  vec3 lot;     // random numbers of its own
+  vec3 lot;     // random numbers of the block
   vec2 within;  // metres from its middle
-  float edge;   // metres to its nearest edge
-  vec2 tilt;    // how its rounded edges fall, along and up
+  float edge;   // distance in metres to its nearest edge
+  vec2 tilt;    // slope of its rounded edges, along the wall and up
 };
 
-// Courses of blocks, `size` metres, each course shifted by `shift` blocks, the lengths within one varying by `vary` 0..0.5.
+// Returns the block of masonry at a point: courses of blocks of `size` metres, each course shifted by `shift` blocks.
+// vary: variation of lengths within a course, 0..0.5.
 Block blockAt(vec2 at, vec2 size, float shift, float vary, float round_edge) {
   float course = floor(at.y / size.y);
   vec3 course_lot = random3(ivec3(int(course), 17, 3));
@@ -162,7 +164,7 @@ Block blockAt(vec2 at, vec2 size, float shift, float vary, float round_edge) {
   return b;
 }
 
-// Cells of no order, about `size` metres wide: rubble, leaves, pebbles.
+// Returns a cell of an irregular pattern, about `size` metres wide: rubble, leaves, pebbles.
 Block cellAt(vec2 at, float size, float round_edge, int seed) {
   vec2 q = at / size, cell = floor(q), f = q - cell;
   ivec2 i = ivec2(cell), chosen = i;
@@ -193,8 +195,8 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   return b;
 }
 
-// Stones that were laid in rows by eye, about `size` metres: each is as large as it came, has lost its corners, and rows
-// waver. `loose` says how far a stone lies from where it should, 0..0.5.
+// Returns a stone of a pavement that was laid in rows by eye, about `size` metres wide. Sizes differ, corners are
+// rounded, and rows waver. loose: how far a stone may be from its regular position, 0..0.5.
 Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   vec2 q = at / size;
   int row = int(floor(q.y));
@@ -208,11 +210,12 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
     int column = int(floor(q.x - shift)) + i % 3 - 1;
     cells[i] = ivec2(column, r);
     vec2 off = loose * vec2(1.0, 0.6) * (2.0 * random3(ivec3(column, r, seed)).xy - 1.0);
-    mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size * vec2(1.0, 1.5);  // rows part first
+    // stretched, so that stones of one row are nearest
+    mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size * vec2(1.0, 1.5);
     float l = dot(mids[i], mids[i]);
     if (l < best) { best = l; chosen = i; }
   }
-  // A smooth minimum of the distances to all borders rounds the corners.
+  // The smooth minimum of the distances to all borders makes rounded corners.
   float sum = 0.0, sharp = 14.0 / scale;
   vec2 towards = vec2(0.0);
   [[dont_unroll]] for (int i = 0; i < 9; ++i) {
@@ -230,13 +233,13 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   return b;
 }
 
-// A stone of a layer that lies strewn over a plane: an ellipsoid in its own cell, turned its own way. The layer's axes are
-// x and z along the plane and y out of it.
+// A stone of a layer of stones strewn over a plane: a rotated ellipsoid in a cell of its own. The layer's axes are x
+// and z along the plane, and y out of it.
 struct Stone {
-  vec3 middle;  // metres
-  vec3 radii;   // metres; 0 in a cell without a stone
-  vec2 turn;    // cosine and sine
-  vec3 lot;     // random numbers of its own
+  vec3 middle;  // position in metres
+  vec3 radii;   // in metres; 0 in a cell without a stone
+  vec2 turn;    // cosine and sine of its rotation
+  vec3 lot;     // random numbers of the stone
 };
 
 Stone stoneIn(ivec2 cell, float size, float many, int seed) {
@@ -251,25 +254,26 @@ Stone stoneIn(ivec2 cell, float size, float many, int seed) {
   return s;
 }
 
-// A vector in the axes in which the stone is a ball of radius 1.
+// Converts a vector to axes in which the stone is a ball of radius 1.
 vec3 inStone(Stone s, vec3 v) {
   return vec3(s.turn.x * v.x + s.turn.y * v.z, v.y, s.turn.x * v.z - s.turn.y * v.x) / s.radii;
 }
 
-// What is seen of a layer of stones.
+// What is visible of a layer of stones.
 struct Strewn {
-  float there;  // 1 where it is a stone
-  vec3 at;      // metres in the layer's axes
+  float there;  // 1 if a stone is visible
+  vec3 at;      // position in metres, in the layer's axes
   vec3 normal;  // of length 1, in the layer's axes
-  vec3 lot;     // of the stone
+  vec3 lot;     // random numbers of the stone
   ivec2 cell;
 };
 
-// The stone that an eye's ray meets first which would meet the plane at `at`. way: the ray's direction in the layer's axes;
-// size: metres from stone to stone; many: the share of cells that have one.
+// Returns the stone that is hit first by a ray from the eye which would hit the plane at `at`. way: the ray's direction
+// in the layer's axes; size: distance between stones in metres; many: share of cells that have a stone.
 Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
   vec3 base = vec3(at.x, 0.0, at.y);
-  // Seen flatter than this, stones would hide each other as they do in rows; few cells would not hold them all.
+  // The ray is made steeper: along a flat ray, stones would hide each other in long rows, which the few cells searched
+  // here do not contain.
   vec3 ray = normalize(vec3(way.x, min(way.y, -0.4), way.z));
   Strewn found = Strewn(0.0, base, vec3(0.0, 1.0, 0.0), vec3(0.5), ivec2(1 << 20));
   ivec2 middle = ivec2(floor((at - ray.xz / -ray.y * (0.16 * size)) / size));
@@ -291,7 +295,8 @@ Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
   return found;
 }
 
-// How much of the light from a direction reaches a place among a layer's stones (x) and how open it is to all sides (y).
+// Returns how much of the light from a direction reaches a point among the stones (x), and how open it is to all sides
+// (y).
 vec2 lightAmong(Strewn seen, vec3 to_light, float size, float many, int seed) {
   vec3 l = normalize(vec3(to_light.x, max(to_light.y, 0.25), to_light.z));
   ivec2 middle = ivec2(floor((seen.at.xz + 0.25 * size * l.xz / l.y) / size));
@@ -309,7 +314,7 @@ vec2 lightAmong(Strewn seen, vec3 to_light, float size, float many, int seed) {
   return open;
 }
 
-// Darkens and smooths what standing water has wetted.
+// Makes a surface darker and smoother where standing water has wetted it.
 void wetten(inout Surface s, float wet) {
   s.albedo *= mix(1.0, 0.55, wet);
   s.roughness = mix(s.roughness, 0.14, 0.85 * wet);

@@ -1,7 +1,7 @@
-// What is spread, poured, sawn or rolled: even by nature, never rocky.
+// Materials that people spread, pour, saw or roll: even, never rocky.
 
-// Plaster, paint, clay: colour with a fine grain, broad stains, and streaks where rain runs. Plaster has been mended in
-// pieces of another day, and has cracked as fine as hairs.
+// Plaster, paint, clay: a colour with fine grain, broad stains, and streaks where rain runs. Plaster was mended in
+// patches, and has cracks as fine as hairs.
 Surface plain(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.45).x + 0.5 * noise(at.p * 1.9 + 7.0).x;
@@ -16,7 +16,7 @@ Surface plain(Spot at) {
     float hair = cracks(at.p + 0.10 * noise(at.p * 1.9).yzw + 0.02 * noise(at.p * 11.0).yzw, at.n, 2.3, 0.004, 0.3 * at.footprint);
     s.albedo *= 1.0 - 0.34 * hair * smoothstep(0.0, 0.4, noise(at.p * 0.5 + 70.0).x);
   }
-  // A float leaves broad, shallow strokes, and sand its grain.
+  // A float leaves broad, shallow strokes in plaster; sand gives it grain.
   vec4 strokes = relief(at.p * vec3(1.0, 1.6, 1.0), 0.30, 2, 0, at.footprint), fine = relief(at.p, 0.012, 2, 0, at.footprint);
   s.normal = bend(at.n, strokes.xyz + 0.9 * fine.xyz, 0.016 * at.relief);
   wetten(s, at.wet);
@@ -24,7 +24,7 @@ Surface plain(Spot at) {
   return s;
 }
 
-// Concrete from forms: panels, holes of their ties, pores, stains.
+// Cast concrete: panels, holes of the formwork's ties, pores, stains.
 Surface concrete(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(2.4, 1.2), 0.0, 0.0, 0.01);
@@ -37,8 +37,8 @@ Surface concrete(Spot at) {
   return s;
 }
 
-// Wood along an axis of length 1: bands of grain, checks where it has dried, knots, and dents of the tool that has shaped
-// it. lot: random numbers of its own, so that one board differs from the next.
+// Wood with grain along an axis of length 1: bands, cracks where it has dried, knots, and dents of the tool that shaped
+// it. lot: random numbers of the piece, so that boards differ.
 Surface grained(Spot at, vec3 axis, vec3 lot) {
   float along = dot(at.p, axis);
   vec3 across = at.p - along * axis;
@@ -49,13 +49,13 @@ Surface grained(Spot at, vec3 axis, vec3 lot) {
   vec3 fibre = across * 16.0 + axis * (along * 0.9 + 9.0 * lot.x) + 0.9 * swing.x + 1.6 * knot * knots.yzw;
   vec4 ring = noise(fibre) * visible(0.05, at.footprint), hair = noise(fibre * vec3(3.7)) * visible(0.016, at.footprint);
   float fine = fineNoise(fibre * 9.0 - axis * (along * 3.0), 0.008, at.footprint);
-  // Checks run along the grain, open in the middle and closed at both ends.
+  // Cracks run along the grain, open in the middle and closed at both ends.
   vec4 split = noise(across * 9.0 + axis * (along * 0.55 + 5.0 * lot.y) + 0.35 * swing.y + 21.0);
   float dry = smoothstep(0.0, 0.35, noise(across * 3.0 + axis * along * 1.3 + 50.0).x);
   float check = (1.0 - smoothstep(0.015, 0.07, abs(split.x))) * dry * visible(0.016, at.footprint);
   Surface s = surfaceOf(at);
   vec3 grey = vec3(dot(at.colour, vec3(0.4)));
-  // What greys it and what stains it follows the grain.
+  // Weathering and stains follow the grain.
   vec3 drawn = across * 5.5 + axis * (along * 0.42 + 3.0 * lot.x);
   s.albedo = mix(at.colour, grey, 0.12 + 0.30 * smoothstep(-0.2, 0.6, noise(drawn).x + 0.3 * noise(at.p * 0.5).x));
   s.albedo *= 1.0 - 0.22 * smoothstep(0.1, 0.7, noise(drawn * 1.7 + 4.0).x + 0.3 * hair.x);
@@ -69,12 +69,13 @@ Surface grained(Spot at, vec3 axis, vec3 lot) {
   return s;
 }
 
-// Posts, and all that is of one piece. The grain runs up walls and along floors.
+// Posts, and everything made of one piece. The grain runs up walls and along floors.
 Surface wooden(Spot at) {
   return grained(at, length(at.n.xz) < 0.28 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0), vec3(0.5));
 }
 
-// Beams, planks and logs that lie: across the way up their sides. In steps, or places far from the origin would waver.
+// Horizontal beams, planks and logs, whose grain is horizontal, too. Directions change in steps, because positions far
+// from the origin are inexact.
 Surface lying(Spot at) {
   const float kStep = 3.14159265 / 12.0;
   float turn = length(at.n.xz) < 0.06 ? 0.0 : floor(atan(at.n.x, -at.n.z) / kStep + 0.5) * kStep;
@@ -90,7 +91,7 @@ Surface boarded(Spot at) {
   return s;
 }
 
-// Metal that is handled: dull, with rust where the relief says that it is neglected.
+// Metal in use: dull, with rust where the relief parameter says that it is neglected.
 Surface metallic(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 1.1).x, fine = fineNoise(at.p * 23.0, 0.04, at.footprint);
@@ -105,13 +106,13 @@ Surface metallic(Spot at) {
   return s;
 }
 
-// Tar with chips of stone, which wheels have laid bare in places; it has sunk, cracked and been sealed again.
+// Asphalt: tar with chips of stone, which wheels have exposed in places; it has sunk, cracked and been sealed.
 Surface asphalt(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
   float mottle = fineNoise(at.p * 6.0, 0.16, at.footprint), clots = fineNoise(at.p * 25.0, 0.04, at.footprint);
   float chips = fineNoise(at.p * 120.0, 0.009, at.footprint), dust = fineNoise(at.p * 64.0, 0.016, at.footprint);
-  // Chips stand pale out of the tar, the more the more it is worn.
+  // Chips are paler than tar, and more of them are exposed the more it is worn.
   float bare = smoothstep(0.05, 0.40, chips + 0.35 * dust + 0.15 * clots + 0.12 * broad);
   s.albedo = at.colour * (1.0 + 0.16 * broad + 0.13 * mottle + 0.20 * clots + 0.22 * dust) * (1.0 - 0.2 * max(-chips, 0.0));
   s.albedo = mix(s.albedo, vec3(0.20, 0.195, 0.185) * (1.0 + 0.5 * dust), 0.55 * bare);
@@ -119,7 +120,7 @@ Surface asphalt(Spot at) {
   float old = smoothstep(0.0, 0.4, broad);
   float split = cracks(bent, at.n, 3.1, 0.012, at.footprint) * old;
   s.albedo *= 1.0 - 0.60 * split;
-  // Most of the long cracks have been sealed with a band of fresh tar.
+  // Most of the long cracks are sealed with a band of fresh tar.
   float band = cracks(0.7 * at.p + 0.2 * noise(at.p * 0.45).yzw + 7.0, at.n, 4.7, 0.035, at.footprint);
   float sealed = smoothstep(0.25, 0.45, band) * smoothstep(-0.05, 0.15, noise(at.p * 0.21 + 9.0).x);
   s.albedo = mix(s.albedo, vec3(0.028, 0.028, 0.030), 0.75 * sealed);
@@ -131,16 +132,16 @@ Surface asphalt(Spot at) {
   return s;
 }
 
-// The colour of glass in the table of materials (runtime/tools/materials/material.cpp).
+// The colour of clear glass in the table of materials (runtime/tools/materials/material.cpp).
 const vec3 kClearGlass = vec3(0.22, 0.30, 0.33);
 
-// What a ray meets in a room behind a pane: the room is drawn without its shapes being there (van Dongen, "Interior
-// mapping", 2008).
+// What a ray hits in a room behind a pane. The room is computed from the ray alone and has no geometry (van Dongen,
+// "Interior mapping", 2008).
 struct Room {
-  vec2 from;   // where the ray enters, metres from the room's low left corner
-  vec3 way;    // along the wall, up, and into the room
-  vec3 hit;    // where it ends, metres from that corner; z: from the pane
-  float side;  // what it meets: 0 a side wall, 1 the floor, 2 the ceiling, 3 the back
+  vec2 from;   // where the ray enters, in metres from the room's lower left corner
+  vec3 way;    // direction of the ray: along the wall, up, and into the room
+  vec3 hit;    // where it ends, in metres from that corner; z: distance from the pane
+  float side;  // what it hits: 0 a side wall, 1 the floor, 2 the ceiling, 3 the back wall
   vec3 lot;    // random numbers of the room
 };
 
@@ -161,17 +162,17 @@ Room roomBehind(Spot at, vec3 size, int seed) {
   return r;
 }
 
-// Where a ray into a room meets the upright plane that is `deep` metres behind its pane.
+// Returns where a ray into a room crosses the vertical plane `deep` metres behind the pane.
 vec2 atDepth(Room r, float deep) { return r.from + r.way.xy * (deep / r.way.z); }
 
-// 1 in a box about `middle`, soft at its rim by what a sample covers.
+// Returns 1 inside a box around `middle`; the border is softened by the footprint of a sample.
 float inBox(vec2 p, vec2 middle, vec2 half_size, float footprint) {
   vec2 out_of = abs(p - middle) - half_size;
   return 1.0 - smoothstep(-0.5 * footprint - 0.004, 0.5 * footprint + 0.004, max(out_of.x, out_of.y));
 }
 
-// A room to live in. Daylight comes in by the window alone: by day rooms are dark, some more than others, and in a few a
-// lamp is lit.
+// A room of a dwelling. Daylight comes only through the window: by day rooms are dark, some more than others, and in a
+// few of them a lamp is on.
 vec3 dwelling(Spot at) {
   Room r = roomBehind(at, vec3(3.6, 3.0, 4.2), 77);
   vec3 paint = mix(vec3(0.36, 0.32, 0.27), vec3(0.24, 0.26, 0.28), r.lot.x);
@@ -193,7 +194,7 @@ vec3 dwelling(Spot at) {
   return seen;
 }
 
-// An office: a ceiling with rows of lights, of which some are lit, desks, and a blind that is let down some of the way.
+// An office: a ceiling with rows of lights, some of them on; desks; and a blind that is partly lowered.
 vec3 office(Spot at) {
   Room r = roomBehind(at, vec3(6.0, 3.4, 7.0), 79);
   bool lit = r.lot.x > 0.45;
@@ -204,12 +205,12 @@ vec3 office(Spot at) {
     vec2 lights = vec2(fract(r.hit.x / 1.5) * 1.5, fract(r.hit.z / 1.8) * 1.8);
     seen += vec3(0.95, 0.93, 0.85) * (lit ? 0.9 : 0.02) * inBox(lights, vec2(0.75, 0.9), vec2(0.15, 0.6), at.footprint);
   }
-  // Desks with screens stand near the window, pillars farther in.
+  // Desks with screens are near the window, pillars farther inside.
   vec2 desk = atDepth(r, 1.2);
   float place = fract(desk.x / 2.1) * 2.1;
   float there = step(desk.y, 0.78) + inBox(vec2(place, desk.y), vec2(1.0, 1.02), vec2(0.30, 0.17), at.footprint);
   if (1.2 < r.hit.z) seen = mix(seen, vec3(0.020, 0.020, 0.022) + (lit ? 0.02 : 0.0), clamp(there, 0.0, 1.0) * 0.85);
-  // Each bay has a blind of its own.
+  // Each bay has its own blind.
   Chart chart = chartOf(at.p, at.n);
   vec3 own = random3(ivec3(int(floor(chart.at.x / 1.5)), int(floor(chart.at.y / 3.4)), 83));
   float low = 3.4 * (own.x < 0.45 ? 0.0 : own.x < 0.85 ? 0.28 * own.y : 0.85 * own.y);
@@ -218,14 +219,14 @@ vec3 office(Spot at) {
   return mix(seen, vec3(0.27, 0.265, 0.25) * (1.0 - slat), 0.9 * drawn);
 }
 
-// A shop: goods stand in the window, on shelves along the back, under lights.
+// A shop: goods in the window, and on shelves along the back wall, under lights.
 vec3 shop(Spot at) {
   Room r = roomBehind(at, vec3(4.4, 3.9, 5.0), 89);
   vec3 kept = mix(vec3(0.42, 0.36, 0.28), vec3(0.34, 0.36, 0.37), r.lot.x);
   vec3 paint = r.side == 1.0 ? vec3(0.17, 0.12, 0.08) : r.side == 2.0 ? vec3(0.5) : kept;
   vec2 wall = r.side == 3.0 ? r.hit.xy : vec2(r.hit.z, r.hit.y);
   if ((r.side == 3.0 || r.side == 0.0) && wall.y < 2.6) {
-    // Shelves, and on them goods of many colours in lots that are alike.
+    // Shelves with goods of many colours, in groups of similar goods.
     vec2 q = vec2(wall.x / 0.11, wall.y / 0.42), lots = vec2(floor(wall.x / 0.66), floor(q.y));
     vec3 lot = random3(ivec3(ivec2(lots), 97)), own = random3(ivec3(int(floor(q.x)), int(lots.y), 101));
     vec3 goods = mix(mix(vec3(0.30, 0.25, 0.18), vec3(0.22, 0.10, 0.07), step(0.6, lot.x)),
@@ -242,14 +243,14 @@ vec3 shop(Spot at) {
     vec2 spots = fract(vec2(r.hit.x, r.hit.z) / 1.1) - 0.5;
     seen += vec3(2.2, 1.9, 1.4) * (1.0 - smoothstep(0.05, 0.07, length(spots)));
   }
-  // What is on show stands half a metre behind the pane, on a ledge: boxes, busts, bottles, each with a light side.
+  // The goods on display are half a metre behind the pane, on a ledge: boxes, busts, bottles, each lit from one side.
   for (int i = 0; i < 2; ++i) {
     float deep = i == 0 ? 0.95 : 0.45;
     vec2 p = atDepth(r, deep);
     float wide = 0.34 + 0.16 * r.lot.z, n = floor(p.x / wide + 0.37 * float(i));
     vec3 own = random3(ivec3(int(n), int(floor(chartOf(at.p, at.n).at.x / 4.4)) + 7 * i, 103));
     float x = p.x / wide + 0.37 * float(i) - n - 0.5, top = 0.85 + 0.35 * own.x + 0.25 * float(1 - i), y = p.y - 0.55;
-    // Boxes and cards, and round things on a foot.
+    // Boxes and cards, and round objects on a foot.
     float body = own.z < 0.7 ? max(abs(x) - 0.20 - 0.14 * own.y, y - (top - 0.55) * (0.5 + 0.5 * own.z))
                              : min(length(vec2(x, (y - 0.22) / 0.7)) - 0.26, max(abs(x) - 0.07, y - 0.2));
     float shown = step(deep, r.hit.z) * step(own.y, 0.6) * (1.0 - smoothstep(-0.02, 0.02, body));
@@ -260,7 +261,7 @@ vec3 shop(Spot at) {
   return 0.62 * seen;
 }
 
-// A pane, and what lies behind it: see kClearPane and what follows it. What is tinted hides it.
+// A pane and what is behind it: see kClearPane and the following constants. Tinted glass hides what is behind it.
 Surface glazed(Spot at) {
   Surface s = surfaceOf(at);
   s.roughness = 0.04;
@@ -274,7 +275,7 @@ Surface glazed(Spot at) {
   } else if (behind == kOfficeBehind) {
     s.within = office(at);
   } else if (behind == kCurtainBehind) {
-    // Folds hang from a rail, wide ones and narrow ones; a pane takes some of the light on its way in and out.
+    // Curtains hang in folds, wide and narrow; a pane absorbs some of the light that goes in and out.
     Chart chart = chartOf(at.p, at.n);
     float x = chart.at.x + 0.02 * sin(1.7 * chart.at.y + 9.0 * chart.at.x);
     float fold = sin(47.0 * x + 2.0 * sin(11.0 * x)) + 0.5 * sin(113.0 * x + 1.0);
@@ -292,8 +293,8 @@ Surface glazed(Spot at) {
   return s;
 }
 
-// A window of stained glass: diamonds, pale as old glass is, each a little otherwise, in strips of lead on bars of iron, and
-// in every other field a wheel of colours.
+// A window of stained glass: diamonds of pale old glass, each slightly different, in strips of lead on iron bars; every
+// other field has a coloured wheel.
 Surface leaded(Spot at) {
   const vec2 kField = vec2(0.90, 1.20), kDiamond = vec2(0.15, 0.20);
   Surface s = surfaceOf(at);
@@ -304,7 +305,7 @@ Surface leaded(Spot at) {
   float from_lead = 0.12 * min(min(fract(q.x), 1.0 - fract(q.x)), min(fract(q.y), 1.0 - fract(q.y)));
   ivec2 field = ivec2(floor(p / kField));
   vec2 from_middle = p - (vec2(field) + 0.5) * kField;
-  // Each wheel has its own size, spokes and colours, and some fields have a lozenge or none.
+  // Each wheel has its own size, spokes and colours; some fields have a lozenge or nothing.
   vec3 kind = random3(ivec3(field, 317));
   bool figured = ((field.x + field.y) & 1) == 0 && kind.z < 0.9;
   float outer = 0.32 + 0.10 * kind.x;
@@ -331,7 +332,7 @@ Surface leaded(Spot at) {
   float lead = 1.0 - smoothstep(0.004 - soft, 0.004 + soft, from_lead);
   float bar = abs(p.y / 0.6 - floor(p.y / 0.6) - 0.5) * 0.6;
   lead = max(lead, 1.0 - smoothstep(0.011 - soft, 0.011 + soft, bar));
-  // Glass that was blown is streaked and has dirt at its edges.
+  // Blown glass is streaked, and dirty at its edges.
   float streaks = fineNoise(vec3(p * vec2(14.0, 3.0), 0.0), 0.07, at.footprint);
   tint *= (1.0 + 0.16 * streaks) * mix(0.55, 1.0, smoothstep(0.004, 0.022, from_lead));
   s.clear = tint * (1.0 - lead);
@@ -340,8 +341,8 @@ Surface leaded(Spot at) {
   return s;
 }
 
-// What shines by itself. A flame behind a pane is brightest in the middle; towards the rim the pane is seen, which is hot and
-// coloured, and sooty in streaks.
+// Something that emits light. A flame behind a pane is brightest in the middle; towards the border, the pane itself is
+// visible: hot, coloured, and sooty in streaks.
 Surface glowing(Spot at) {
   Surface s = surfaceOf(at);
   float facing = max(dot(at.n, at.to_eye), 0.0);
