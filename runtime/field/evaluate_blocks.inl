@@ -1,8 +1,8 @@
-// Runs arrays of points through the interpreter, in blocks. This file includes evaluate_kernel.inl and replaces it. The
-// including file also defines signMask(p, count): bit i is the sign of the i-th integer at p; it may read whole
+// Runs arrays of points through the interpreter in blocks. Include this file instead of evaluate_kernel.inl, which it
+// includes. The including file also defines signMask(p, count), whose bit i is the sign of p[i]; it may read whole
 // vectors.
 
-#ifndef SGM_ONE_BY_ONE  // defined by tests that compare with single instructions
+#ifndef SGM_ONE_BY_ONE  // defined by tests that compare lists with single instructions
 #define SGM_LISTS
 #include "field/operands.inl"
 #endif
@@ -17,12 +17,12 @@ inline BlockFrame makeFrame(EvalScratch& scratch) {
   constexpr size_t places = size_t{kMaxPlaces} * 3 * kEvalBlock;
   constexpr size_t jacobians = kGradient ? size_t{kMaxPlaces} * 9 * kEvalBlock : 0;
   uint32_t* words = scratch.reserve(registers + places + jacobians + 16);
-  // Whole vectors must not straddle cache lines: the block starts at the next multiple of 64 bytes.
+  // Whole vectors must not cross cache lines, so the block starts at the next multiple of 64 bytes.
   words += (16 - (reinterpret_cast<uintptr_t>(words) / sizeof(uint32_t)) % 16) % 16;
   return {words, words + registers, words + registers + places};
 }
 
-// Copies a block's points to place 0, the last one repeated up to whole vectors.
+// Copies a block's points to place 0. The last point is repeated to fill whole vectors.
 inline size_t loadPoints(const BlockFrame& f, const Points& points, size_t first, size_t count) {
   const size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   const int32_t* axes[3] = {points.x + first, points.y + first, points.z + first};
@@ -46,7 +46,7 @@ inline void evaluateSamples(const ProgramView& program, const Points& points, Ev
   }
 }
 
-/// Loads the x and y of slices of a box, enough for `padded` points.
+/// Loads the x and y coordinates of slices of a box, enough for `padded` points.
 inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded) {
   uint32_t *x = f.places, *y = f.places + kEvalBlock, row[kEvalBlock];
   const size_t width = box.size[0];
@@ -54,7 +54,7 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
   size_t at = 0;
   for (size_t j = 0; at + width <= padded; j = j + 1 == box.size[1] ? 0 : j + 1, at += width) {
     const auto height = static_cast<uint32_t>(box.origin.y + static_cast<int32_t>(j) * box.step);
-    if (width == kRow) {  // the common case: a length known to the compiler
+    if (width == kRow) {  // most blocks have this length, which is a compile-time constant
       memcpy(x + at, row, kRow * sizeof(uint32_t));
       for (size_t i = 0; i < kRow; ++i) y[at + i] = height;
     } else {
@@ -70,7 +70,7 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
 
 inline void evaluateBox(const ProgramView& program, const LatticeBox& box, EvalScratch& scratch,
                         const LatticeSamples& out) {
-  if (box.size[0] > kRow) {  // in columns of the width of a row
+  if (box.size[0] > kRow) {  // a wide box is divided into columns that are as wide as a row
     LatticeBox first = box, rest = box;
     first.size[0] = kRow;
     rest.size[0] -= kRow;

@@ -1,11 +1,11 @@
-// The interpreter for every instruction set and device. It is included into a namespace that defines
-// shaders/common/common.h, kLanes, kEvalBlock and the loads and stores of Real and Int. If SGM_LISTS is defined,
-// evaluate_lists.inl runs lists of primitives and keeps values in registers between them. Otherwise, as on a GPU, whose
-// register file holds them anyway, instructions run one by one.
+// The interpreter for every instruction set and device. Include this file in a namespace that defines
+// shaders/common/common.h, kLanes, kEvalBlock, and loads and stores of Real and Int. If SGM_LISTS is defined,
+// evaluate_lists.inl runs lists of primitives and keeps values in processor registers between them. Otherwise
+// instructions run one by one, as on a GPU, whose register file holds the values anyway.
 
-inline constexpr size_t kRow = 8;  ///< points of a full row of a block along x
+inline constexpr size_t kRow = 8;  ///< maximum number of points along x in a row of a block
 
-/// The points of a block in a lattice: full rows, `rows` of them per slice, `slices` slices.
+/// A block whose points are a lattice: full rows, with `rows` rows per slice and `slices` slices.
 struct BlockLattice {
   Int3 origin;
   int32_t step;
@@ -19,7 +19,8 @@ struct BlockFrame {
   const BlockLattice* lattice = nullptr;  ///< null if the points are arbitrary
 };
 
-// A register holds one plane of kEvalBlock words for its value, and four more (gradient, label) in gradient mode.
+// A register of a program is one plane of kEvalBlock words for its value; in gradient mode, four more for gradient and
+// label.
 template <bool kGradient>
 inline constexpr size_t kRegisterWords = kEvalBlock * (kGradient ? 5 : 1);
 inline constexpr size_t kFoldRegister = kMaxRegisters;
@@ -56,7 +57,8 @@ FN Real loadJacobian(const BlockFrame& f, size_t place, size_t entry, size_t i) 
   return loadReal(f.jacobians + (place * 9 + entry) * kEvalBlock + i);
 }
 
-// The gradient with respect to the sample's own position, for a value at a warped place: by the transposed Jacobian.
+// Converts the gradient of a value that was evaluated at a warped place to one with respect to the sample's own
+// position, by the transposed Jacobian of the warp.
 template <bool kGradient>
 FN Dual toWorld(const BlockFrame& f, size_t place, size_t i, const Dual& d) {
   if constexpr (!kGradient) {
@@ -167,7 +169,7 @@ SGM_KERNEL void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t 
   }
 }
 
-// Folds one group into the field, or into the union that its layer's cuts remove (program.h).
+// Joins one group to the field, or to the union that its layer's cuts remove (program.h).
 template <bool kGradient>
 SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const bool smooth = g.smooth > 0;
@@ -206,7 +208,7 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
 }
 #endif
 
-// One block of n points, n a multiple of kLanes; place 0 is already filled.
+// Runs a block of n points, n a multiple of kLanes. Place 0 contains their positions.
 template <bool kGradient>
 SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
   const Real zero = broadcast(0.0f);

@@ -2,9 +2,9 @@
 #include "field/evaluate_noise.inl"
 #endif
 
-// Runs lists of primitives under one combination, the bulk of most programs, and keeps values in registers from one to
-// the next. The operations and their order are those of single instructions, and so are the bits. Included by
-// evaluate_kernel.inl.
+// Runs lists of primitives that one combination joins, which make up most of a typical program, and keeps values in
+// processor registers between primitives. The operations and their order are the same as for single instructions, and
+// so are the bits. Included by evaluate_kernel.inl.
 
 template <Op kOp>
 FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
@@ -15,8 +15,9 @@ FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
   if constexpr (kOp == Op::blob) return opBlob(px, py, pz, P);
 }
 
-/// The number of leading pairs of a primitive and the instruction that adds it to the combination of `add`. Later
-/// primitives overwrite the register of the first, so that no other instruction reads the earlier results.
+/// Returns the length of the list at the beginning of `instrs`: the number of pairs of a primitive and the instruction
+/// that adds it to the combination of `add`. Each primitive overwrites the register of the first one, so that no other
+/// instruction reads the earlier results.
 SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
   size_t pairs = 0;
   for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
@@ -27,13 +28,13 @@ SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Ins
   return pairs;
 }
 
-/// The points of kTogether vectors from i on: each addition waits for the previous one, so that several vectors side by
-/// side take little more time than one.
+/// Processes the points of kTogether vectors from i on. Each addition waits for the previous one, so several vectors
+/// that are processed together take little more time than one.
 template <bool kGradient, Op kPrimitive, Op kAdd, size_t kTogether>
 FN void addPairsAt(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t pairs,
                    size_t i) {
   const Instr& add = instrs[1];
-  // The heaviest operand of a sum only determines its label.
+  // The operand of a sum with the largest weight only determines its label.
   constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
   Int px[kTogether], py[kTogether], pz[kTogether];
   Dual first[kTogether], second[kTogether], d[kTogether];
@@ -71,7 +72,7 @@ template <bool kGradient, Op kPrimitive, Op kAdd>
 SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
   const size_t pairs = pairsOf(instrs, kPrimitive, instrs[1]);
   size_t i = 0;
-  if constexpr (!kGradient) {  // gradients already use many registers
+  if constexpr (!kGradient) {  // not with gradients, which already use many registers
     constexpr size_t kTogether = 2;
     for (; i + kTogether * kLanes <= n; i += kTogether * kLanes)
       addPairsAt<kGradient, kPrimitive, kAdd, kTogether>(program, f, instrs, pairs, i);
@@ -80,7 +81,7 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
   return 2 * pairs;
 }
 
-/// Runs the list at the beginning of `instrs`; returns its length, or 0 if there is no list.
+/// Runs the list at the beginning of `instrs`. Returns the number of its instructions, 0 if there is no list.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
 #ifdef SGM_ROWS
@@ -117,7 +118,7 @@ SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, c
   }
 }
 
-/// Runs and folds a group that consists of one unguarded primitive; returns false for any other group.
+/// Runs and folds a group that consists of one primitive and is not guarded; returns false for all other groups.
 template <bool kGradient>
 SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   if (g.count != 1 || g.guarded || g.smooth > 0 || program.instrs[g.first].place != 0) return false;
@@ -139,10 +140,10 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
   }
 }
 
-/// Constants in registers that are not yet written to their planes. Most constants are operands of arithmetic, which
-/// uses them directly, so that they need not be stored and loaded.
+/// Constants whose registers have not been written to their planes yet. Most constants are operands of arithmetic,
+/// which uses them directly, so that they never need to be stored and loaded.
 struct HeldConstants {
-  uint32_t held = 0;  ///< a bit per register
+  uint32_t held = 0;  ///< mask: one bit per register
   float value[kMaxRegisters] = {};
 
   SGM_KERNEL bool has(size_t r) const { return held >> r & 1; }
@@ -155,7 +156,7 @@ struct HeldConstants {
     value[r] = PF(P, 0);
   }
   SGM_KERNEL void forget(uint32_t registers) { held &= ~registers; }
-  /// Writes the needed constants to their planes.
+  /// Writes those constants that are needed to their planes. registers: mask of the registers that are needed.
   template <bool kGradient>
   SGM_KERNEL void settle(const BlockFrame& f, uint32_t registers, size_t n) {
     const uint32_t wanted = held & registers;
@@ -181,7 +182,7 @@ SGM_KERNEL uint32_t writtenMask(const Instr& in) {
   }
 }
 
-/// Runs an operation with exactly one constant operand; returns false for any other operation.
+/// Runs an operation that has exactly one constant operand; returns false for all other operations.
 template <bool kGradient>
 SGM_KERNEL bool runWithConstant(const BlockFrame& f, const Instr& in, const HeldConstants& constants, size_t n) {
 #define SGM_WITH(NAME, FUNCTION)                                                                                  \
@@ -221,7 +222,7 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
       continue;
     }
     if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
-      constants.forget(1u << in.dst);  // the accumulation's own registers hold no constants
+      constants.forget(1u << in.dst);  // the two registers of an accumulation contain no constants
       at += done;
       continue;
     }

@@ -1,21 +1,25 @@
-// Noise on a block that is part of a lattice. Most of the work of an octave is common to many samples: the position
-// within a period depends on one axis, and the samples of one period share the gradients at its corners. Both are
-// computed once, and each sample looks up the gradients at its corners. A gradient has at most two components that are
-// not 0, so the sum of three products is the same in every order, and so are the bits. Included by evaluate_lists.inl.
+// Evaluates noise on a block that is part of a lattice. Much of the work of an octave is common to many samples: the
+// position within a period depends on one axis only, and all samples in a period share the gradients at its corners.
+// Both are computed once, and each sample looks up the gradients at its corners. A gradient has at most two components
+// that are not 0, so that the sum of three products is the same in every order, and so are the bits. Included by
+// evaluate_lists.inl.
 
-inline constexpr size_t kMostNoisePeriods = 7;  ///< along an axis: kRow corners
+inline constexpr size_t kMostNoisePeriods = 7;  ///< maximum number of periods along an axis, which have kRow corners
 inline constexpr size_t kMostNoiseRows = kEvalBlock / kRow;
 
 /// One axis of a block in an octave. Each word is repeated kRow times, because vectors of rows read it.
 struct NoiseAxis {
   size_t periods = 0;                                           ///< number of periods that contain the coordinates
-  uint8_t period[kMostNoiseRows];                               ///< of each coordinate, relative to the first one's
-  alignas(64) uint32_t corner[(kMostNoisePeriods + 1) * kRow];  ///< the periods, and the next one after them
+  /// period of each coordinate, counted from that of the first one
+  uint8_t period[kMostNoiseRows];
+  /// the corners at the beginnings of the periods, and at the end of the last one
+  alignas(64) uint32_t corner[(kMostNoisePeriods + 1) * kRow];
   alignas(64) uint32_t rest[kMostNoiseRows * kRow];             ///< position of each coordinate within its period
-  alignas(64) uint32_t faded[kMostNoiseRows * kRow];            ///< the same, eased
+  alignas(64) uint32_t faded[kMostNoiseRows * kRow];            ///< same as rest, after smoothing
 };
 
-/// Places `count` coordinates from `origin` on; returns false if they lie in too many periods.
+/// Fills the axis for `count` coordinates from `origin` on. Returns false if they lie in more than kMostNoisePeriods
+/// periods.
 SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t count, int period, float inv_period) {
   alignas(64) uint32_t cell[kMostNoiseRows], rest[kMostNoiseRows], faded[kMostNoiseRows];
   for (size_t i = 0; i < kMostNoiseRows; ++i) cell[i] = origin + static_cast<uint32_t>(step) * static_cast<uint32_t>(i);
@@ -44,7 +48,7 @@ SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t
   return true;
 }
 
-/// Gradients at the corners of all periods of a block: rows along x, with the rows of a slice together.
+/// Gradients at the corners of all periods of a block; rows along x, and the rows of a slice together.
 struct NoiseCorners {
   static constexpr size_t kWords = (kMostNoisePeriods + 1) * (kMostNoisePeriods + 1) * kRow + kRow;
   alignas(64) uint32_t x[kWords], y[kWords], z[kWords];
@@ -65,11 +69,12 @@ struct NoiseCorners {
   }
 };
 
-/// The data of an octave for a block: it is large, and the next octave reuses it.
+/// The data of one octave for a block. It is large, so each octave reuses it.
 struct NoiseBlock {
   NoiseAxis columns, rows, slices;
   NoiseCorners corners;
-  alignas(64) uint32_t column[kLanes], rest[kLanes], faded[kLanes];  ///< per lane: its period, and as in NoiseAxis
+  /// per lane: its period along x; rest and faded as in NoiseAxis
+  alignas(64) uint32_t column[kLanes], rest[kLanes], faded[kLanes];
 
   SGM_KERNEL bool place(const BlockLattice& at, Params P, int period, float inv_period, uint seed) {
     const auto from = [](int32_t origin, int32_t own) {
@@ -88,7 +93,7 @@ struct NoiseBlock {
     return true;
   }
 
-  /// Samples two rows, or one row if there are 8 lanes: (y, z) of each.
+  /// Evaluates two rows, given by their y and z; with 8 lanes only the first one.
   SGM_KERNEL Real sample(size_t y0, size_t z0, size_t y1, size_t z1) const {
     const auto of = [&](const uint32_t* words, size_t a, size_t b) {
       return loadRows(words + a * kRow, words + b * kRow);
@@ -101,7 +106,7 @@ struct NoiseBlock {
     const size_t height = rows.periods + 1;
     const size_t row0 = slices.period[z0] * height + rows.period[y0],
                  row1 = slices.period[z1] * height + rows.period[y1];
-    const auto edge = [&](size_t up, size_t behind) {  // interpolates between two neighbouring corners along x
+    const auto edge = [&](size_t up, size_t behind) {  // interpolates along x between two neighbouring corners
       const size_t a = row0 + behind * height + up, b = row1 + behind * height + up;
       const Real slope = of(corners.x, a, b);
       Real across = of(corners.y, a, b) * (up != 0 ? fy - 1.0f : fy);
@@ -119,7 +124,7 @@ struct NoiseBlock {
   }
 };
 
-/// opNoise for a whole block; returns 1, or 0 if the caller must evaluate sample by sample.
+/// Same as opNoise for a whole block. Returns 0 if the caller must evaluate sample by sample, otherwise 1.
 SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, size_t n) {
   if (f.lattice == nullptr || in.place != 0) return 0;
   const size_t height = f.lattice->rows, depth = f.lattice->slices;
@@ -134,7 +139,7 @@ SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, s
     if (!block.place(*f.lattice, P, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * static_cast<uint>(k)))
       return 0;
     size_t y = 0, z = 0;
-    const auto step = [&] {  // stops at the block's last row: lanes beyond it are ignored
+    const auto step = [&] {  // stays at the block's last row: lanes beyond it are ignored
       if (y + 1 < height) {
         ++y;
       } else if (z + 1 < depth) {

@@ -1,4 +1,5 @@
-// The lanes of evaluate_kernel.inl and evaluate_blocks.inl if there is only one: samples are evaluated one by one.
+// Defines the lanes that evaluate_kernel.inl and evaluate_blocks.inl require, for a single lane: samples are evaluated
+// one by one.
 
 inline constexpr size_t kLanes = 1;
 FN Real loadReal(const uint32_t* p) { return uniformFloat(*p); }

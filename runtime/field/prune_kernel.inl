@@ -1,4 +1,4 @@
-// Interval pruning for any arithmetic of bounds. This file is included into a namespace that defines
+// Interval pruning for any arithmetic of bounds. Include this file in a namespace that defines
 //   Scalar, Bound                      a number, and its lowest and highest value: lo, hi
 //   Places, movePlaces                 a box of positions, and its image under a warp
 //   boundPosition, boundOperands, boundRoundShare, boundRoundEnd, boundSumEnd, boundRoundUnion, boundRoundCut
@@ -55,11 +55,11 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
 
-// Registers that hold the floor of another register's current value: the difference of a value and its floor is from 0
-// to 1, which their bounds do not show.
+// Registers that contain the floor of another register's current value. The difference of a value and its floor lies in
+// 0..1, which their separate bounds do not show.
 struct FloorSources {
-  uint32_t known = 0;                   // registers that hold such a floor
-  uint32_t floors[kMaxRegisters] = {};  // of each register's value: the registers that hold its floor
+  uint32_t known = 0;                   // mask of the registers that contain such a floor
+  uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers that contain the floor of its value
   uint8_t source[kMaxRegisters] = {};
 
   SGM_KERNEL bool floorOf(uint8_t a, uint8_t b) const { return (known >> b & 1) != 0 && source[b] == a; }
@@ -75,8 +75,8 @@ struct FloorSources {
   }
 };
 
-// Bounds one group's result, and writes a mark per instr for the backward pass: the choice of a min, max, cut or morph
-// in lo, and the bounds of the operand of an accumulation.
+// Bounds the result of one group. Writes a mark for each instruction, for the backward pass: in lo the choice of a min,
+// max, cut or morph, and the bounds of the operand of an accumulation.
 template <class Marks>
 SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, const Places& box, Marks marks) {
   Bound r[kMaxRegisters];
@@ -151,7 +151,7 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
   return r[g.result];
 }
 
-// Walks a group backwards and keeps the instructions that its result needs: calls keep(instr), the last one first.
+// Walks backwards through a group and calls keep(instr) for each instruction that its result needs.
 template <class Marks, class Keep>
 SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Marks marks, const Keep& keep) {
   uint32_t live = 1u << g.result, live_places = 0;
@@ -212,8 +212,8 @@ SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Mar
   }
 }
 
-// Folds a smooth group into the field's bounds. If the group is at least k away and no nearer than the field, the field
-// keeps its bits; if the field is, the group replaces it.
+// Joins a smooth group to the field's bounds. If the group is at least k away and not nearer than the field, the field
+// keeps its bits; if that holds for the field instead, the group replaces it.
 SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) {
   const Scalar k = Scalar{g.smooth};
   const Bound under = field, distance = g.cut ? Bound{-under.hi, -under.lo} : under;
@@ -224,13 +224,13 @@ SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) 
   return !g.cut && b.whole && under.lo >= k && under.lo > b.value.hi;
 }
 
-/// The bounds of a program over the box.
+/// The bounds of a program over a box.
 struct FieldBounds {
   Bound field;
-  bool hidden = false;  ///< the domain never shows: its initial value has no effect
+  bool hidden = false;  ///< true: groups hide the domain everywhere, so that its initial value has no effect
 };
 
-// Bounds the field, and marks the groups that still have an effect. box and places: the same box.
+// Bounds the field, and marks the groups that have an effect. box and places describe the same box.
 template <class Marks, class Groups>
 SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box, const Places& places, Marks marks,
                                   Groups bounds) {
@@ -247,7 +247,7 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
     if (b.met) b.value = boundGroup(program, g, places, marks);
     return b;
   };
-  // Nothing below the layer of `first` shows.
+  // All groups before this index are hidden by a later layer.
   size_t keep_from = 0;
   auto replaceBelow = [&](size_t first) {
     for (size_t i = keep_from; i < first; ++i) bounds[i].live = false;
@@ -255,7 +255,7 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
     result.hidden = true;
   };
 
-  // Forward, layer by layer.
+  // The forward pass, layer by layer.
   for (size_t first = 0; first < groups;) {
     if (program.groups[first].smooth > 0) {
       if (foldSmooth(program.groups[first], bound(first), field)) replaceBelow(first);
@@ -279,8 +279,8 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
       }
     }
     const Bound joined{minOf(field.lo, adds.lo), minOf(field.hi, adds.hi)};
-    // An add above the layer's upper bound is never the minimum; a cut above another cut, or under the solid, never
-    // shows.
+    // An add whose lower bound is above the layer's upper bound is never the minimum. A cut has no effect if it is
+    // always weaker than another cut, or always below the surface of what it cuts.
     const bool replaced = adds.hi < field.lo;
     for (size_t i = first; i < last; ++i) {
       GroupBounds& b = bounds[i];
