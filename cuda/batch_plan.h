@@ -40,7 +40,7 @@ struct Plan {
   struct Parts {
     uint32_t job = 0;
     uint32_t body = kNone;
-    std::array<uint32_t, 6> seams{};  ///< by Face; kNone: the seam is not requested
+    std::array<uint32_t, 6> seams{};  ///< index of each seam's part, by Face; kNone: the seam is not requested
   };
 
   std::pmr::vector<Instr> instrs;

@@ -19,7 +19,7 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
-  Stream* awaited = nullptr;          ///< the one of the two streams whose work must be awaited
+  Stream* awaited = nullptr;          ///< which of the two streams in `memory` has the work that must be awaited
   std::unique_ptr<Placement> placed;  ///< the memory on the drawing device to which the slot's work writes
 };
 

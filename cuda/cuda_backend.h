@@ -20,8 +20,8 @@ struct CudaBackendOptions {
   /// same as BackendRequest::warn; also receives the loss of `store`
   std::function<void(const std::string&)> warn = nullptr;
   cuda::Room room;
-  std::shared_ptr<MeshStore> store =
-      nullptr;                         ///< where meshes stay; null: in an external context's own memory, or nowhere
+  /// where meshes stay; null: in an external context's own memory, or nowhere
+  std::shared_ptr<MeshStore> store = nullptr;
   uint64_t resident_cap = UINT64_MAX;  ///< for an external context: limit in bytes for meshes that stay on the device
 };
 

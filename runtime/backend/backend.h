@@ -76,7 +76,7 @@ struct ChunkMesh {
   /// In the format of ChunkSamples::signs, if requested and the chunk is not uniform. For a uniform chunk,
   /// solid_samples says whether it is solid.
   std::pmr::vector<uint64_t> signs;
-  std::array<PartSums, kMeshParts> sums;  ///< for ChunkJob::sums_only: of the body, then of the seams by Face
+  std::array<PartSums, kMeshParts> sums;  ///< for ChunkJob::sums_only: sums over the body, then over the seams by Face
   /// for ChunkJob::resident: set if the device meshed the parts and had memory for them
   DeviceParts on_device;
 

@@ -96,7 +96,7 @@ class IdleSlots {
   std::vector<std::unique_ptr<DeviceSlot>> stuck_;  // the device may use these until the session ends
 };
 
-/// Same as BackendRequest::warn.
+/// Receives warnings; same as BackendRequest::warn.
 using WarnOf = std::function<void(const std::string&)>;
 using OpenSession = std::function<Result<std::shared_ptr<DeviceSession>>()>;
 

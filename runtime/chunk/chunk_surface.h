@@ -39,7 +39,7 @@ struct ChunkSurface {
   std::pmr::vector<MorphOffset> morphs;       ///< one for each vertex, if requested; otherwise empty
   Unwrapped texture;                          ///< texture of the whole mesh, if requested; otherwise empty
   DeviceParts on_device;                      ///< if requested: the non-empty parts that are also on the device
-  ContentHash hash;                           ///< of the body and the seams, including their positions
+  ContentHash hash;                           ///< hash of the body and the seams, including their positions
   /// Measures of the body and the seams, if requested.
   std::optional<measure::ChunkMeasures> measures;
 

@@ -26,7 +26,7 @@ struct ChunkRequest {
   bool prompt = false;    ///< do not wait until a device is ready (ChunkJob::prompt)
   /// seams lead to virtual neighbours, whose field is the domain's own state everywhere (octree.h)
   bool outermost = false;
-  bool sharp = false;  ///< with sharp features (sharpen_chunk.h)
+  bool sharp = false;  ///< make sharp features (sharpen_chunk.h)
   /// compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks
   bool sums_only = false;
 

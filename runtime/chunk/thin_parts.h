@@ -12,7 +12,7 @@ namespace sgm {
 struct ThinPart {
   std::string rule;       ///< name of the rule as it is called: "Pane", "cave.Column"
   bool cut = false;       ///< true: the thin part is cut away; false: it is added
-  int32_t thickness = 0;  ///< of the thinnest such part, in units
+  int32_t thickness = 0;  ///< thickness of the thinnest such part, in units
   size_t uses = 0;        ///< number of uses of the rule that have such a part
   bool is_about = false;  ///< `uses` is an estimate: some were counted by shapes, and a use may have several
 };

@@ -18,7 +18,7 @@ struct MeasureScratch;
 struct MadeMeasures {
   measure::SurfaceSums sums;  ///< sums over all parts; a part counts each time that it was made
   double measuring = 0;       ///< wall-clock seconds spent on measuring, summed over jobs
-  double meshing = 0;         ///< same for meshing, reading and packing the chunks
+  double meshing = 0;         ///< wall-clock seconds spent on meshing, reading and packing chunks, summed over jobs
 
   void add(const MadeMeasures& other) {
     sums.add(other.sums);

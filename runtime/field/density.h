@@ -21,7 +21,7 @@ DensityEdge densityEdge(double edge, int32_t finest_cell);
 
 /// Writes a density from 0 to 1 for each sample; out has as many elements as q.
 void densities(std::span<const int32_t> q, const DensityEdge& edge, float* out);
-/// Same as above, with densities 0 to 255, rounded to the nearest.
+/// Same as the function above, with densities 0 to 255, rounded to the nearest.
 void densities(std::span<const int32_t> q, const DensityEdge& edge, uint8_t* out);
 
 }  // namespace sgm

@@ -16,7 +16,7 @@ struct BlockFrame {
   uint32_t* registers;
   uint32_t* places;
   uint32_t* jacobians;
-  const BlockLattice* lattice = nullptr;  ///< null if the points are arbitrary
+  const BlockLattice* lattice = nullptr;  ///< null if the points are not on a lattice
 };
 
 // A register of a program is one plane of kEvalBlock words for its value; in gradient mode, four more for gradient and

@@ -11,7 +11,7 @@ struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// A box of positions at one place (of a program's registers for positions), in units.
+/// A box of positions in units: the values that one place of a program (program.h) may have.
 struct PlaceBox {
   Interval x, y, z;
 };

@@ -52,7 +52,7 @@ struct ProgramGroup {
   bool cut = false;
   /// false if all samples that will be requested are known to lie in the influence box, so that no test is needed
   bool guarded = true;
-  float smooth = 0;  ///< width of the blend in units, only for the single group of a layer; 0: min and max
+  float smooth = 0;  ///< width of the blend in units, set only if the layer has no other group; 0: no blend
 };
 
 /// A program as the evaluators read it. Does not own the arrays.

@@ -11,7 +11,7 @@ namespace sgm::measure {
 /// Cubes of one edge length that fill a box; equation 8 multiplies their number by edge^3.
 /// Counts of the cubes of one edge length in a box. Equation 8 multiplies a count by edge^3.
 struct CubeVolumes {
-  double edge = 0;      ///< cube edge C_E = 1 / LD, in the mesh's unit
+  double edge = 0;      ///< edge of the cubes in the mesh's unit; C_E = 1 / LD in the paper
   uint64_t all = 0;     ///< cubes with all eight corners inside: misses about half of the cubes that the surface cuts
   uint64_t any = 0;     ///< cubes with at least one corner inside: about as many too many
   uint64_t centre = 0;  ///< cubes whose centre is inside

@@ -27,8 +27,8 @@ struct MeasureScratch {
   StarScratch stars;
   /// by vertex: bit (1 << Face) for border planes; higher bits are marks of the measurer
   std::pmr::vector<uint8_t> planes;
-  std::pmr::vector<PackedDirection> directions;  ///< by vertex
-  std::pmr::vector<uint32_t> indices;            ///< of triangles that are not excluded
+  std::pmr::vector<PackedDirection> directions;  ///< unpacked normal of each vertex
+  std::pmr::vector<uint32_t> indices;            ///< corners of the triangles that are not excluded
   std::pmr::vector<uint32_t> first, table;       ///< hash table of feature vertices, to count copies as one vertex
   std::pmr::vector<PairCorner> corners;          ///< three per triangle with an area
   PairScratch pairs;

@@ -13,7 +13,7 @@ inline bool meetWrongly(std::span<const Point> points, const Triangle& a, const 
   return pairFault(points, a, b) != PairFault::none;
 }
 
-/// Same as above for positions: corners are common if their positions are equal.
+/// Same as the function above, for positions: corners are common if their positions are equal.
 PairFault pairFault(std::array<Point, 3> a, std::array<Point, 3> b);
 /// True if an edge of one triangle has its ends on both sides of the other triangle's plane, and passes through its
 /// interior.

@@ -34,7 +34,7 @@ struct MeshReport {
   bool closed() const { return manifold() && open_edges == 0; }
 };
 
-/// One line with the counts that are not 0.
+/// Formats the counts that are not 0 as one line.
 std::string describe(const MeshReport& report);
 
 /// Checks a triangle list. indices: three per triangle, each below vertex_count (precondition). Takes about 0.2 us per

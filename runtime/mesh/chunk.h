@@ -99,7 +99,7 @@ struct MeshPart {
   RawVector<Vertex> vertices;
   RawVector<uint32_t> indices;  ///< three per triangle, counter-clockwise seen from the void
   RawVector<VertexKey> keys;    ///< one per vertex
-  ContentHash hash;             ///< of vertices and indices
+  ContentHash hash;             ///< content hash of vertices and indices (mesh/hash.h)
 
   explicit MeshPart(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : vertices(memory), indices(memory), keys(memory) {}

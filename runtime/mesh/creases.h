@@ -75,7 +75,7 @@ class Creases {
   /// two lies on the crease itself.
   bool isSharp(uint32_t a, uint32_t b) const;
 
-  /// Same as isSharp, except that the vertices may lie on the crease.
+  /// True if the normals of two settled vertices differ as for isSharp; the vertices may lie on the crease.
   bool differ(uint32_t a, uint32_t b) const;
 
   /// The point on the crease of two planes that is nearest to `start`; both in units from `corner`.

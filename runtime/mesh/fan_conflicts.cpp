@@ -19,7 +19,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
   if (fan.front().name[1] != fan.back().name[2]) return false;
   for (size_t i = 1; i < fan.size(); ++i)
     if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;
-  // Along the axes and towards the octants.
+  // The directions of projection that are tried: along the axes, and towards the octants.
   constexpr std::array<Int3, 7> kDirections{Int3{1, 0, 0},  Int3{0, 1, 0},  Int3{0, 0, 1}, Int3{1, 1, 1},
                                             Int3{1, 1, -1}, Int3{1, -1, 1}, Int3{-1, 1, 1}};
   std::array<std::array<int64_t, 3>, LoopTriangles::kMost> areas;

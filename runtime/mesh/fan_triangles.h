@@ -12,7 +12,7 @@ namespace sgm {
 /// A point of a fan: its centre, or a point of the ring around it. The ring consists of the loop's vertices and of the
 /// face vertices of its sides, each behind the vertex at which its side begins.
 struct FanPoint {
-  Int3 at;            ///< in 1/256 of a cell
+  Int3 at;            ///< position in 1/256 of a cell
   uint32_t name = 0;  ///< the vertex's name, as in NamedTriangle (mesh/loop_triangles.h)
   bool is_feature = false;
 };

@@ -152,7 +152,7 @@ class InnerVertices {
   const Creases& creases_;
   const FieldSampler& field_;
   SharpLoops& sharp_;
-  std::pmr::vector<Vector3> ideals_;  ///< by side, in units from its corner
+  std::pmr::vector<Vector3> ideals_;  ///< one per side, in units from the side's corner
   std::pmr::vector<Choice> choices_;  ///< positions to try, side by side; best first within a side
   std::pmr::memory_resource* memory_;
 };

@@ -11,7 +11,7 @@ namespace sgm {
 /// A body or a seam inside a packed mesh.
 struct PackedRange {
   uint32_t first_vertex = 0, vertex_count = 0, first_index = 0, index_count = 0;
-  ContentHash hash;  ///< of this range's own vertices and indices (mesh/hash.h)
+  ContentHash hash;  ///< content hash of this range's own vertices and indices (mesh/hash.h)
   friend bool operator==(const PackedRange&, const PackedRange&) = default;
 };
 

@@ -65,7 +65,7 @@ class RoundedCells {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<Claim> claims_;
-  std::pmr::vector<Border> others_;  ///< of all claims, in the order of the claims
+  std::pmr::vector<Border> others_;  ///< the other sides of all claims, in the order of the claims
   Creases creases_;
   std::pmr::memory_resource* memory_;
 };

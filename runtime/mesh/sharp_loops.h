@@ -108,7 +108,7 @@ Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<c
 struct FanCentre {
   enum class Kind : uint8_t { cell_vertex, face_vertex, strip, strip_from_second };
 
-  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; for a strip, any point within the cell
+  Int3 at;  ///< position in 1/256 of a cell from the chunk's origin; for a strip, any point within the cell
   Kind kind = Kind::cell_vertex;
   uint32_t face_vertex = SharpSide::kNone;  ///< index of the face vertex (faceVertexOf), for the kind face_vertex
 

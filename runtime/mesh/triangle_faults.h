@@ -9,7 +9,7 @@
 //   FOLD        if they share two corners and overlap: the angle between them is exactly 0;
 //   CUT         if they have any common point other than their common corners and edge. Touching counts as
 //               cutting.
-// Two that share all three corners are duplicates, which check.h reports. Every answer is exact.
+// Two triangles that share all three corners are duplicates, which check.h reports. Every answer is exact.
 //
 // A file, a region of one level and the body of a chunk have none of these defects. A SEAM is a sheet of zero thickness
 // in the face between two levels. If both levels have the same surface, the seam's triangles are flat, fold, and

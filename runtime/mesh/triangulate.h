@@ -82,7 +82,7 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   int32_t x[N], y[N], z[N], best[N][N];
   uint32_t faces[N], vertex[N];
   int way[N][N];
-  Cross cross[N][N];  // of the points' positions relative to point 0
+  Cross cross[N][N];  // cross products of the points' positions relative to point 0
   unrolled<0, N>([&](auto index) SGM_ALWAYS_INLINE {
     constexpr size_t i = decltype(index)::value;
     const LoopPoint p = point(i);

@@ -22,7 +22,7 @@ struct VertexAttributes {
 /// An indexed triangle mesh of a region. All arrays except indices have one entry per vertex.
 struct WorldMesh {
   Int3 origin;  ///< origin of the positions, in units
-  /// In metres from origin. Exact: positions are multiples of 1/2^18 m.
+  /// Positions of the vertices in metres from origin. Exact: positions are multiples of 1/2^18 m.
   std::pmr::vector<std::array<double, 3>> positions;
   std::pmr::vector<VertexAttributes> attributes;
   std::pmr::vector<VertexKey> keys;

@@ -9,10 +9,11 @@
 
 namespace sgm {
 
-/// A lattice of points origin + spacing * (x, y, z), 0 <= x < size[0] and so on, in units, and the width of the edge.
+/// A lattice of points origin + spacing * (x, y, z), 0 <= x < size[0] and so on, in units, and the distance over which
+/// density rises to 1 (`edge`).
 struct DensityGrid {
   Int3 origin;
-  int32_t spacing = kUnitsPerMetre;  ///< at least 1
+  int32_t spacing = kUnitsPerMetre;  ///< distance of neighbouring points in units, at least 1
   std::array<uint32_t, 3> size{};    ///< number of points on each axis, at least 1
   /// distance in units over which the density rises from 0 at the surface to 1: 1 to kMostEdgeCells finest cells
   double edge = 10.0 * kUnitsPerMetre;

@@ -38,8 +38,8 @@ class NodeReader {
   /// Returns the value of the node's field at the place, in units; kNothing or more if level 0 does not show the node.
   double value(uint32_t shape, Int3 p) { return valueBy(copier_, shape, p); }
 
-  /// Returns the nodes of a group. traced: the same cell as the chunk. leaf: receives the index of the deciding shape
-  /// in them.
+  /// Returns the nodes of a group. traced: this cell with the origins of its shapes. leaf: receives the index of the
+  /// deciding shape in them.
   Result<std::vector<ExplainedNode>> read(const TracedCell& traced, const Group& group, Int3 p, size_t& leaf) {
     traced_ = &traced;
     descend(group.root, p, 0, group.cut);

@@ -23,7 +23,7 @@ struct VoidQuestion {
   IntBox region;      ///< lo <= p < hi, units; grown to whole chunks
   double radius = 0;  ///< radius of the agent in units: 0 to less than kMostClearance cells
   struct Ends {
-    std::array<double, 3> from{}, to{};  ///< in units, in the region
+    std::array<double, 3> from{}, to{};  ///< ends of the path in units, in the region
     bool widest = false;                 ///< also find the largest agent for which a path exists
     bool tell_metres = false;            ///< true: error messages give places in metres; false: in units
   };

@@ -16,7 +16,7 @@ namespace {
 /// A vertex and its chunk. The vertices of a chunk are evaluated with one program.
 struct Placed {
   ChunkKey block;
-  Int3 point;  ///< in units
+  Int3 point;  ///< its position in units
   uint32_t vertex = 0;
 };
 

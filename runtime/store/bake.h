@@ -17,7 +17,7 @@ struct Bakery {
   Backend& backend;
   JobSystem& jobs;
   BakedRegion region;
-  bool sharp = false;  ///< with sharp features
+  bool sharp = false;  ///< true: chunks have sharp features
   ContentId key, job;  ///< worldKey and jobKey of these inputs
   /// where tiles are written: Folder::baking of the job; must exist when tiles are made
   std::filesystem::path folder;

@@ -49,13 +49,13 @@ struct WorldEvent {
   };
   Kind kind = Kind::ready;
   ChunkKey key;
-  std::shared_ptr<const ChunkSurface> surface;  ///< for ready
+  std::shared_ptr<const ChunkSurface> surface;  ///< the surface to upload; set only for `ready`
   uint8_t seams = 0;                            ///< mask of the drawn seams: bit (1 << Face)
   Neighbourhood coarser = 0;                    ///< same as DrawnChunk::coarser
   /// number of the frame that contains the change; 0 for ready and failed
   uint64_t frame = 0;
-  std::optional<Error> error;                  ///< for failed
-  std::shared_ptr<const Collider> collider{};  ///< for collider
+  std::optional<Error> error;                  ///< the reason; set only for `failed`
+  std::shared_ptr<const Collider> collider{};  ///< the collider to use; set only for `collider`
 };
 
 struct WorldStats {

@@ -54,6 +54,7 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);
 /// operation.
 Result<EditOperation> decodeEdit(ByteReader& bytes);
 
-inline constexpr size_t kLeastEditBytes = 41, kMostEditBytes = 75;  ///< encoded size of one operation
+inline constexpr size_t kLeastEditBytes = 41,
+                        kMostEditBytes = 75;  ///< minimum and maximum encoded size of an operation
 
 }  // namespace sgm

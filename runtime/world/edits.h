@@ -90,7 +90,7 @@ class EditLog {
   EditSettings settings_;
   std::pmr::vector<EditOperation> known_;
   std::pmr::map<EditId, size_t> places_;  ///< index in known_ of each operation
-  std::pmr::map<EditId, Sight> sights_;   ///< by the brush's id, whether the brush itself is known or not
+  std::pmr::map<EditId, Sight> sights_;   ///< by the id of the brush, which itself may be unknown yet
   EditSnapshot shown_;
   uint64_t latest_ = 0;  ///< the largest known time
   uint64_t number_ = 0;  ///< the largest number among the operations of this log's author

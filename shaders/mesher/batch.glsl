@@ -32,7 +32,7 @@ const uint kChunkSamples = 4u;  // offset in scratch of the chunk's samples: Q o
 const uint kChunkSigns = 5u;    // offset in scratch of the signs: two words per row, samples 0..31 and sample 32
 const uint kChunkRows = 6u;     // offset in scratch of kRowsWords words: the counts of the rows
 const uint kChunkPart = 7u;     // index of its body among the parts; kNoRoom: no body is requested
-const uint kChunkFaces = 8u;    // 0; for a chunk without a body, the faces that have seams: bit (1 << Face)
+const uint kChunkFaces = 8u;    // of a chunk without a body: the faces that have seams, bit (1 << Face); otherwise 0
 
 // The counts of a chunk's rows. Four words per row: the numbers of vertices, of indices and of active cells before the
 // row, and a mask of the row's active cells. Behind them: the number of rows that have active cells, and a list of

@@ -6,8 +6,8 @@
 
 struct ActiveCell {
   uint cell_case;
-  uvec4 first;  // by row
-  uvec3 owned;  // by row; of row 3, a cell uses only the x-edge of sample x
+  uvec4 first; // by row: number of the first vertex
+  uvec3 owned; // by row: crossed edges of two samples; of row 3, a cell uses only the x-edge of sample x
   uint index;   // number of its first index in the part
   uint part;
 };

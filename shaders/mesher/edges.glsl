@@ -28,7 +28,7 @@ uint verticesBefore(RowEdges e, uint x) {
   return bitCount(e.x & before) + bitCount(e.y.x & before) + bitCount(e.z.x & before);
 }
 
-// Returns a mask: bit axis is set if the edge along it that starts at sample x is crossed.
+// Returns a mask of three bits: bit 0, 1, 2 is set if the edge from sample x along x, y, z is crossed.
 uint ownedEdges(RowEdges e, uint x) {
   uvec3 owned = x < 32u ? uvec3(e.x, e.y.x, e.z.x) >> x : uvec3(0u, e.y.y, e.z.y);
   return (owned.x & 1u) | (owned.y & 1u) << 1 | (owned.z & 1u) << 2;

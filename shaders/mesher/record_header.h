@@ -18,7 +18,7 @@ const uint kIsLayerEnd = 4096u;
 // Words for additional parameters of a mix, a morph, or what is added to a sum; these ops have fewer parameters of
 // their own.
 const uint kByWord = 2u;   // the constant parameter of a mix or a morph, or of the morph that is added to a sum
-const uint kHowWord = 3u;  // the following bits
+const uint kHowWord = 3u;  // the word with these bits:
 const uint kHowByConstant = 1u;  // of a mix or a morph: the parameter is kByWord, not the third operand
 const uint kHowMorphs = 2u;      // of a sum: it adds the morph of its first and third operand
 const uint kHowWeighs = 4u;      // of a sum: what it adds is weighted by a kernel

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 4) uniform sampler3D lit_volume;
 layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // by pixel; w: transmittance
 
-const float kStep = 0.7;     // in cells
+const float kStep = 0.7;     // length of a step in cells
 const float kOpaque = 0.004;  // below this, less than half a step of 8 bits is visible through the volume
 
 // Returns the light that a place sends to the eye. turn: random numbers 0..1: light is read at a random place up to

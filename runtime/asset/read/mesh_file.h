@@ -29,7 +29,7 @@ std::string_view meshFileAdvice(MeshFileKind kind);
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
                               const MeshLimits& limits = {});
 
-/// Same as above, with messages that state only the problem. `kind` is set to the kind that the bytes show.
+/// Same as readMesh, with messages that state only the problem. `kind` is set to the kind that the bytes show.
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits = {});
 

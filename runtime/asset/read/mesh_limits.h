@@ -14,11 +14,11 @@ namespace sgm::asset {
 
 /// The limits. Apart from data under these limits, a reader uses at most a small multiple of the file's size in memory.
 struct MeshLimits {
-  size_t points = 1u << 22;  ///< of a GLB file: of all primitives, counted once for each node that uses them
+  size_t points = 1u << 22;  ///< in a GLB file, the points of all primitives, counted once for each node that uses them
   size_t triangles = 1u << 22;
   double farthest = 1e6;         ///< metres from the origin, along each axis
-  size_t json_bytes = 1u << 20;  ///< of a GLB file
-  size_t nodes = 1u << 16;       ///< of a GLB file
+  size_t json_bytes = 1u << 20;  ///< maximum size of the JSON in a GLB file
+  size_t nodes = 1u << 16;       ///< maximum number of nodes in a GLB file
 
   /// Point indices have 32 bits, and the largest index is reserved for "none".
   size_t mostPoints() const { return std::min<size_t>(points, 0xFFFFFFFEu); }

@@ -62,7 +62,7 @@ class Buffer {
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   VkBuffer handle() const { return handle_; }
   VkDeviceSize offset() const { return offset_; }  ///< offset in handle(); a multiple of 256
-  VkDeviceSize size() const { return size_; }      ///< as requested
+  VkDeviceSize size() const { return size_; }      ///< size in bytes that was requested
   std::byte* data() const { return data_; }        ///< null if not visible to the host
   /// the destructor will free nothing: the range stays reserved until the memory is destroyed
   void forget() noexcept { memory_ = nullptr; }

@@ -44,7 +44,7 @@ class WorldEdits {
   /// EditLog::merge.
   Result<std::string> open(const std::filesystem::path& path, const WorldIdentity& world);
 
-  /// Same as the functions of EditLog.
+  /// These functions do the same as those of EditLog.
   Result<EditId> add(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> import(std::span<const std::byte> bytes);

@@ -19,7 +19,7 @@ namespace sgm {
 /// The result of a request for a chunk.
 struct MeshedChunk {
   ChunkSurface surface;                 ///< may have no triangles
-  std::optional<VoidComponents> voids;  ///< if signs were requested
+  std::optional<VoidComponents> voids;  ///< voids of the chunk, if signs were requested
   MadeMeasures measured;                ///< measures of the requested parts; without the time for meshing
   uint32_t rounded = 0;                 ///< ChunkMesh::rounded; 0 if the body was not meshed by this request
   bool from_disk = false;               ///< true if all requested parts came from the cache or stores
@@ -42,7 +42,7 @@ struct ChunkMesher {
   DiskCache* cache = nullptr;          ///< null: no disk cache
   BakedParts* baked = nullptr;         ///< null: no baked stores
   bool resident = false;               ///< also puts results on the backend's device, while it has free memory
-  bool sharp = false;                  ///< with sharp features
+  bool sharp = false;                  ///< true: chunks have sharp features
   MeasuringPool* measuring = nullptr;  ///< if set, ChunkSurface::measures is computed; `before` must have measures, too
 
   /// Searches the stored parts of a request in the cache and in stores, also on servers, for which it may wait. nullopt

@@ -108,7 +108,7 @@ class TargetBuilder {
   std::vector<uint32_t> askers_;  ///< viewers of the current node, stacked after those of its ancestors
 };
 
-/// near: same as for TargetBuilder.
+/// Builds the octree of lodTarget() (near = 0), or of nearTarget() with near as its distance.
 Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings, double near, const ChunkSet* finest) {
   Octree tree(settings.top, settings.finest_cell);
   TargetBuilder(tree, viewers, settings, near, finest).build();

@@ -70,7 +70,7 @@ struct PlanInput {
   std::vector<FinishedChunk> finished;
   std::vector<ChunkKey> begun;  ///< chunks whose meshing has begun since the last plan
   uint64_t applied = 0;         ///< number of the frame that the engine draws
-  /// Numbers of other frames that the engine may be about to draw (0: none), in addition to that of the last plan's
+  /// Numbers of up to two frames that the engine may be about to draw (0: none), besides that of the last plan's
   /// step.
   std::array<uint64_t, 2> in_hand{};
   WorldState edits;                 ///< the latest state of the world: its field and its brushes

@@ -56,7 +56,7 @@ void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
   };
   const auto norm = [](const Cross& c) { return wrapAdd(wrapAdd(absolute(c.x), absolute(c.y)), absolute(c.z)); };
   Int x[N], y[N], z[N], faces[N], best[N][N], way[N][N];
-  Cross cross[N][N];  // of the points' positions relative to point 0
+  Cross cross[N][N];  // cross products of the points' positions relative to point 0
 #pragma GCC unroll 8
   for (size_t i = 0; i < N; ++i) {
     const Uint place = toUintBits(loadLanes(loops.place[i]));
