@@ -17,7 +17,6 @@ class PlacedMeshes {
  public:
   /// Errors: unsupported (the store is on another GPU, or the device cannot import its memory); out_of_memory;
   /// device_lost.
-  /// device_lost.
   static Result<std::unique_ptr<PlacedMeshes>> create(Device& device, std::shared_ptr<MeshStore> store);
 
   /// Copies parts asynchronously in the stream. Publish the result (MeshStore::publish) after waiting for the stream.

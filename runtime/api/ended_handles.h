@@ -24,7 +24,6 @@ struct alignas(std::max_align_t) HandleHead {
 /// holds.
 inline constexpr size_t kMostHandleSize = 512;
 
-/// Adds an owner. Returns false and does nothing if the handle is destroyed.
 /// Adds an owner. Returns false, and changes nothing, if the handle is destroyed.
 bool gainOwner(HandleHead& head) noexcept;
 

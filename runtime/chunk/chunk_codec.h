@@ -7,7 +7,6 @@
 // word is stored as the difference from the previous record's, with the sign in the lowest bit. The bytes are stored by
 // column: the lowest byte of every record's first word, then the next byte of all, and so on. This makes zstd's files a
 // third smaller, and compression faster (tests/bench).
-// byte of all, and so on. This makes zstd's files a third smaller, and compression faster (tests/bench).
 
 #include <cstddef>
 #include <span>

@@ -9,7 +9,6 @@
 
 namespace sgm {
 
-/// The label of everything not made by a grammar's shape: the domain, a host field, an edit.
 /// The label of everything that no shape of a grammar made: the domain, host fields and edits.
 inline constexpr uint32_t kNoShape = 0xFFFFFFFFu;
 

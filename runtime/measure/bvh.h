@@ -49,8 +49,7 @@ class Bvh {
 
   /// The state of a walk over the pairs of leaves under a pair of nodes, so that the walk can be resumed.
   struct Walk {
-    // Each row of the tree leaves at most three pairs.
-    /// Capacity: each row of the tree adds at most three waiting pairs.
+    // Capacity: each row of the tree adds at most three waiting pairs.
     std::array<Pair, 3 * 32 + 4> waiting;
     size_t count = 0;
 

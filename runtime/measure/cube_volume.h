@@ -8,7 +8,6 @@
 
 namespace sgm::measure {
 
-/// Cubes of one edge length that fill a box; equation 8 multiplies their number by edge^3.
 /// Counts of the cubes of one edge length in a box. Equation 8 multiplies a count by edge^3.
 struct CubeVolumes {
   double edge = 0;      ///< edge of the cubes in the mesh's unit; C_E = 1 / LD in the paper

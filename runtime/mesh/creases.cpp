@@ -58,7 +58,6 @@ void Creases::touch() {
   }
 }
 
-/// The point of a vertex's edge at `step` 256ths of the edge.
 /// Returns the point on a vertex's edge at `step` / 256 of the edge.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;

@@ -23,9 +23,9 @@ namespace sgm {
 /// around that axis share a fan.
 int lateralFan(uint8_t coarser, int quad);
 
-/// A set of the 26 blocks of a chunk's own size around it, and of the chunk itself: bit (dx + 1) + 3 (dy + 1) + 9 (dz +
-/// 1) is the block at offset (dx, dy, dz), in chunk sizes. It usually marks the blocks that belong to chunks of a
-/// coarser level.
+/// A set of the 26 blocks of a chunk's own size around it, and of the chunk itself. The block at offset (dx, dy, dz),
+/// in chunk sizes, has bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1). The set usually marks the blocks that belong to chunks
+/// of a coarser level.
 using Neighbourhood = uint32_t;
 inline constexpr Neighbourhood neighbourBit(int dx, int dy, int dz) {
   return 1u << ((dx + 1) + 3 * (dy + 1) + 9 * (dz + 1));

@@ -2,10 +2,10 @@
 // The encoding of a feature vertex in Vertex::kind, so that its key follows from the kind and the position alone.
 //
 //   bit 15     1: a feature vertex
-// bit 14     0: a face vertex, 1: a cell vertex
+//   bit 14     0: a face vertex, 1: a cell vertex
 //   bit 13     0: of the chunk's own level, 1: of the level above, only in seams
-// bits 6-11  face vertex: bits 6 and 7 the face's normal axis, 8 to 11 VertexKey::fan; cell vertex: 6 to 9 the fan
-// bits 0-5   two bits per axis: 1 + floor((vertex - key's corner) / cell), in cells of the vertex's level
+//   bits 6-11  face vertex: bits 6 and 7 the face's normal axis, 8 to 11 VertexKey::fan; cell vertex: 6 to 9 the fan
+//   bits 0-5   two bits per axis: 1 + floor((vertex - key's corner) / cell), in cells of the vertex's level
 
 #include "mesh/chunk.h"
 

@@ -37,7 +37,6 @@ FinePlane planeOfFace(const ChunkSamples& samples, Face face) {
   return plane;
 }
 
-/// Builds one seam; holds the vertex numbers of its edges by owning sample.
 /// Builds one seam. Stores the vertex numbers of edges by the sample at which the edge starts.
 class SeamBuilder {
  public:

@@ -3,7 +3,7 @@
 // chunks, of drawn frames, and of measured regions and files.
 //
 // A triangle is
-// DEGENERATE  if two of its corners are the same, by index or by position;
+//   DEGENERATE  if two of its corners are the same, by index or by position;
 //   FLAT        if its corners are three distinct points on a line.
 // Two triangles that have an area
 //   FOLD        if they share two corners and overlap: the angle between them is exactly 0;

@@ -2,7 +2,7 @@
 // The layout of a store's files.
 //
 //   STORE/format              "sgm store 1"
-// STORE/worlds/KEY.sgmi     the index of a world (index.h); KEY.json: the same information as text
+//   STORE/worlds/KEY.sgmi     the index of a world (index.h); KEY.json: the same information as text
 //   STORE/packs/3f/NAME.sgmp  contents (tile_record.h); named by a hash of its bytes, and never changed
 //   STORE/baking/JOB/         unfinished results of workers for a region: tiles L_X_Y_Z.tile with .pack, and the plan
 //

@@ -32,10 +32,10 @@ struct TextureCoordinates {
 ///   box, prism                        a chart for each face
 ///   cylinder, truncone                around and along the side; the ends by their plane
 ///   capsule, tube                     around and along the line; the ends by their plane
-/// beam                              the same as tube; around it, the distance along its four sides counts
+///   beam                              as tube, but around it the distance along its four sides counts
 ///   torus                             around the ring and around the tube: one chart
 ///   halfspace                         its plane
-/// all others                        none of their own: along the world's axes
+///   all others                        none of their own: along the world's axes
 ///
 /// Immutable. Positions are world positions in units, exact in double precision.
 class TextureSpace {

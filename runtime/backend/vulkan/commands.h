@@ -57,7 +57,6 @@ class Commands {
   void fill(const BufferRange& range, uint32_t word);
   /// Copies all bytes of `from` to the beginning of `to`. The ranges must not overlap.
   void copy(const BufferRange& from, const BufferRange& to);
-  /// Writes as many bytes as the range has, at most 65,536; its offset and size are multiples of 4.
   /// Writes as many of the bytes as the range has, at most 65,536; its offset and size must be multiples of 4.
   void write(const BufferRange& range, std::span<const std::byte> bytes);
   /// Makes the accesses in `before` finish before the accesses in `after` begin. Data that the host wrote before

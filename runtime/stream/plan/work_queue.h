@@ -49,7 +49,6 @@ class WorkQueue {
   /// keep their prefetches. If may_look (prefetching is allowed), all requests of a chunk also keep its waiting time.
   void replace(std::vector<WorkItem>& items, bool may_look, Clock::time_point now) noexcept;
 
-  /// The most urgent request before this index that may be meshed; nullopt if all of them wait.
   /// Returns the index of the most urgent request before `below` that may be meshed; nullopt if all of them wait.
   std::optional<size_t> nextReady(size_t below, Clock::time_point now) const;
   /// Returns the number of requests that may be meshed.
