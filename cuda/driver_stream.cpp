@@ -102,7 +102,7 @@ class DriverStream final : public Stream {
     const Current current(driver_, device_.context);
     if (!current) return refused();
     marked_ = false;
-    // The driver copies the parameters before the call returns.
+    // A local copy suffices, because the driver copies the parameters before launchKernel returns.
     Batch copy = batch;
     void* parameters[] = {&copy};
     return device_.check(driver_.launchKernel(device_.functions[static_cast<size_t>(kernel)], blocks, 1, 1,

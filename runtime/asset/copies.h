@@ -18,7 +18,6 @@ inline constexpr size_t kMostCopiedTriangles = 65536;
 /// Repeats each zone `count` times (0: removes it), and moves everything behind a zone accordingly. The zones must be
 /// in order and disjoint. Errors: bad_input if the sections at the two ends of a zone differ, so that the copies would
 /// not join; limit.
-/// Errors: bad_input if the sections at the two ends of a zone differ, so that the copies would not join; limit.
 Result<Polyhedron> repeatAlong(const Polyhedron& solid, int axis, std::span<const Stretch> zones, size_t count);
 
 }  // namespace sgm::asset

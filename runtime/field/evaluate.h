@@ -73,7 +73,7 @@ struct FieldKernels {
   void (*box)(const ProgramView&, const LatticeBox&, EvalScratch&, const LatticeSamples&);
 };
 
-/// An evaluator that computes one point at a time with plain floats.
+/// Returns the evaluator that computes one point at a time with plain floats.
 const FieldKernels& scalarKernels();
 
 /// Same as scalarKernels(), but adds the number of instructions times points to EvalScratch::operations. That is the

@@ -1,5 +1,5 @@
 #pragma once
-// Fields from outside the grammar that the program supplies as samples, such as a terrain of the engine.
+// Fields that the calling program supplies as samples and that no grammar derives, such as a terrain of the engine.
 
 #include <cstdint>
 #include <functional>

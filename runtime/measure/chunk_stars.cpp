@@ -93,8 +93,8 @@ class StarCounter {
   /// True if the star is one open fan; then it also counts the two edges at its ends. Precondition: meet() returned
   /// true.
   bool isPath(uint32_t v, std::span<const Corner> star) {
-    // The start is the only corner that no corner leads to: the sum of all positions minus the sum of those that are
-    // led to.
+    // The start is the only corner that no corner leads to: its index is the sum of all indices minus the
+    // sum of the indices of corners that another corner leads to.
     size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
     for (const Corner& corner : star) {
       const uint64_t seen = seen_[corner.previous()];

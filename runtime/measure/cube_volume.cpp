@@ -22,7 +22,7 @@ struct Lattice {
   double z(size_t k) const { return first.z + static_cast<double>(k) * edge; }
 };
 
-/// A crossing where a column enters (1) or leaves (-1) the solid, in upward direction.
+/// A point where a column crosses the surface: in upward direction it enters (turn 1) or leaves (-1) the solid.
 struct Crossing {
   uint64_t column;
   double z;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
 constexpr size_t kSide = kChunkSamples;
-// bits of MeasureScratch::planes above those of border planes: the vertex is excluded; it is a feature vertex
+// higher bits of MeasureScratch::planes: the vertex is excluded; it is a feature vertex
 constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;
 
 bool isWithin(const Vertex& v, int lo, int hi) {

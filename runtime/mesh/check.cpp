@@ -68,7 +68,7 @@ void countEdges(size_t v, std::span<const Corner> around, std::vector<uint32_t>&
   }
 }
 
-/// Counts duplicate triangles, each at the one of its three vertices that has the lowest number.
+/// Counts duplicate triangles, each at the vertex of lowest number among its three.
 void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::pair<uint32_t, uint32_t>>& opposite,
                      MeshReport& report) {
   opposite.clear();

@@ -43,7 +43,7 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    /// range of the loops of the claim's cell, and the end of those of adjacent cells, which follow
+    /// loops first..end - 1 are of the claim's cell, end..end_beside - 1 of adjacent cells
     size_t first, end, end_beside;
     size_t first_other = 0, end_other = 0;
   };

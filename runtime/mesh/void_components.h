@@ -5,8 +5,8 @@
 // The voids are those of the mesh, so they follow its rule for faces of a cell (mesh/case_rule.h), which cuts off every
 // run of solid corners by itself: void samples are connected along the axes and across the diagonal of a face.
 // If only the axes connected samples, voids that the mesh connects would be separate. A sharp mesh closes some of those
-// diagonals (mesh/ambiguous_faces.h), so the voids here may be larger than those of the mesh: nothing visible is taken
-// for hidden.
+// diagonals (mesh/ambiguous_faces.h), so the voids here may be larger than those of the mesh: what is visible is never
+// taken for hidden.
 
 #include <array>
 #include <cstdint>

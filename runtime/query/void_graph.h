@@ -32,7 +32,7 @@ class VoidGraph {
   /// Returns the graph's number for a void of the chunk that was added last.
   uint32_t numberOf(uint32_t void_in_chunk) const { return first_.back() + void_in_chunk; }
 
-  // The following functions require that all chunks were added.
+  // The following functions require that all chunks of the region were added.
 
   bool joined(uint32_t a, uint32_t b) { return rootOf(a) == rootOf(b); }
   /// Returns the number of samples in the whole connected void that void `number` belongs to.

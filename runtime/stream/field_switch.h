@@ -34,7 +34,7 @@ class FieldSwitch {
 
   /// True if no comparison is running and, if `viewed`, no switch is waiting or unfinished. viewed: there are viewers.
   bool settled(bool viewed) const;
-  /// True if a job is comparing fields, or was told to by begin().
+  /// True if a job is comparing fields, or is about to, because begin() returned true.
   bool busy() const;
 
   /// Numbers of want() calls, counted from 1: that of the last call, and that of the call whose field is drawn (0: the

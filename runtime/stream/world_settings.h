@@ -17,7 +17,7 @@ namespace sgm {
 
 struct WorldSettings {
   LodSettings lod;
-  /// limit for all surfaces, including those of the engine and those being meshed
+  /// limit for all surfaces, including surfaces that the engine owns or that are being meshed
   size_t mesh_bytes = size_t{256} << 20;
   bool by_reach = true;  ///< same as PlannerSettings::by_reach
   /// distance from a viewer, in units, within which chunks have a collider; 0: no colliders

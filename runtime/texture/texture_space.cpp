@@ -14,7 +14,7 @@ namespace {
 constexpr Chart kMirrored = 0x8000;
 // charts of a line (side, far end, near end) and of round shapes (side, top, bottom)
 constexpr int kSide = 0, kTop = 1, kBottom = 2;
-constexpr Chart kFirstSide = 2;  ///< of a prism: the first chart after those of its two ends
+constexpr Chart kFirstSide = 2;  ///< number of a prism's first side chart, after the charts of its two ends
 
 size_t largestAxis(const TexturePoint& v) {
   const double x = std::fabs(v[0]), y = std::fabs(v[1]), z = std::fabs(v[2]);

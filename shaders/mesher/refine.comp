@@ -29,7 +29,7 @@ void main() {
   const uint number = itemOfEntry(entry);
   const uint item = items_at + kItemWords * number;
   const bool brick = number < chunk_count * kBricks;
-  // Only the first slice of an item does this.
+  // A brick may be listed several times, once per slice: only its first slice tests its parts.
   const bool asked = brick && sliceOfEntry(entry) == 0u;
   const uint list = scratch[item + kItemList], list_end = list + (asked ? scratch[item + kItemCount] : 0u);
   const float scale = uintBitsToFloat(scratch[item + kItemScale]);

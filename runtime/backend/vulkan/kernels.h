@@ -64,7 +64,7 @@ class Kernels {
   /// Returns true if get() would return at once. If not, starts a background thread that creates the pipelines; if no
   /// thread can be started, returns true, so that the caller waits in get(). Never waits itself.
   bool ready(uint64_t kinds) noexcept;
-  /// True while that thread is running.
+  /// True while the background thread creates pipelines.
   bool making() const { return making_.load(); }
 
   uint32_t width() const;  ///< number of invocations in a workgroup, for kernels without a fixed number
@@ -90,7 +90,7 @@ class Kernels {
 
   std::mutex making_mutex_;         ///< held while pipelines are created; locked before mutex_
   std::array<Made, kernels> made_;  ///< while pipelines are replaced, not all support the same kinds
-  bool warned_ = false;             ///< true if a warning was sent: there is only one
+  bool warned_ = false;             ///< true if the warning that pipelines cannot be created was sent; it is sent once
 
   std::mutex mutex_;
   uint64_t kinds_ = 0;   ///< kinds that the pipelines support

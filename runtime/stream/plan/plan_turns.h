@@ -39,7 +39,7 @@ class PlanTurns {
     bool plans_ = false;
     bool is_free_ = false;  ///< a worker was idle when the plan began
     size_t mesh_jobs_ = 0;
-    double expected_ = 0.001;  ///< estimated seconds of its next plan: those of its last one
+    double expected_ = 0.001;  ///< estimated seconds of its next plan: what its last plan took
   };
 
   /// jobs must outlive this.

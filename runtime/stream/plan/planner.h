@@ -46,7 +46,7 @@ struct FinishedChunk {
   uint64_t edits = 0;                           ///< number of the state under which the chunk was meshed
   std::shared_ptr<const ChunkSurface> before;   ///< same as WorkItem::before: the surface that `surface` extends
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
-  std::unique_ptr<const VoidComponents> voids;  ///< set if the request asks for signs
+  std::unique_ptr<const VoidComponents> voids;  ///< set if the request wants signs
   uint32_t rounded = 0;                         ///< number of cells of the body whose sharp features are missing
   bool from_disk = false;                       ///< true if all requested parts came from the disk cache
   /// cancelled: meshing did not begin, and the chunk may be requested again
@@ -169,7 +169,7 @@ class Planner {
   /// Adds a request for the missing parts of a chunk to the queue; merges it with a request for the same chunk in this
   /// plan.
   void request(const ChunkKey& key, int seams, Rank rank, std::vector<WorkItem>& queue);
-  /// Makes the record of a chunk from what is drawn of it.
+  /// Makes the record of a drawn chunk, which contains the parts that are drawn.
   KnownChunk knownOfDrawn(const ChunkKey& leaf) const;
   /// Counts the chunks that are wanted now, and the other known chunks.
   void tally();

@@ -70,8 +70,8 @@ struct GridSlab {
   size_t first = 0, last = 0;
   /// by plane, with one more element at the end: number of the plane's first vertex
   const uint64_t* first_vertex = nullptr;
-  const uint64_t* first_cell =
-      nullptr;                      ///< by layer, with one more element at the end: number of the layer's first cell
+  /// by layer, with one more element at the end: number of the layer's first cell
+  const uint64_t* first_cell = nullptr;
   uint64_t first_triangle = 0;      ///< number of the slab's first triangle
   const uint32_t* edges = nullptr;  ///< list of crossed edges of the slab's planes
   const uint64_t* cells = nullptr;  ///< list of active cells of the layers from `first` on
