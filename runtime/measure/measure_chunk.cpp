@@ -216,7 +216,7 @@ class BodyMeasurer {
     size_t kept = 0;
     for (size_t at = 0; at < indices_.size(); at += 3) {
       const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      // Such a triangle has joined corners in one position, and was counted as degenerate.
+      // A triangle whose joined corners coincide is left out: it was counted as degenerate.
       if (a == b || b == c || c == a) continue;
       indices_[kept++] = a;
       indices_[kept++] = b;

@@ -14,7 +14,8 @@ constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(b
 constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: bricks, planes, and planes of the coarser level
 // Shaders read records and headers as whole vectors, also past the last one: this many words must follow them.
 constexpr uint32_t kBeyond = 256;
-// The limits are 65,535 workgroups for units, and 20 bits for the indices of items.
+// Maximum number of chunks in a batch. More could need over 65,535 workgroups for units of attributes, or over 20 bits
+// for the indices of items.
 constexpr size_t kMostChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
