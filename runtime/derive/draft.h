@@ -23,7 +23,7 @@ struct Num {
 /// The origin of a shape.
 struct Origin {
   PathKey key;
-  uint32_t activation = 0;  ///< of a rule, in the interpreter's list
+  uint32_t activation = 0;  ///< of a rule, in interpret::Activations
   Span span;
 };
 

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "base/math.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/evaluator.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 bool isTuple(const Value& v) { return v.kind == ValueKind::vector || v.kind == ValueKind::pair; }
@@ -16,12 +17,12 @@ size_t partsOf(const Value& v) { return v.kind == ValueKind::vector ? 3 : v.kind
 
 }  // namespace
 
-Value Interpreter::evaluate(ExprId id, const Env& env) {
-  if (failed() || id == kNoId) return {};
+Value Evaluator::evaluate(ExprId id, const Env& env) {
+  if (budget_.failed() || id == kNoId) return {};
   const ExprNode& node = program_.expr(id);
-  if (!step(1, node.span, env.activation)) return {};
-  const Nested nested(nesting_);
-  if (!withinNesting(node.span, env.activation)) return {};
+  if (!budget_.step(1, node.span, env.activation)) return {};
+  const Nested nested = budget_.nest();
+  if (!budget_.withinNesting(node.span, env.activation)) return {};
   const auto child = [&](uint32_t i) { return evaluate(program_.idAt(node.children, i), env); };
   switch (node.kind) {
     case ExprKind::number:
@@ -72,7 +73,7 @@ Value Interpreter::evaluate(ExprId id, const Env& env) {
   return {};
 }
 
-Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateBinary(const ExprNode& node, const Env& env) {
   const Value a = evaluate(program_.idAt(node.children, 0), env);
   const Value b = evaluate(program_.idAt(node.children, 1), env);
   const auto arithmetic = [&](ExprOp op) {
@@ -120,26 +121,26 @@ Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
   return {};
 }
 
-Value Interpreter::evaluateQuery(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateQuery(const ExprNode& node, const Env& env) {
   Ball ball{env.place.snap({}), 0};
   if (node.children.count > 0) {
     const double radius = real(program_.idAt(node.children, 0), env);
-    if (failed()) return {};
+    if (budget_.failed()) return {};
     if (!(radius >= 0))
-      note("the radius of a query is 0m or more; this one counts as 0m: bound it, such as max(r, 0m)", node.span,
-           env.activation);
+      budget_.note("the radius of a query is 0m or more; this one counts as 0m: bound it, such as max(r, 0m)",
+                   node.span, env.activation);
     ball.radius = std::max(0, toUnits(radius * env.place.scale));
   }
-  const BallProof proof = lower_.prove(node.id, ball, node.inside ? BoxContent::solid : BoxContent::open);
-  if (!step(proof.pieces, node.span, env.activation)) return {};
+  const BallProof proof = in_.lower.prove(node.id, ball, node.inside ? BoxContent::solid : BoxContent::open);
+  if (!budget_.step(proof.pieces, node.span, env.activation)) return {};
   return Value::boolean({proof.holds ? 1.0 : 0.0});
 }
 
-Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateName(const ExprNode& node, const Env& env) {
   switch (node.ref) {
     case Ref::parameter:
       parameters_read_ |= parameterBit(node.id);
-      return Value::number(parameters_.values[node.id]);
+      return Value::number(in_.parameters.values[node.id]);
     case Ref::let:
       return evaluateLet(node, env);
     case Ref::field:
@@ -153,7 +154,7 @@ Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {
   }
   switch (static_cast<BuiltinValue>(node.id)) {
     case BuiltinValue::cell:
-      return Value::ofCell(cell_);
+      return Value::ofCell(in_.cell);
     case BuiltinValue::scope:
       return Value::vector(env.scope);
     case BuiltinValue::p:
@@ -162,13 +163,13 @@ Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {
       return sampleCoordinates(env, true);
     case BuiltinValue::u:
       if (env.sweep != kNone) return Value::number(draft_.sweep(env.sweep));
-      note("u is 0: nothing is swept around this field; use it on a tube or a beam", node.span, env.activation);
+      budget_.note("u is 0: nothing is swept around this field; use it on a tube or a beam", node.span, env.activation);
       return Value::number(0);
   }
   return {};
 }
 
-Value Interpreter::sampleCoordinates(const Env& env, bool local) {
+Value Evaluator::sampleCoordinates(const Env& env, bool local) {
   if (!local) {
     const Num x = draft_.coordinate({}, {1, 0, 0});
     const Num y = draft_.coordinate({}, {0, 1, 0});
@@ -189,7 +190,7 @@ Value Interpreter::sampleCoordinates(const Env& env, bool local) {
   return Value::vector(q[0], q[1], q[2]);
 }
 
-Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateMember(const ExprNode& node, const Env& env) {
   const Value v = evaluate(program_.idAt(node.children, 0), env);
   // An expression that has failed may have returned another kind of value.
   const auto segmentOf = [&](const Value& of) {
@@ -209,15 +210,16 @@ Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
     case Member::axis:
       return Value::number(v.axis);
     case Member::size: {
-      Vec3 size{metres(lattice_.size.x), metres(lattice_.size.y), metres(lattice_.size.z)};
+      Vec3 size{metres(in_.lattice.size.x), metres(in_.lattice.size.y), metres(in_.lattice.size.z)};
       if (v.kind == ValueKind::face) size[v.axis] = 0;
       return Value::vector(size);
     }
     case Member::center:
-      return pointValue(
-          v.kind == ValueKind::face ? lattice_.facePoint(cell_, v.face(), 0) : lattice_.point(cell_, v.cell, 0), env);
+      return pointValue(v.kind == ValueKind::face ? in_.lattice.facePoint(in_.cell, v.face(), 0)
+                                                  : in_.lattice.point(in_.cell, v.cell, 0),
+                        env);
     case Member::faces:
-      return Value::ofFaces(lattice_.ownedFaces(v.cell));
+      return Value::ofFaces(in_.lattice.ownedFaces(v.cell));
     case Member::from:
       return Value::vector(segmentOf(v).from);
     case Member::to:
@@ -232,19 +234,12 @@ Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
   return {};
 }
 
-/// A whole domain is one cell, which is centred on the origin of its scope instead of beginning there.
-Vec3 Interpreter::cellOrigin() const {
-  if (!isWhole(layer_)) return {};
-  const Int3 low = program_.domain.box.lo;
-  return {metres(low.x), metres(low.y), metres(low.z)};
-}
-
-Value Interpreter::pointValue(Int3 units_from_cell, const Env& env) const {
-  const Vec3 at = cellOrigin() + Vec3{metres(units_from_cell.x), metres(units_from_cell.y), metres(units_from_cell.z)};
+Value Evaluator::pointValue(Int3 units_from_cell, const Env& env) const {
+  const Vec3 at = in_.origin() + Vec3{metres(units_from_cell.x), metres(units_from_cell.y), metres(units_from_cell.z)};
   return Value::vector(env.activation == kNone ? at : activations_[env.activation].start.fromCell(at));
 }
 
-Value Interpreter::evaluateCall(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateCall(const ExprNode& node, const Env& env) {
   switch (node.ref) {
     case Ref::let:
       return evaluateLet(node, env);
@@ -257,7 +252,7 @@ Value Interpreter::evaluateCall(const ExprNode& node, const Env& env) {
   }
 }
 
-Value Interpreter::evaluateLet(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateLet(const ExprNode& node, const Env& env) {
   const Let& let = program_.lets[node.id];
   std::vector<Value> slots(std::max(let.slot_count, let.formals.count));
   // Draws inside depend on the path and the arguments, so that two uses with different arguments draw independently.
@@ -272,7 +267,7 @@ Value Interpreter::evaluateLet(const ExprNode& node, const Env& env) {
   return evaluate(let.body, inner);
 }
 
-Value Interpreter::evaluateField(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateField(const ExprNode& node, const Env& env) {
   const Field& field = program_.fields[node.id];
   std::vector<Value> given;
   for (uint32_t i = 0; i < field.formals.count; ++i) given.push_back(evaluate(boundAt(node, i), env));
@@ -286,15 +281,20 @@ Value Interpreter::evaluateField(const ExprNode& node, const Env& env) {
   return evaluate(field.body, inner);
 }
 
-uint32_t Interpreter::boundAt(const ExprNode& node, uint32_t index) const {
+ExprId Evaluator::boundAt(const ExprNode& node, uint32_t index) const {
   return index < node.bound.count ? program_.idAt(node.bound, index) : kNoId;
 }
 
-PathKey Interpreter::keyOf(const Value& v) const {
-  if (v.kind == ValueKind::cell) return lattice_.cellKey(v.cell);
-  if (v.kind == ValueKind::face) return lattice_.faceKey(v.face());
+void Evaluator::addPiece(PlanPiece piece) {
+  pieces_.push_back(std::move(piece));
+  budget_.hold(sizeof(PlanPiece) + 4 * sizeof(PlanCorner));
+}
+
+PathKey Evaluator::keyOf(const Value& v) const {
+  if (v.kind == ValueKind::cell) return in_.lattice.cellKey(v.cell);
+  if (v.kind == ValueKind::face) return in_.lattice.faceKey(v.face());
   if (v.kind == ValueKind::segment) return segments_[v.first].key;
-  PathKey key{seed_};
+  PathKey key{in_.seed};
   for (size_t i = 0; i < partsOf(v); ++i) {
     // -0 and 0 are the same number.
     key = {hashCombine(key.value, std::bit_cast<uint64_t>(v.n[i].value + 0.0))};
@@ -302,4 +302,4 @@ PathKey Interpreter::keyOf(const Value& v) const {
   return key;
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

@@ -5,9 +5,9 @@
 
 #include "base/math.h"
 #include "derive/draws.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/evaluator.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 /// A method's receiver is bound before the parameters of the table.
@@ -20,7 +20,7 @@ bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace
 
-Value Interpreter::argument(const ExprNode& node, uint32_t index, const Env& env) {
+Value Evaluator::argument(const ExprNode& node, uint32_t index, const Env& env) {
   const uint32_t bound = boundAt(node, index);
   if (bound != kNoId) return evaluate(bound, env);
   const BuiltinInfo& info = builtinTable()[node.id];
@@ -28,11 +28,11 @@ Value Interpreter::argument(const ExprNode& node, uint32_t index, const Env& env
   return Value::number(parameter < info.params.size() ? info.params[parameter].fallback : 0.0);
 }
 
-double Interpreter::realArgument(const ExprNode& node, uint32_t index, const Env& env) {
+double Evaluator::realArgument(const ExprNode& node, uint32_t index, const Env& env) {
   return argument(node, index, env).real();
 }
 
-Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateBuiltin(const ExprNode& node, const Env& env) {
   switch (static_cast<Builtin>(node.id)) {
     case Builtin::rand:
     case Builtin::rand_keyed:
@@ -52,7 +52,7 @@ Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
   }
 }
 
-Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluatePure(const ExprNode& node, const Env& env) {
   const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
   const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
   // In sequence: the order in which a compiler evaluates a call's arguments must not affect the chunk.
@@ -117,7 +117,7 @@ Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
   }
 }
 
-Value Interpreter::evaluateRandom(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateRandom(const ExprNode& node, const Env& env) {
   const double by_path = env.key.unit(kPathDraw + node.ordinal);
   const auto by_key = [&] { return keyOf(argument(node, 0, env)).unit(kKeyedDraw); };
   const auto between = [&](uint32_t first, double unit) {
@@ -136,7 +136,7 @@ Value Interpreter::evaluateRandom(const ExprNode& node, const Env& env) {
   }
 }
 
-Value Interpreter::evaluateCellular(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateCellular(const ExprNode& node, const Env& env) {
   const auto whole = [&](uint32_t i, double low, double high) {
     const double v = realArgument(node, i, env);
     return std::isnan(v) ? low : std::clamp(detFloor(v + 0.5), low, high);
@@ -146,7 +146,7 @@ Value Interpreter::evaluateCellular(const ExprNode& node, const Env& env) {
     case Builtin::cell_noise: {
       const int32_t period = std::max(1, toUnits(realArgument(node, 1, env)));
       const double salt = realArgument(node, 2, env);
-      return Value::number(lattice_.noise(argument(node, 0, env).cell, period, keyOf(Value::number(salt)).value));
+      return Value::number(in_.lattice.noise(argument(node, 0, env).cell, period, keyOf(Value::number(salt)).value));
     }
     case Builtin::fractal: {
       NoiseSpec spec;
@@ -156,44 +156,45 @@ Value Interpreter::evaluateCellular(const ExprNode& node, const Env& env) {
       return Value::number(draft_.noise(spec));
     }
     case Builtin::cell_point:
-      return pointValue(lattice_.point(cell_, argument(node, 0, env).cell, jitter()), env);
+      return pointValue(in_.lattice.point(in_.cell, argument(node, 0, env).cell, jitter()), env);
     case Builtin::face_point:
-      return pointValue(lattice_.facePoint(cell_, argument(node, 0, env).face(), jitter()), env);
+      return pointValue(in_.lattice.facePoint(in_.cell, argument(node, 0, env).face(), jitter()), env);
     case Builtin::cell_links: {
       const Int3 cell = argument(node, 0, env).cell;
       const int tree = static_cast<int>(whole(1, 0, 20));
-      return Value::ofFaces(lattice_.links(cell, tree, realArgument(node, 2, env)));
+      return Value::ofFaces(in_.lattice.links(cell, tree, realArgument(node, 2, env)));
     }
     default:
       return {};
   }
 }
 
-Value Interpreter::evaluateBranch(const ExprNode& node, const Env& env) {
+Value Evaluator::evaluateBranch(const ExprNode& node, const Env& env) {
   std::array<double, 4> given{};
   for (uint32_t i = 0; i < given.size(); ++i) given[i] = realArgument(node, i, env);
   given[0] = detFloor(given[0] + 0.5);
   const uint32_t first = static_cast<uint32_t>(segments_.size());
-  if (failed()) return Value::ofSegments(first, 0);
+  if (budget_.failed()) return Value::ofSegments(first, 0);
   for (size_t i = 0; i < given.size(); ++i) {
     const ValueRange& range = branchRangeTable()[i];
     if (range.holds(given[i])) continue;
-    note(std::string(range.rule).append(", ").append(range.example).append("; this one is left out"), node.span,
-         env.activation);
+    budget_.note(std::string(range.rule).append(", ").append(range.example).append("; this one is left out"), node.span,
+                 env.activation);
     return Value::ofSegments(first, 0);
   }
   const PathKey key = env.key.child(kBranchSalt, node.ordinal);
   const Skeleton skeleton = grownSkeleton(key, {given[0], given[1], given[2], given[3]});
   if (!skeleton.whole) {
-    note("this branch has more than " + std::to_string(kMostSegments) +
-             " segments; side branches are left out: take fewer steps, or lower `fork`",
-         node.span, env.activation);
+    budget_.note("this branch has more than " + std::to_string(kMostSegments) +
+                     " segments; side branches are left out: take fewer steps, or lower `fork`",
+                 node.span, env.activation);
   }
   const uint32_t count = static_cast<uint32_t>(skeleton.segments.size());
-  if (!step(count, node.span, env.activation)) return Value::ofSegments(first, 0);
+  if (!budget_.step(count, node.span, env.activation)) return Value::ofSegments(first, 0);
   segments_.insert(segments_.end(), skeleton.segments.begin(), skeleton.segments.end());
-  withinBytes(node.span, env.activation);
+  budget_.hold(count * sizeof(Segment));
+  budget_.withinBytes(node.span, env.activation);
   return Value::ofSegments(first, count);
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

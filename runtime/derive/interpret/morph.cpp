@@ -1,10 +1,12 @@
 // Morphs: linear, and by the exponent of a superquadric.
 
 #include <algorithm>
+#include <array>
 
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/leaves.h"
+#include "derive/interpret/statements.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 /// A shape as a superquadric: its radii, and its squareness (0 an ellipsoid, 1 the squarest, used as a box).
@@ -28,67 +30,17 @@ Squared squaredOf(const Shape& s) {
   return result;
 }
 
-}  // namespace
-
-double exponentOfSquare(double square) {
-  const double s = std::clamp(square, 0.0, 1.0);
-  return 2.0 / (1.0 - s + s * 2.0 / static_cast<double>(kMaxPower));
-}
-
-void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
-  const StmtId from = program_.idAt(s.children, 0), to = program_.idAt(s.children, 1);
-  // A parameter of the field may run along the morphed shapes (`u`), so it is evaluated after both ends.
-  const bool sampled = program_.expr(s.expr).type.sample;
-  Num t = sampled ? Num{} : evaluate(s.expr, env).n[0];
-  if (!sampled && !(t.value > 0)) return statement(from, env, out);
-  if (!sampled && t.value >= 1) return statement(to, env, out);
-  ShapeList a, b;
-  statement(from, env, a);
-  statement(to, env, b);
-  if (failed()) return;
-  if (a.empty() || b.empty()) {
-    note("one end of this morph is missing or was left out, so the whole morph is left out: let both give shapes",
-         s.span, env.activation);
-    return;
-  }
-  const uint32_t first = united(a, s, env), second = united(b, s, env);
-  if (sampled) {
-    Env inner = env;
-    const uint32_t swept = draft_.sweepOf(first) != kNone ? draft_.sweepOf(first) : draft_.sweepOf(second);
-    if (swept != kNone) inner.sweep = swept;
-    t = evaluate(s.expr, inner).n[0];
-    if (t.constant() && !(t.value > 0 && t.value < 1)) {
-      const ShapeList& end = t.value >= 1 ? b : a;
-      out.insert(out.end(), end.begin(), end.end());
-      return;
-    }
-  }
-  if (s.power) return morphPower(s, env, first, second, t, out);
-  Shape node = shapeIn(env, ShapeKind::morph);
-  const double ra = static_cast<double>(draft_.shape(first).inner_radius);
-  const double rb = static_cast<double>(draft_.shape(second).inner_radius);
-  if (t.constant()) {
-    node.amount = static_cast<float>(t.value);
-    node.inner_radius = static_cast<float>(ra + (rb - ra) * t.value);
-  } else {
-    node.expr = draft_.expression(t);
-    node.inner_radius = static_cast<float>(std::max(ra, rb));
-  }
-  if (ra == 0 || rb == 0) node.inner_radius = 0;
-  out.push_back(addShape(node, s.ordinal, s.span, env, {first, second}));
-}
-
-void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
+void morphByPower(const StmtNode& s, CellContext& c, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
   // The checker ensures that both are leaves of the same scope: they have the same centre and axes.
-  const Squared from = squaredOf(draft_.shape(a)), to = squaredOf(draft_.shape(b));
+  const Squared from = squaredOf(c.draft.shape(a)), to = squaredOf(c.draft.shape(b));
   const auto mixed = [](double low, double high, double at) { return low + (high - low) * at; };
   Shape node = shapeIn(env, ShapeKind::superquadric);
-  node.frame = draft_.shape(from.turns ? a : b).frame;
+  node.frame = c.draft.shape(from.turns ? a : b).frame;
   if (t.constant()) {
     for (size_t i = 0; i < 3; ++i) node.size[i] = static_cast<float>(mixed(from.radii[i], to.radii[i], t.value));
     node.size[3] = static_cast<float>(exponentOfSquare(mixed(from.square, to.square, t.value)));
     node.inner_radius = std::min({node.size[0], node.size[1], node.size[2]});
-    out.push_back(addShape(node, s.ordinal, s.span, env));
+    out.push_back(c.sink.addShape(node, s.ordinal, s.span, env));
     return;
   }
   // The node covers squareness 0 to 1; ends in between are two points on the way, and the radii are extrapolated
@@ -101,16 +53,67 @@ void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint
     node.size[i] = static_cast<float>(at_round);
     node.size[3 + i] = static_cast<float>(at_round + slope);
     if (!(node.size[i] > 0 && node.size[3 + i] > 0) || (step == 0 && to.radii[i] != from.radii[i])) {
-      note("morph by power cannot change the radii so much for so little change of squareness; use lerp here", s.span,
-           env.activation);
+      c.budget.note("morph by power cannot change the radii so much for so little change of squareness; use lerp here",
+                    s.span, env.activation);
       return;
     }
   }
-  node.inner_radius = std::max(draft_.shape(a).inner_radius, draft_.shape(b).inner_radius);
-  const Num along = draft_.clamp(t, {0}, {1});
+  node.inner_radius = std::max(c.draft.shape(a).inner_radius, c.draft.shape(b).inner_radius);
+  const Num along = c.draft.clamp(t, {0}, {1});
   node.expr =
-      draft_.expression(draft_.binary(ExprOp::add, {from.square}, draft_.binary(ExprOp::multiply, {step}, along)));
-  out.push_back(addShape(node, s.ordinal, s.span, env));
+      c.draft.expression(c.draft.binary(ExprOp::add, {from.square}, c.draft.binary(ExprOp::multiply, {step}, along)));
+  out.push_back(c.sink.addShape(node, s.ordinal, s.span, env));
 }
 
-}  // namespace sgm
+}  // namespace
+
+double exponentOfSquare(double square) {
+  const double s = std::clamp(square, 0.0, 1.0);
+  return 2.0 / (1.0 - s + s * 2.0 / static_cast<double>(kMaxPower));
+}
+
+void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
+  const StmtId from = c.program.idAt(s.children, 0), to = c.program.idAt(s.children, 1);
+  // A parameter of the field may run along the morphed shapes (`u`), so it is evaluated after both ends.
+  const bool sampled = c.program.expr(s.expr).type.sample;
+  Num t = sampled ? Num{} : c.evaluator.evaluate(s.expr, env).n[0];
+  if (!sampled && !(t.value > 0)) return runStatement(from, c, env, out);
+  if (!sampled && t.value >= 1) return runStatement(to, c, env, out);
+  ShapeList a, b;
+  runStatement(from, c, env, a);
+  runStatement(to, c, env, b);
+  if (c.budget.failed()) return;
+  if (a.empty() || b.empty()) {
+    c.budget.note(
+        "one end of this morph is missing or was left out, so the whole morph is left out: let both give shapes",
+        s.span, env.activation);
+    return;
+  }
+  const uint32_t first = c.sink.unite(a, s, env), second = c.sink.unite(b, s, env);
+  if (sampled) {
+    Env inner = env;
+    const uint32_t swept = c.draft.sweepOf(first) != kNone ? c.draft.sweepOf(first) : c.draft.sweepOf(second);
+    if (swept != kNone) inner.sweep = swept;
+    t = c.evaluator.evaluate(s.expr, inner).n[0];
+    if (t.constant() && !(t.value > 0 && t.value < 1)) {
+      const ShapeList& end = t.value >= 1 ? b : a;
+      out.insert(out.end(), end.begin(), end.end());
+      return;
+    }
+  }
+  if (s.power) return morphByPower(s, c, env, first, second, t, out);
+  Shape node = shapeIn(env, ShapeKind::morph);
+  const double ra = static_cast<double>(c.draft.shape(first).inner_radius);
+  const double rb = static_cast<double>(c.draft.shape(second).inner_radius);
+  if (t.constant()) {
+    node.amount = static_cast<float>(t.value);
+    node.inner_radius = static_cast<float>(ra + (rb - ra) * t.value);
+  } else {
+    node.expr = c.draft.expression(t);
+    node.inner_radius = static_cast<float>(std::max(ra, rb));
+  }
+  if (ra == 0 || rb == 0) node.inner_radius = 0;
+  out.push_back(c.sink.addShape(node, s.ordinal, s.span, env, {first, second}));
+}
+
+}  // namespace sgm::interpret

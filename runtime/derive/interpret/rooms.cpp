@@ -1,20 +1,21 @@
 // Floors in rooms: the statement treemap. The box of its scope is centred on its origin; y is up.
 
 #include <algorithm>
-#include <bit>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "base/math.h"
 #include "derive/draws.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/overrides.h"
+#include "derive/interpret/statements.h"
 #include "derive/layout/floor_plan.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 constexpr double kWidestFloor = 1 << 20;  ///< units
-constexpr size_t kMostPlansKept = 64;
-constexpr uint64_t kLooksOfStep = 2;
 
 /// Walls, doors and corridors are laid out in steps of four units, so that their halves are even integers.
 int32_t inSteps(double metres) {
@@ -29,86 +30,95 @@ Vec3 edgesOf(const PlanRect& r, double y) {
   return {static_cast<double>(r.width()) / kUnitsPerMetre, y, static_cast<double>(r.depth()) / kUnitsPerMetre};
 }
 
-}  // namespace
-
 /// A number in the treemap's head or of a link; the fallback if it is missing or out of range.
-double Interpreter::floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env) {
+double floorMeasure(ExprId id, double fallback, const ValueRange& range, CellContext& c, const Env& env) {
   if (id == kNoId) return fallback;
-  const double value = real(id, env);
-  if (range.holds(value) || failed()) return value;
-  note(std::string(range.rule).append(", ").append(range.example).append("; the default is used"),
-       program_.expr(id).span, env.activation);
+  const double value = c.evaluator.real(id, env);
+  if (range.holds(value) || c.budget.failed()) return value;
+  c.budget.note(std::string(range.rule).append(", ").append(range.example).append("; the default is used"),
+                c.program.expr(id).span, env.activation);
   return fallback;
 }
 
-void Interpreter::planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env,
-                          ShapeList& out) {
+void addBox(const PlanRect& r, double y, double height, const StmtNode& s, CellContext& c, const Env& env,
+            ShapeList& out) {
   const double scale = env.place.scale * kUnitsPerMetre;
   const Vec3 half = 0.5 * edgesOf(r, height);
   Shape shape = shapeIn(env, ShapeKind::box);
   shape.frame = env.place.frame(middleOf(r, y));
   for (int axis = 0; axis < 3; ++axis) shape.size[static_cast<size_t>(axis)] = static_cast<float>(half[axis] * scale);
   shape.inner_radius = static_cast<float>(std::min({half.x, half.y, half.z}) * scale);
-  out.push_back(addShape(shape, s.ordinal, s.span, env));
+  out.push_back(c.sink.addShape(shape, s.ordinal, s.span, env));
 }
 
 /// Derives the open space, to which the part's block adds and from which it cuts; the scope is the first rectangle.
-void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key,
-                         const Env& env, ShapeList& out) {
-  if (!step(1, s.span, env.activation)) return;
+void runRoom(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, CellContext& c,
+             const Env& env, ShapeList& out) {
+  if (!c.budget.step(1, s.span, env.activation)) return;
   Env inner = env;
   inner.key = key;
   inner.cut_detail = 0;
   const bool said = index != kNone;
-  const StmtNode* body = said ? &program_.stmt(program_.idAt(s.children, index)) : nullptr;
+  const StmtNode* body = said ? &c.program.stmt(c.program.idAt(s.children, index)) : nullptr;
   if (said) {
-    const uint16_t tag = program_.ast.parts[s.parts.first + index].tag;
+    const uint16_t tag = c.program.ast.parts[s.parts.first + index].tag;
     if (tag != 0 && inner.forced_tag == 0) inner.tag = tag;
     if (body->kind == StmtKind::block) label(*body, inner);
   }
   ShapeList own;
-  for (const PlanRect& r : clear) planBox(r, 0, env.scope.y, s, inner, own);
+  for (const PlanRect& r : clear) addBox(r, 0, env.scope.y, s, c, inner, own);
   if (said) {
     inner.place = env.place.moved(middleOf(clear[0], 0));
     inner.scope = edgesOf(clear[0], env.scope.y);
     if (body->kind != StmtKind::block)
-      statement(program_.idAt(s.children, index), inner, own);
-    else if (program_.overridesOf(body->tag).count > 0)
-      tagged(*body, body->tag, inner, own, true);
+      runStatement(c.program.idAt(s.children, index), c, inner, own);
+    else if (c.program.overridesOf(body->tag).count > 0)
+      runTagged(*body, body->tag, c, inner, own, true);
     else
-      contents(*body, inner, own);
+      runContents(*body, c, inner, own);
   }
   out.insert(out.end(), own.begin(), own.end());
 }
 
-/// The storeys of a tower have the same plan: a known plan is reused.
-FloorPlan Interpreter::floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas,
-                                 std::span<const RoomLink> links, const Span& span, const Env& env) {
-  const auto word = [](int32_t v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
-  std::vector<uint64_t> key{word(sizes.x), word(sizes.z), word(sizes.wall), word(sizes.door), word(sizes.corridor)};
-  for (const double area : areas) key.push_back(std::bit_cast<uint64_t>(area));
-  for (const RoomLink& link : links) key.insert(key.end(), {~uint64_t{0}, link.a, link.b, word(link.width)});
-  if (!step(key.size(), span, env.activation)) return {};
-  if (const auto known = floor_plans_.find(key); known != floor_plans_.end()) return known->second;
-  FloorPlan plan = layOutFloor(sizes, areas, links, kLooksOfStep * (limits_.steps - steps_ + 1));
-  if (step(plan.work / kLooksOfStep, span, env.activation) && floor_plans_.size() < kMostPlansKept)
-    floor_plans_.emplace(std::move(key), plan);
-  return plan;
+/// Like the faces of a box: x along the outer wall, y up, z outwards, without depth.
+void runFacades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, CellContext& c, const Env& env,
+                ShapeList& out) {
+  const Vec3 edges = env.scope;
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    if (c.program.ast.parts[s.parts.first + i].floor != FloorPart::facade) continue;
+    std::vector<uint64_t> count(keys.size(), 0);
+    for (const PlanFacade& f : plan.facades) {
+      if (c.budget.failed() || !c.budget.step(1, s.span, env.activation)) return;
+      const double middle = 0.5 * (f.low + f.high) / kUnitsPerMetre, sign = f.side < 2 ? 1 : -1;
+      const bool along_x = f.side % 2 == 0;
+      const Vec3 at = along_x ? Vec3{middle, 0, sign * 0.5 * edges.z} : Vec3{sign * 0.5 * edges.x, 0, middle};
+      Env inner = env;
+      inner.cut_detail = 0;
+      inner.key = keys[f.room].child(kFacadeSalt, count[f.room]++);
+      inner.place = env.place.moved(at).turned({0, 1, 0}, f.side * (kPi / 2));
+      inner.scope = {static_cast<double>(f.high - f.low) / kUnitsPerMetre, edges.y, 0};
+      ShapeList own;
+      runStatement(c.program.idAt(s.children, i), c, inner, own);
+      out.insert(out.end(), own.begin(), own.end());
+    }
+  }
 }
 
-void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
-  const TreemapNode& node = program_.ast.treemaps[s.extra];
-  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
+}  // namespace
+
+void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
+  const TreemapNode& node = c.program.ast.treemaps[s.extra];
+  const PartNode* parts = c.program.ast.parts.data() + s.parts.first;
   FloorPlanSizes sizes;
-  sizes.wall = inSteps(floorMeasure(node.wall, kTreemapWall, kWallRange, env));
-  sizes.door = inSteps(floorMeasure(node.door, 0.9, kDoorRange, env));
-  sizes.corridor = std::max(sizes.door, inSteps(floorMeasure(node.corridor, 1.2, kCorridorRange, env)));
-  const double height = floorMeasure(node.height, 2.1, kDoorHeightRange, env);
+  sizes.wall = inSteps(floorMeasure(node.wall, kTreemapWall, kWallRange, c, env));
+  sizes.door = inSteps(floorMeasure(node.door, 0.9, kDoorRange, c, env));
+  sizes.corridor = std::max(sizes.door, inSteps(floorMeasure(node.corridor, 1.2, kCorridorRange, c, env)));
+  const double height = floorMeasure(node.height, 2.1, kDoorHeightRange, c, env);
   const Vec3 edges = env.scope;
-  if (failed()) return;
+  if (c.budget.failed()) return;
   const double longest = std::max({edges.x, edges.y, edges.z}) * std::max(1.0, env.place.scale);
   if (!(std::min({edges.x, edges.y, edges.z}) > 0 && longest * kUnitsPerMetre < kWidestFloor))
-    return note(
+    return c.budget.note(
         "this scope's box has no size, or one of more than 1 km, so it gets no rooms: give it one, such as "
         "size(12m, 3m, 9m)",
         s.span, env.activation);
@@ -119,14 +129,14 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   std::vector<double> areas;
   for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::room) continue;
-    const double area = real(parts[i].size, env);
-    if (failed()) return;
+    const double area = c.evaluator.real(parts[i].size, env);
+    if (c.budget.failed()) return;
     if (kRoomAreaRange.holds(area)) {
       number[room] = static_cast<uint32_t>(rooms.size());
       rooms.push_back(i);
       areas.push_back(area);
     } else {
-      note(
+      c.budget.note(
           std::string(kRoomAreaRange.rule).append(", ").append(kRoomAreaRange.example).append("; this one is left out"),
           parts[i].span, env.activation);
     }
@@ -137,18 +147,18 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   std::vector<uint32_t> doors;  // parts
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::link) continue;
-    const LinkNode& link = program_.ast.links[program_.stmt(program_.idAt(s.children, i)).extra];
+    const LinkNode& link = c.program.ast.links[c.program.stmt(c.program.idAt(s.children, i)).extra];
     if (number[link.a] == kNone || number[link.b] == kNone) continue;
-    const double width = floorMeasure(link.width, static_cast<double>(sizes.door) / kUnitsPerMetre, kDoorRange, env);
+    const double width = floorMeasure(link.width, static_cast<double>(sizes.door) / kUnitsPerMetre, kDoorRange, c, env);
     links.push_back({number[link.a], number[link.b], inSteps(width)});
     doors.push_back(i);
-    heights.push_back(floorMeasure(link.height, height, kDoorHeightRange, env));
+    heights.push_back(floorMeasure(link.height, height, kDoorHeightRange, c, env));
   }
-  if (failed()) return;
-  const FloorPlan plan = floorPlan(sizes, areas, links, s.span, env);
-  if (failed()) return;
+  if (c.budget.failed()) return;
+  const FloorPlan plan = c.floor_plans.layOut(sizes, areas, links, s.span, env.activation, c.budget);
+  if (c.budget.failed()) return;
   if (!plan.fits)
-    return note(
+    return c.budget.note(
         "this floor has no room for these rooms between their walls; the treemap is left out: use fewer rooms, thinner "
         "walls or a larger scope",
         s.span, env.activation);
@@ -158,60 +168,37 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   for (size_t i = 0; i < plan.rooms.size(); ++i) {
     const PartNode& part = parts[rooms[i]];
     // By their names, so that rooms do not depend on each other.
-    keys.push_back(key.child(hashText(program_.text(part.label)), 0));
-    roomAt(s, rooms[i], plan.rooms[i].clear, keys[i], env, out);
-    if (failed()) return;
+    keys.push_back(key.child(hashText(c.program.text(part.label)), 0));
+    runRoom(s, rooms[i], plan.rooms[i].clear, keys[i], c, env, out);
+    if (c.budget.failed()) return;
   }
   uint32_t corridor = kNone;
   for (uint32_t i = 0; i < s.parts.count; ++i)
     if (parts[i].floor == FloorPart::corridor) corridor = i;
-  for (size_t i = 0; i < plan.corridor.size() && !failed(); ++i)
-    roomAt(s, corridor, {&plan.corridor[i], 1}, key.child(kCorridorSalt, i), env, out);
+  for (size_t i = 0; i < plan.corridor.size() && !c.budget.failed(); ++i)
+    runRoom(s, corridor, {&plan.corridor[i], 1}, key.child(kCorridorSalt, i), c, env, out);
   for (const PlanDoor& door : plan.doors) {
     const double up = std::min(edges.y, door.link == PlanDoor::kNoLink ? height : heights[door.link]);
-    planBox(door.hole, 0.5 * (up - edges.y), up, s, env, out);
-    if (failed()) return;
+    addBox(door.hole, 0.5 * (up - edges.y), up, s, c, env, out);
+    if (c.budget.failed()) return;
   }
-  facades(s, plan, keys, env, out);
-  const auto nameOf = [&](size_t room) { return std::string(program_.text(parts[rooms[room]].label)); };
+  runFacades(s, plan, keys, c, env, out);
+  const auto nameOf = [&](size_t room) { return std::string(c.program.text(parts[rooms[room]].label)); };
   for (const size_t link : plan.unmet)
-    note("`" + nameOf(links[link].a) + "` and `" + nameOf(links[link].b) +
-             "` share no wall wide enough for this door, so it is left out: use a narrower door, or other areas of "
-             "rooms",
-         parts[doors[link]].span, env.activation);
+    c.budget.note(
+        "`" + nameOf(links[link].a) + "` and `" + nameOf(links[link].b) +
+            "` share no wall wide enough for this door, so it is left out: use a narrower door, or other areas of "
+            "rooms",
+        parts[doors[link]].span, env.activation);
   if (plan.doors.empty() || plan.doors[0].from != PlanDoor::kOutside)
-    note(
+    c.budget.note(
         "no outer wall of these rooms is wide enough for the entrance, so nothing leads in: use a narrower door, or a "
         "larger scope",
         s.span, env.activation);
   for (const size_t room : plan.closed)
-    note("no wall of `" + nameOf(room) +
-             "` is wide enough for a door, so nothing leads into it: use a narrower door, or a larger room",
-         parts[rooms[room]].span, env.activation);
+    c.budget.note("no wall of `" + nameOf(room) +
+                      "` is wide enough for a door, so nothing leads into it: use a narrower door, or a larger room",
+                  parts[rooms[room]].span, env.activation);
 }
 
-/// Like the faces of a box: x along the outer wall, y up, z outwards, without depth.
-void Interpreter::facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env,
-                          ShapeList& out) {
-  const Vec3 edges = env.scope;
-  for (uint32_t i = 0; i < s.parts.count; ++i) {
-    if (program_.ast.parts[s.parts.first + i].floor != FloorPart::facade) continue;
-    std::vector<uint64_t> count(keys.size(), 0);
-    for (const PlanFacade& f : plan.facades) {
-      if (failed() || !step(1, s.span, env.activation)) return;
-      const double middle = 0.5 * (f.low + f.high) / kUnitsPerMetre, sign = f.side < 2 ? 1 : -1;
-      const bool along_x = f.side % 2 == 0;
-      const Vec3 at = along_x ? Vec3{middle, 0, sign * 0.5 * edges.z} : Vec3{sign * 0.5 * edges.x, 0, middle};
-      Env inner = env;
-      inner.cut_detail = 0;
-      inner.key = keys[f.room].child(kFacadeSalt, count[f.room]++);
-      inner.place = env.place.moved(at).turned({0, 1, 0}, f.side * (kPi / 2));
-      inner.scope = {static_cast<double>(f.high - f.low) / kUnitsPerMetre, edges.y, 0};
-      ShapeList own;
-      statement(program_.idAt(s.children, i), inner, own);
-      out.insert(out.end(), own.begin(), own.end());
-    }
-  }
-}
-
-}  // namespace sgm
+}  // namespace sgm::interpret

@@ -1,16 +1,18 @@
 // Divides scopes into parts: split and comp. The box of a scope is centred on its origin, as in box(scope).
 
-#include "derive/layout/split_layout.h"
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
 
 #include "base/math.h"
 #include "derive/draws.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/statements.h"
+#include "derive/layout/split_layout.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 constexpr double kMostParts = 1e6;
@@ -74,10 +76,11 @@ void snapLines(std::vector<SplitPlace>& places, double length, const SnapPlanes*
 
 }  // namespace
 
-void Interpreter::snap(const StmtNode& s, const Env& env, ShapeList& out) {
+void runSnap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const int axis = static_cast<int>(s.extra);
-  const double distance = real(s.expr, env), first = s.amount == kNoId ? 0.0 : real(s.amount, env);
-  if (failed()) return;
+  const double distance = c.evaluator.real(s.expr, env),
+               first = s.amount == kNoId ? 0.0 : c.evaluator.real(s.amount, env);
+  if (c.budget.failed()) return;
   Env inner = env;
   SnapPlanes planes;
   if (kSnapRange.holds(distance)) {
@@ -90,31 +93,31 @@ void Interpreter::snap(const StmtNode& s, const Env& env, ShapeList& out) {
     planes.outer = env.snaps;
     inner.snaps = &planes;
   } else {
-    note(std::string(kSnapRange.rule).append(", ").append(kSnapRange.example).append("; these are left out"), s.span,
-         env.activation);
+    c.budget.note(std::string(kSnapRange.rule).append(", ").append(kSnapRange.example).append("; these are left out"),
+                  s.span, env.activation);
   }
-  statement(s.body, inner, out);
+  runStatement(s.body, c, inner, out);
 }
 
-void Interpreter::part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope,
-                       const Env& env, ShapeList& out) {
-  if (!step(1, s.span, env.activation)) return;
+void runPart(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, CellContext& c,
+             const Env& env, ShapeList& out) {
+  if (!c.budget.step(1, s.span, env.activation)) return;
   Env inner = env;
   inner.cut_detail = 0;
   inner.place = place;
   inner.scope = scope;
   inner.key = env.key.child(kLoopSalt + s.ordinal, number);
   ShapeList own;
-  statement(program_.idAt(s.children, index), inner, own);
+  runStatement(c.program.idAt(s.children, index), c, inner, own);
   out.insert(out.end(), own.begin(), own.end());
 }
 
-void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
+void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const int axis = static_cast<int>(s.extra);
   const double length = env.scope[axis];
   if (!(length > 0) || !std::isfinite(length)) {
     const std::string letter(1, "xyz"[axis]);
-    note(
+    c.budget.note(
         "this scope has no size along " + letter + ", so it is not split: give it one, such as size(" + letter + " 3m)",
         s.span, env.activation);
     return;
@@ -122,11 +125,11 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
   std::vector<SplitSize> sizes;
   double group = 0;
   const PartNode* repeated = nullptr;
-  for (uint32_t i = 0; i < s.parts.count && !failed(); ++i) {
-    const PartNode& node = program_.ast.parts[s.parts.first + i];
-    double size = real(node.size, env) * (node.relative ? length : 1);
+  for (uint32_t i = 0; i < s.parts.count && !c.budget.failed(); ++i) {
+    const PartNode& node = c.program.ast.parts[s.parts.first + i];
+    double size = c.evaluator.real(node.size, env) * (node.relative ? length : 1);
     if (!(size >= 0) || !std::isfinite(size)) {
-      note("the size of a part is 0m or more, such as 2m; this one is left out", node.span, env.activation);
+      c.budget.note("the size of a part is 0m or more, such as 2m; this one is left out", node.span, env.activation);
       size = 0;
     }
     sizes.push_back({size, node.flexible, node.repeated});
@@ -134,23 +137,24 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
     group += size;
     repeated = &node;
   }
-  if (failed()) return;
+  if (c.budget.failed()) return;
   if (repeated != nullptr && !(group > 0))
-    note("the parts that are repeated have no size; they are left out: give one of them a size, such as 2m",
-         repeated->group, env.activation);
+    c.budget.note("the parts that are repeated have no size; they are left out: give one of them a size, such as 2m",
+                  repeated->group, env.activation);
   SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
   if (layout.too_many)
-    return fail("one split has more than a million parts (give them a larger size)", s.span, env.activation);
+    return c.budget.fail("one split has more than a million parts (give them a larger size)", s.span, env.activation);
   if (layout.cut_off)
-    note("the parts are longer than the scope; the rest is cut off: write a size that may shrink as ~2m", s.span,
-         env.activation);
+    c.budget.note("the parts are longer than the scope; the rest is cut off: write a size that may shrink as ~2m",
+                  s.span, env.activation);
   if (s.amount != kNoId) {
-    const double reach = real(s.amount, env);
+    const double reach = c.evaluator.real(s.amount, env);
     if (kSnapReachRange.holds(reach))
       snapLines(layout.places, length, env.snaps, env.place, axis, reach);
-    else if (!failed())
-      note(std::string(kSnapReachRange.rule).append(", ").append(kSnapReachRange.example).append("; none snap here"),
-           program_.expr(s.amount).span, env.activation);
+    else if (!c.budget.failed())
+      c.budget.note(
+          std::string(kSnapReachRange.rule).append(", ").append(kSnapReachRange.example).append("; none snap here"),
+          c.program.expr(s.amount).span, env.activation);
   }
   for (const SplitPlace& place : layout.places) {
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
@@ -162,42 +166,43 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
     Vec3 at, scope = env.scope;
     at[axis] = place.middle + 0.5 * (above - below) - 0.5 * length;
     scope[axis] = place.size + below + above;
-    part(s, place.part, uint64_t{place.repetition} << 32 | place.part, env.place.moved(at), scope, env, out);
-    if (failed()) return;
+    runPart(s, place.part, uint64_t{place.repetition} << 32 | place.part, env.place.moved(at), scope, c, env, out);
+    if (c.budget.failed()) return;
   }
 }
 
-void Interpreter::comp(const StmtNode& s, const Env& env, ShapeList& out) {
-  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
+void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
+  const PartNode* parts = c.program.ast.parts.data() + s.parts.first;
   const Vec3 edges = env.scope;
   const auto named = [&](BoxPart of) {
     return std::any_of(parts, parts + s.parts.count, [&](const PartNode& p) { return p.of == of; });
   };
-  for (uint32_t i = 0; i < s.parts.count && !failed(); ++i) {
+  for (uint32_t i = 0; i < s.parts.count && !c.budget.failed(); ++i) {
     const BoxPart of = parts[i].of;
     if (of == BoxPart::inside) {
-      part(s, i, static_cast<uint64_t>(of), env.place, edges, env, out);
+      runPart(s, i, static_cast<uint64_t>(of), env.place, edges, c, env, out);
       continue;
     }
-    for (size_t f = 0; f < std::size(kFaces) && !failed(); ++f) {
+    for (size_t f = 0; f < std::size(kFaces) && !c.budget.failed(); ++f) {
       const Face& face = kFaces[f];
       const bool edge = of == BoxPart::edges && f < kSides;
       if (!edge && of != face.part && !(of == BoxPart::side && f < kSides && !named(face.part))) continue;
       const double width = edges[face.width], height = edges[face.height];
       if (!(height > 0) || (!edge && !(width > 0))) {
-        note("this part of the scope's box has no size; it is left out: give the box one, such as size(4m, 3m, 4m)",
-             parts[i].span, env.activation);
+        c.budget.note(
+            "this part of the scope's box has no size; it is left out: give the box one, such as size(4m, 3m, 4m)",
+            parts[i].span, env.activation);
         continue;
       }
       const Placement place = facePlace(face, env.place, edges);
       // Keys depend only on the face: the other named faces do not affect it.
       const uint64_t number = static_cast<uint64_t>(face.part);
       if (edge)
-        part(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, env, out);
+        runPart(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, c, env, out);
       else
-        part(s, i, number, place, {width, height, 0}, env, out);
+        runPart(s, i, number, place, {width, height, 0}, c, env, out);
     }
   }
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/math.h"
 #include "derive/draws.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/statements.h"
+#include "derive/layout/wave_collapse.h"
 #include "grammar/syntax/keywords.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::interpret {
+namespace {
 
 /// Tiles in all their orientations, and for each the part of the wfc and its rotation about y in quarter turns.
 struct StandingTiles {
@@ -21,8 +26,6 @@ struct StandingTiles {
   std::vector<WaveTile> tiles;
   std::vector<Stand> stands;
 };
-
-namespace {
 
 /// The weight of the heaviest tile.
 constexpr double kFullWeight = 1 << 20;
@@ -62,20 +65,19 @@ WaveLabels sideLabels(std::span<const SideKind> kinds, size_t kind, bool high) {
   return high ? WaveLabels{1} << kind : kindsThatFit(kinds, kind);
 }
 
-}  // namespace
-
-void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
-                              const WaveResult& result, const Env& env) {
+void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice, const WaveResult& result,
+                 CellContext& c, const Env& env) {
   const auto triple = [](uint32_t x, uint32_t y, uint32_t z) {
     return "(" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ")";
   };
   const auto& n = lattice.size;
   if (result.place == kNoPlace)
-    return note("to fill the " + triple(n[0], n[1], n[2]) +
-                    " places of this scope takes too long, and it is left empty: use larger tiles, or a smaller scope",
-                s.span, env.activation);
-  const WaveNode& node = program_.ast.waves[s.extra];
-  const std::span<const SideKind> kinds = sideKinds(program_, s);
+    return c.budget.note(
+        "to fill the " + triple(n[0], n[1], n[2]) +
+            " places of this scope takes too long, and it is left empty: use larger tiles, or a smaller scope",
+        s.span, env.activation);
+  const WaveNode& node = c.program.ast.waves[s.extra];
+  const std::span<const SideKind> kinds = sideKinds(c.program, s);
   std::string met;
   for (size_t side = 0; side < kWaveSides; ++side) {
     WaveLabels fit = result.wanted[side];
@@ -94,23 +96,25 @@ void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, 
     std::string names;
     for (uint32_t l = 0; l < node.labels.count; ++l)
       if ((labels >> l & 1) != 0)
-        names += std::string(names.empty() ? "`" : " or `").append(program_.text(program_.idAt(node.labels, l))) + '`';
+        names +=
+            std::string(names.empty() ? "`" : " or `").append(c.program.text(c.program.idAt(node.labels, l))) + '`';
     met += std::string(met.empty() ? "" : " and ").append(names).append(" on its ").append(boxPartTable()[side]);
   }
   const std::string place = triple(result.place % n[0], result.place / n[0] % n[1], result.place / n[0] / n[1]);
-  note((result.end == WaveEnd::impossible ? "these tiles cannot fill the " : "no way was found to fill the ") +
-           triple(n[0], n[1], n[2]) + " places of this scope, and it is left empty: place " + place +
-           " would need a tile with " + met + "; add one, or join labels of a side with `or`",
-       s.span, env.activation);
+  c.budget.note((result.end == WaveEnd::impossible ? "these tiles cannot fill the " : "no way was found to fill the ") +
+                    triple(n[0], n[1], n[2]) + " places of this scope, and it is left empty: place " + place +
+                    " would need a tile with " + met + "; add one, or join labels of a side with `or`",
+                s.span, env.activation);
 }
 
-bool Interpreter::waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice) {
+/// Returns false, with a note, if there is nothing to fill.
+bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice& lattice) {
   const Vec3 edges = env.scope;
-  const Value size = evaluate(s.expr, env);
+  const Value size = c.evaluator.evaluate(s.expr, env);
   const Vec3 wanted = size.kind == ValueKind::vector ? size.vec() : Vec3{size.real(), size.real(), size.real()};
-  if (failed()) return false;
+  if (c.budget.failed()) return false;
   const auto nothing = [&](const std::string& why) {
-    note(why, s.span, env.activation);
+    c.budget.note(why, s.span, env.activation);
     return false;
   };
   double places = 1;
@@ -129,38 +133,40 @@ bool Interpreter::waveLattice(const StmtNode& s, const Env& env, WaveLattice& la
     return nothing(
         "this scope has room for more than 32768 tiles; they are left out: use larger tiles, or a smaller scope");
   lattice.border.fill(~WaveLabels{0});
-  const std::span<const SideKind> kinds = sideKinds(program_, s);
+  const std::span<const SideKind> kinds = sideKinds(c.program, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
-    const PartNode& part = program_.ast.parts[s.parts.first + i];
+    const PartNode& part = c.program.ast.parts[s.parts.first + i];
     // The border is seen from outside: beyond the front is a back side.
     for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
-      lattice.border[side] = sideLabels(kinds, program_.ast.tiles[part.tile].sides[side], !isHigh(side));
+      lattice.border[side] = sideLabels(kinds, c.program.ast.tiles[part.tile].sides[side], !isHigh(side));
   }
   return true;
 }
 
-bool Interpreter::waveTiles(const StmtNode& s, const Env& env, StandingTiles& out) {
+/// Returns false, with a note, if there is no tile to fill a lattice with.
+bool waveTiles(const StmtNode& s, CellContext& c, const Env& env, StandingTiles& out) {
   std::vector<double> weights(s.parts.count, 0);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
-    const PartNode& part = program_.ast.parts[s.parts.first + i];
+    const PartNode& part = c.program.ast.parts[s.parts.first + i];
     if (part.label == kNoId) continue;
-    weights[i] = real(part.size, env);
-    if (failed()) return false;
+    weights[i] = c.evaluator.real(part.size, env);
+    if (c.budget.failed()) return false;
     if (kTileWeightRange.holds(weights[i])) continue;
     weights[i] = 0;
-    note(std::string(kTileWeightRange.rule).append(", ").append(kTileWeightRange.example).append("; this one is 0"),
-         part.span, env.activation);
+    c.budget.note(
+        std::string(kTileWeightRange.rule).append(", ").append(kTileWeightRange.example).append("; this one is 0"),
+        part.span, env.activation);
   }
   const double heaviest = *std::max_element(weights.begin(), weights.end());
   if (!(heaviest > 0)) {
-    note("no tile of this wfc has a weight above 0, and its scope is left empty: give one a weight", s.span,
-         env.activation);
+    c.budget.note("no tile of this wfc has a weight above 0, and its scope is left empty: give one a weight", s.span,
+                  env.activation);
     return false;
   }
-  const std::span<const SideKind> kinds = sideKinds(program_, s);
+  const std::span<const SideKind> kinds = sideKinds(c.program, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     if (!(weights[i] > 0)) continue;
-    const TileNode& tile = program_.ast.tiles[program_.ast.parts[s.parts.first + i].tile];
+    const TileNode& tile = c.program.ast.tiles[c.program.ast.parts[s.parts.first + i].tile];
     WaveTile stand;
     stand.weight = static_cast<uint32_t>(std::max(1.0, detFloor(weights[i] / heaviest * kFullWeight + 0.5)));
     for (int quarters = 0; quarters < (tile.turns ? 4 : 1); ++quarters) {
@@ -176,26 +182,28 @@ bool Interpreter::waveTiles(const StmtNode& s, const Env& env, StandingTiles& ou
   return true;
 }
 
-void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
+}  // namespace
+
+void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const Vec3 edges = env.scope;
   WaveLattice lattice;
   StandingTiles standing;
-  if (!waveLattice(s, env, lattice) || !waveTiles(s, env, standing)) return;
+  if (!waveLattice(s, c, env, lattice) || !waveTiles(s, c, env, standing)) return;
   // This must not depend on the remaining steps: other contents of the cell, at any level, must not change these tiles.
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
-  const uint64_t most = std::min(kMostVisits * (places + kMostVisits), limits_.steps / kSearchShare);
+  const uint64_t most = std::min(kMostVisits * (places + kMostVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
-  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, limits_.bytes);
+  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
   // Visits are cheap steps: it is better to have no tiles in a hundred scopes than to lose the whole cell.
-  if (!step(result.work / kVisitsOfStep, s.span, env.activation)) return;
-  if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, env);
+  if (!c.budget.step(result.work / kVisitsOfStep, s.span, env.activation)) return;
+  if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, c, env);
   uint64_t number = 0;
   for (uint32_t z = 0; z < lattice.size[2]; ++z) {
     const Stretch along_z = stretchOf(edges.z, lattice.size[2], z);
     for (uint32_t y = 0; y < lattice.size[1]; ++y) {
       const Stretch along_y = stretchOf(edges.y, lattice.size[1], y);
       for (uint32_t x = 0; x < lattice.size[0]; ++x) {
-        if (failed()) return;
+        if (c.budget.failed()) return;
         const Stretch along_x = stretchOf(edges.x, lattice.size[0], x);
         const StandingTiles::Stand& stand = standing.stands[result.tiles[number]];
         const bool across = stand.quarters % 2 != 0;
@@ -204,10 +212,10 @@ void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
         Placement place = env.place.moved({0.5 * (along_x.low + along_x.high), 0.5 * (along_y.low + along_y.high),
                                            0.5 * (along_z.low + along_z.high)});
         if (stand.quarters != 0) place = place.turned({0, 1, 0}, stand.quarters * (kPi / 2));
-        part(s, stand.part, number++, place, scope, env, out);
+        runPart(s, stand.part, number++, place, scope, c, env, out);
       }
     }
   }
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

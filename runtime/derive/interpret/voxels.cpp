@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/leaves.h"
 #include "derive/layout/automaton.h"
 #include "grammar/range/automaton_arguments.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 constexpr uint64_t kUpdatesInStep = 16;  ///< of voxels: each costs far less than an expression
@@ -25,20 +25,20 @@ int32_t solidNeighbours(double threshold, int32_t radius, int axes) {
 
 }  // namespace
 
-void Interpreter::automatonLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out) {
+void addAutomaton(const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out) {
   const auto argument = [&](uint32_t i) {
-    const uint32_t id = boundAt(node, i);
-    return id == kNoId ? primitiveTable()[node.id].params[i].fallback : real(id, env);
+    const uint32_t id = c.evaluator.boundAt(node, i);
+    return id == kNoId ? primitiveTable()[node.id].params[i].fallback : c.evaluator.real(id, env);
   };
   const auto exactly = [](double v) { return Interval{v, v}; };
   const double voxel = argument(0), fill = argument(1), rounds = detFloor(argument(2) + 0.5), threshold = argument(3),
                radius = detFloor(argument(4) + 0.5);
-  const PathKey key = keyOf(Value::number(argument(5)));
-  if (failed() || isWhole(layer_)) return;
-  const int32_t cell = std::max({layer_.cell.x, layer_.cell.y, layer_.cell.z});
+  const PathKey key = c.evaluator.keyOf(Value::number(argument(5)));
+  if (c.budget.failed() || isWhole(c.in.layer)) return;
+  const int32_t cell = std::max({c.in.layer.cell.x, c.in.layer.cell.y, c.in.layer.cell.z});
   if (const auto fault =
           faultOf({exactly(voxel), exactly(fill), exactly(rounds), exactly(threshold), exactly(radius)}, cell)) {
-    return note(fault->message + ": " + fault->hint + "; it is left out", node.span, env.activation);
+    return c.budget.note(fault->message + ": " + fault->hint + "; it is left out", node.span, env.activation);
   }
 
   Automaton automaton;
@@ -50,12 +50,12 @@ void Interpreter::automatonLeaf(const ExprNode& node, uint32_t ordinal, const En
   block.edge = toUnits(voxel);
   Shape shape = shapeIn(env, ShapeKind::voxels);
   VoxelBox box{{0, 0, 0}, {1, 1, 1}};
-  const IntBox own = cellBox(layer_, cell_);
+  const IntBox own = cellBox(c.in.layer, c.in.cell);
   uint64_t updates = static_cast<uint64_t>(automaton.rounds) + 1;
   int axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    automaton.axes[a] = lattice_.hasAxis(axis);
+    automaton.axes[a] = c.in.lattice.hasAxis(axis);
     shape.size[a] = kEndless;
     if (!automaton.axes[a]) continue;
     ++axes;
@@ -65,14 +65,14 @@ void Interpreter::automatonLeaf(const ExprNode& node, uint32_t ordinal, const En
     box.count[axis] = block.count[axis] = static_cast<int32_t>(last - first + 1);
     updates *= static_cast<uint64_t>(box.count[axis] + 2 * automaton.halo());
     // The cell and one voxel around it. Half a unit of an odd edge is rounded up; the margin allows for that.
-    shape.frame.origin[axis] = own.lo[axis] + layer_.cell[axis] / 2;
-    shape.size[a] = static_cast<float>((layer_.cell[axis] + 1) / 2 + block.edge);
+    shape.frame.origin[axis] = own.lo[axis] + c.in.layer.cell[axis] / 2;
+    shape.size[a] = static_cast<float>((c.in.layer.cell[axis] + 1) / 2 + block.edge);
   }
   automaton.least = solidNeighbours(threshold, automaton.radius, axes);
-  if (!step(updates / kUpdatesInStep, node.span, env.activation)) return;
+  if (!c.budget.step(updates / kUpdatesInStep, node.span, env.activation)) return;
   shape.inner_radius = static_cast<float>(block.edge);
-  shape.block = draft_.addVoxels(block, runAutomaton(automaton, box));
-  out.push_back(addShape(shape, ordinal, node.span, env));
+  shape.block = c.draft.addVoxels(block, runAutomaton(automaton, box));
+  out.push_back(c.sink.addShape(shape, ordinal, node.span, env));
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

@@ -1,12 +1,17 @@
-// Choice among a rule's alternatives, and calls.
+#include "derive/interpret/rule_runner.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "derive/draws.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/cell_context.h"
+#include "derive/interpret/overrides.h"
+#include "derive/interpret/statements.h"
 
-namespace sgm {
+namespace sgm::interpret {
 namespace {
 
 constexpr uint32_t kInsteadOrdinal = 0xFFFFFFFEu;  ///< of the call that `depth` or `minsize` makes
@@ -19,28 +24,20 @@ std::vector<Value> frameOf(const Alternative& alternative, const std::vector<Val
 
 }  // namespace
 
-void Interpreter::call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out) {
-  if (failed() || id == kNoId) return;
-  const ExprNode& node = program_.expr(id);
-  if (!step(1, node.span, env.activation)) return;
-  if (node.ref == Ref::rule) {
-    callRule(node.id, node, ordinal, env, out);
-  } else if (node.ref == Ref::primitive) {
-    primitive(static_cast<Primitive>(node.id), node, ordinal, env, out);
-  }
-}
+RuleRunner::RuleRunner(CellContext& context, RuleWatch* watch)
+    : c_(context), watch_(watch), active_(context.program.rules.size()) {}
 
-bool Interpreter::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
+bool RuleRunner::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
   if (alternative.guard != Guard::when) return true;
   // Conditions in a head depend only on the arguments: no frame is created for them.
   env.slots = &arguments;
-  const bool holds = evaluate(alternative.when, env).truth();
+  const bool holds = c_.evaluator.evaluate(alternative.when, env).truth();
   env.slots = nullptr;
   return holds;
 }
 
-const Alternative* Interpreter::choose(const std::vector<const Alternative*>& from, Env& env,
-                                       std::vector<Value>& arguments, uint64_t draw) {
+const Alternative* RuleRunner::choose(const std::vector<const Alternative*>& from, Env& env,
+                                      std::vector<Value>& arguments, uint64_t draw) {
   std::vector<const Alternative*> passing;
   for (const Alternative* a : from) {
     if (a->guard != Guard::otherwise && passes(*a, env, arguments)) passing.push_back(a);
@@ -57,7 +54,7 @@ const Alternative* Interpreter::choose(const std::vector<const Alternative*>& fr
     double weight = 1;
     if (a->weight != kNoId) {
       env.slots = &arguments;
-      weight = real(a->weight, env);
+      weight = c_.evaluator.real(a->weight, env);
       env.slots = nullptr;
     }
     weights.push_back(weight > 0 && std::isfinite(weight) ? weight : 0.0);
@@ -74,15 +71,17 @@ const Alternative* Interpreter::choose(const std::vector<const Alternative*>& fr
   return last;
 }
 
-void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out) {
-  const Rule& rule = program_.rules[index];
+void RuleRunner::call(uint32_t index, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out) {
+  const Rule& rule = c_.program.rules[index];
   std::vector<Value> arguments;
-  for (uint32_t i = 0; i < node.bound.count; ++i) arguments.push_back(evaluate(boundAt(node, i), env));
-  if (failed()) return;
-  if (!withinBytes(node.span, env.activation)) return;
-  if (depth_ >= limits_.depth) {
-    fail("rules are nested more than " + std::to_string(limits_.depth) + " deep (give them a smaller `depth`)",
-         node.span, env.activation);
+  for (uint32_t i = 0; i < node.bound.count; ++i)
+    arguments.push_back(c_.evaluator.evaluate(c_.evaluator.boundAt(node, i), env));
+  if (c_.budget.failed()) return;
+  if (!c_.budget.withinBytes(node.span, env.activation)) return;
+  if (depth_ >= c_.in.limits.depth) {
+    c_.budget.fail(
+        "rules are nested more than " + std::to_string(c_.in.limits.depth) + " deep (give them a smaller `depth`)",
+        node.span, env.activation);
     return;
   }
   Activation activation;
@@ -90,37 +89,28 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   activation.qualifier = node.qualifier;
   activation.parent = env.activation;
   activation.start = env.place;
-  if (env.activation != kNone) {
-    std::vector<uint32_t>& counts = activations_[env.activation].child_counts;
-    size_t at = 0;
-    while (at < counts.size() && counts[at] != index) at += 2;
-    if (at == counts.size()) counts.insert(counts.end(), {index, 0});
-    activation.index = counts[at + 1]++;
-  }
+  if (env.activation != kNone) activation.index = c_.activations.countChild(env.activation, index);
   Env inner = env;
   inner.key = env.key.child(rule.name_hash, ordinal);
-  inner.activation = static_cast<uint32_t>(activations_.size());
+  inner.activation = c_.activations.add(std::move(activation));
   inner.slots = nullptr;
   inner.cut_detail = 0;
   inner.top = env.activation == kNone;
-  activations_.push_back(std::move(activation));
 
-  const size_t before = out.size(), cuts_before = layer_cuts_.size(), anchors_before = anchors_.size();
-  const size_t watched = watched_.size();
-  if (index == watched_rule_) watched_.push_back({inner.activation, {}, {}, anchors_before, anchors_before});
+  const bool watched = watch_ != nullptr && watch_->watches(index);
+  const size_t before = out.size(), cuts_before = c_.sink.layerCuts().size();
+  const size_t number = watched ? watch_->begin(inner.activation, c_.sink.anchors().size()) : 0;
 
-  const std::vector<uint32_t> edits = enterPaths(inner.activation);
-  if (!step(edits.size(), node.span, env.activation)) return;
-  use({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), inner, out);
-  if (index != watched_rule_) return;
+  const std::vector<uint32_t> edits = c_.path_overrides.enter(inner.activation);
+  if (!c_.budget.step(edits.size(), node.span, env.activation)) return;
+  runUnderEdits({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), c_, inner, out);
+  if (!watched) return;
   // A rule's block appends to the shapes before its call and does not change them.
-  WatchedCall& call = watched_[watched];
-  call.shapes.assign(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
-  call.layer_cuts.assign(layer_cuts_.begin() + static_cast<std::ptrdiff_t>(cuts_before), layer_cuts_.end());
-  call.end_anchor = anchors_.size();
+  const ShapeList& cuts = c_.sink.layerCuts();
+  watch_->end(number, std::span(out).subspan(before), std::span(cuts).subspan(cuts_before), c_.sink.anchors().size());
 }
 
-void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
+void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
   // Alternatives with `lod` coexist with those without; each set is for its own range of levels.
   std::vector<const Alternative*> plain;
   std::vector<std::pair<int32_t, std::vector<const Alternative*>>> coarse;
@@ -130,7 +120,7 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
       continue;
     }
     env.slots = &arguments;
-    const int32_t from = std::max(1, toUnits(real(a.lod, env)));
+    const int32_t from = std::max(1, toUnits(c_.evaluator.real(a.lod, env)));
     env.slots = nullptr;
     auto at = std::find_if(coarse.begin(), coarse.end(), [&](const auto& entry) { return entry.first == from; });
     if (at == coarse.end()) at = coarse.insert(coarse.end(), {from, {}});
@@ -139,11 +129,11 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
   std::sort(coarse.begin(), coarse.end(), [](const auto& l, const auto& r) { return l.first < r.first; });
 
   const auto run = [&](const Alternative* chosen, int32_t coarsest, int32_t detail_edge) {
-    if (chosen == nullptr || failed() || skips(detail_edge, env)) return;
-    const size_t first = out.size(), first_cut = layer_cuts_.size();
+    if (chosen == nullptr || c_.budget.failed() || c_.skips(detail_edge, env)) return;
+    const size_t first = out.size(), first_cut = c_.sink.layerCuts().size();
     derive(rule, *chosen, env, arguments, out);
-    limitLevels(out, first, coarsest, detail_edge);
-    limitLevels(layer_cuts_, first_cut, coarsest, detail_edge);
+    c_.sink.limitLevels(out, first, coarsest, detail_edge);
+    c_.sink.limitLevels(c_.sink.layerCuts(), first_cut, coarsest, detail_edge);
   };
   run(choose(plain, env, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
   // Gameplay points are the same at every level: only one set may emit them.
@@ -155,38 +145,38 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
   }
 }
 
-void Interpreter::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
-                         ShapeList& out) {
+void RuleRunner::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
+                        ShapeList& out) {
   // The cost of a frame with many slots is that of filling it.
-  if (!step(chosen.slot_count, chosen.span, env.activation)) return;
+  if (!c_.budget.step(chosen.slot_count, chosen.span, env.activation)) return;
   std::vector<Value> slots = frameOf(chosen, arguments);
   Env inner = env;
   inner.slots = &slots;
-  const uint32_t index = activations_[env.activation].rule;
+  const uint32_t index = c_.activations[env.activation].rule;
   const auto count = [&] { return static_cast<double>(active_[index]); };
   const Nested deeper(depth_);
-  if (chosen.depth != kNoId && count() >= real(chosen.depth, inner)) {
-    call(chosen.depth_call, kInsteadOrdinal, inner, out);
+  if (chosen.depth != kNoId && count() >= c_.evaluator.real(chosen.depth, inner)) {
+    runCall(chosen.depth_call, kInsteadOrdinal, c_, inner, out);
     return;
   }
   if (chosen.minsize != kNoId) {
     const Vec3 edges = inner.scope;
     const double size =
         chosen.size_slot < slots.size() ? slots[chosen.size_slot].real() : std::max({edges.x, edges.y, edges.z});
-    if (size * inner.place.scale < real(chosen.minsize, inner)) {
-      call(chosen.minsize_call, kInsteadOrdinal, inner, out);
+    if (size * inner.place.scale < c_.evaluator.real(chosen.minsize, inner)) {
+      runCall(chosen.minsize_call, kInsteadOrdinal, c_, inner, out);
       return;
     }
   }
   const Nested active(active_[index]);
   // A morphic rule must produce one node; others produce all shapes of their block.
   const size_t first = out.size();
-  statement(chosen.body, inner, out);
+  runStatement(chosen.body, c_, inner, out);
   if (rule.morphic && out.size() > first + 1) {
     const ShapeList parts(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
     out.resize(first);
-    out.push_back(united(parts, program_.stmt(chosen.body), inner));
+    out.push_back(c_.sink.unite(parts, c_.program.stmt(chosen.body), inner));
   }
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

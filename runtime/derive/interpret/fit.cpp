@@ -1,42 +1,23 @@
 // Assets in scopes: the statement fit. The box of its scope is centred on its origin.
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "asset/convex_cover.h"
-#include "asset/fit.h"
 #include "base/math.h"
-#include "derive/interpret/interpreter.h"
+#include "derive/interpret/statements.h"
 
-namespace sgm {
-
-/// The convex pieces of an asset in one size, or the reason why there are none.
-struct FittedAsset {
-  std::vector<asset::ConvexPiece> pieces;
-  std::string trouble;
-};
-
+namespace sgm::interpret {
 namespace {
 
-/// The cost of fitting a triangle of an asset, in steps of the cell.
-constexpr uint64_t kStepsATriangle = 64;
 /// Units by which the box around an asset is larger: its faces must make the surface, never the box's.
 constexpr double kBoxMargin = 2;
 constexpr double kUnitsOfMetre = kUnitsPerMetre;
 
 Vec3 vecOf(asset::Point p) { return {p.x, p.y, p.z}; }
-
-FittedAsset cover(const asset::Polyhedron& body) {
-  FittedAsset out;
-  Result<std::vector<asset::ConvexPiece>> pieces = asset::coverWithPieces(body);
-  if (pieces)
-    out.pieces = std::move(*pieces);
-  else
-    out.trouble = "in this size " + pieces.error().message;
-  return out;
-}
 
 /// At the foot of `from` on the plane, y pointing out of it; if the plane is vertical, x is horizontal and z points
 /// down, for textures.
@@ -79,53 +60,31 @@ Frame frameOn(const Placement& place) {
 
 }  // namespace
 
-const FittedAsset& Interpreter::fittedAsset(const FitNode& node, const Env& env, const Span& span) {
-  const asset::Point size{env.scope.x, env.scope.y, env.scope.z};
-  std::vector<asset::FitZone> zones;
-  std::vector<uint64_t> key{node.asset};
-  for (int axis = 0; axis < 3; ++axis) key.push_back(std::bit_cast<uint64_t>(size[axis]));
-  for (uint32_t i = 0; i < node.zones.count; ++i) {
-    const FitZoneNode& zone = program_.ast.fit_zones[node.zones.first + i];
-    zones.push_back({zone.axis, zone.repeats, real(zone.from, env), real(zone.to, env)});
-    key.push_back(uint64_t{zone.axis} << 1 | (zone.repeats ? 1 : 0));
-    key.push_back(std::bit_cast<uint64_t>(zones.back().from));
-    key.push_back(std::bit_cast<uint64_t>(zones.back().to));
-  }
-  std::shared_ptr<const FittedAsset>& known = fitted_[std::move(key)];
-  if (known == nullptr) {
-    const asset::Polyhedron& solid = *program_.assets[node.asset].solid;
-    FittedAsset fresh;
-    if (step(kStepsATriangle * solid.triangles.size(), span, env.activation)) {
-      const Result<asset::Polyhedron> body = asset::fitInto(solid, size, zones);
-      if (!body)
-        fresh.trouble = body.error().message;
-      else if (step(kStepsATriangle * body->triangles.size(), span, env.activation))
-        fresh = cover(*body);
-    }
-    known = std::make_shared<const FittedAsset>(std::move(fresh));
-  }
-  return *known;
-}
-
-void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
-  const FitNode& node = program_.ast.fits[s.extra];
+void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
+  const FitNode& node = c.program.ast.fits[s.extra];
   for (int axis = 0; axis < 3; ++axis) {
     if (env.scope[axis] > 0 && std::isfinite(env.scope[axis])) continue;
     const std::string letter(1, "xyz"[axis]);
-    return note("this scope has no size along " + letter + ", so nothing fits into it: give it one, such as size(" +
-                    letter + " 3m)",
-                s.span, env.activation);
+    return c.budget.note("this scope has no size along " + letter +
+                             ", so nothing fits into it: give it one, such as size(" + letter + " 3m)",
+                         s.span, env.activation);
   }
-  const FittedAsset& body = fittedAsset(node, env, s.span);
-  if (failed()) return;
-  if (!body.trouble.empty()) return note(body.trouble + "; it is left out", s.span, env.activation);
-  const Asset& from = program_.assets[node.asset];
+  std::vector<asset::FitZone> zones;
+  for (uint32_t i = 0; i < node.zones.count; ++i) {
+    const FitZoneNode& zone = c.program.ast.fit_zones[node.zones.first + i];
+    zones.push_back({zone.axis, zone.repeats, c.evaluator.real(zone.from, env), c.evaluator.real(zone.to, env)});
+  }
+  const asset::Point size{env.scope.x, env.scope.y, env.scope.z};
+  const FittedAsset& body = c.assets.fit(node.asset, size, zones, s.span, env.activation, c.budget);
+  if (c.budget.failed()) return;
+  if (!body.trouble.empty()) return c.budget.note(body.trouble + "; it is left out", s.span, env.activation);
+  const Asset& from = c.program.assets[node.asset];
   const Vec3 corner = -0.5 * env.scope;
   // Pieces that lie behind one face share its half-space, and therefore the texture.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
   ShapeList pieces;
   for (const asset::ConvexPiece& piece : body.pieces) {
-    if (!step(piece.size(), s.span, env.activation)) return;
+    if (!c.budget.step(piece.size(), s.span, env.activation)) return;
     ShapeList planes;
     for (const asset::PieceSide& side : piece) {
       const auto [known, fresh] = sides.try_emplace({side.number, side.material}, 0u);
@@ -134,13 +93,14 @@ void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
         plane.frame = frameOn(onPlane(env.place, side.plane, corner));
         const uint16_t material = side.material == asset::kNoMaterial ? uint16_t{0} : from.materials[side.material];
         if (material != 0 && env.forced_material == 0) plane.material = material;
-        known->second = addShape(plane, s.ordinal, s.span, env);
+        known->second = c.sink.addShape(plane, s.ordinal, s.span, env);
       }
       planes.push_back(known->second);
     }
-    pieces.push_back(planes.size() == 1 ? planes[0]
-                                        : addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, planes));
-    if (failed()) return;
+    pieces.push_back(planes.size() == 1
+                         ? planes[0]
+                         : c.sink.addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, planes));
+    if (c.budget.failed()) return;
   }
   // Inclined planes have no bounds of their own.
   Shape box = shapeIn(env, ShapeKind::box);
@@ -152,10 +112,10 @@ void Interpreter::fit(const StmtNode& s, const Env& env, ShapeList& out) {
     box.size[static_cast<size_t>(axis)] = static_cast<float>(half + kBoxMargin);
   }
   box.inner_radius = static_cast<float>(inner);
-  const uint32_t bound = addShape(box, s.ordinal, s.span, env);
+  const uint32_t bound = c.sink.addShape(box, s.ordinal, s.span, env);
   const uint32_t whole =
-      pieces.size() == 1 ? pieces[0] : addShape(shapeIn(env, ShapeKind::unite), s.ordinal, s.span, env, pieces);
-  out.push_back(addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, {whole, bound}));
+      pieces.size() == 1 ? pieces[0] : c.sink.addShape(shapeIn(env, ShapeKind::unite), s.ordinal, s.span, env, pieces);
+  out.push_back(c.sink.addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, {whole, bound}));
 }
 
-}  // namespace sgm
+}  // namespace sgm::interpret

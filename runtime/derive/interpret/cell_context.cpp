@@ -1,0 +1,19 @@
+#include "derive/interpret/cell_context.h"
+
+namespace sgm::interpret {
+
+// An override's path counts all activations of a rule, including those in shapes that would be left out.
+CellContext::CellContext(const CellInputs& inputs, const CellOptions& options, std::pmr::memory_resource* memory)
+    : in(inputs),
+      program(in.program),
+      activations(in),
+      path_overrides(in, activations),
+      coarse_edge(path_overrides.isEmpty() ? options.coarse_edge : 0),
+      draft(memory),
+      budget(in, activations, draft),
+      sink(in, draft, budget),
+      evaluator(in, activations, draft, budget),
+      assets(program),
+      rules(*this, options.watch) {}
+
+}  // namespace sgm::interpret

@@ -1,0 +1,72 @@
+#pragma once
+// Expressions. One evaluator for both stages: a number is a constant, or a node of the field that Draft folds and
+// shares. evaluate.cpp: operators and names. functions.cpp: the functions of the language.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "derive/draft.h"
+#include "derive/interpret/activations.h"
+#include "derive/interpret/budget.h"
+#include "derive/interpret/cell_inputs.h"
+#include "derive/interpret/env.h"
+#include "derive/interpret/value.h"
+#include "derive/layout/plan.h"
+#include "derive/layout/skeleton.h"
+
+namespace sgm::interpret {
+
+/// The lists to which values refer, of segments and of pieces of plans, and the set of parameters that were read.
+class Evaluator {
+ public:
+  Evaluator(const CellInputs& in, const Activations& activations, Draft& draft, Budget& budget)
+      : in_(in), program_(in.program), activations_(activations), draft_(draft), budget_(budget) {}
+
+  /// Returns zeros if the cell has failed, or fails in the expression.
+  Value evaluate(ExprId id, const Env& env);
+  double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
+
+  /// The argument of a call at an index of its bound arguments; kNoId if there is none.
+  ExprId boundAt(const ExprNode& node, uint32_t index) const;
+  /// The key of draws that depend on a value.
+  PathKey keyOf(const Value& value) const;
+
+  const Segment& segment(uint32_t i) const { return segments_[i]; }
+  const PlanPiece& piece(uint32_t i) const { return pieces_[i]; }
+  uint32_t pieceCount() const { return static_cast<uint32_t>(pieces_.size()); }
+  /// References to other pieces become invalid.
+  void addPiece(PlanPiece piece);
+
+  /// As in GrammarChunk::parameters.
+  uint64_t parametersRead() const { return parameters_read_; }
+
+ private:
+  Value evaluateBinary(const ExprNode& node, const Env& env);
+  Value evaluateName(const ExprNode& node, const Env& env);
+  Value evaluateMember(const ExprNode& node, const Env& env);
+  Value evaluateCall(const ExprNode& node, const Env& env);
+  Value evaluateBuiltin(const ExprNode& node, const Env& env);
+  Value evaluatePure(const ExprNode& node, const Env& env);      ///< arithmetic
+  Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
+  Value evaluateCellular(const ExprNode& node, const Env& env);  ///< cells, faces, noise
+  Value evaluateBranch(const ExprNode& node, const Env& env);
+  Value evaluateQuery(const ExprNode& node, const Env& env);
+  Value evaluateLet(const ExprNode& node, const Env& env);
+  Value evaluateField(const ExprNode& node, const Env& env);
+  Value sampleCoordinates(const Env& env, bool local);
+  Value pointValue(Int3 units_from_cell, const Env& env) const;
+  Value argument(const ExprNode& node, uint32_t index, const Env& env);
+  double realArgument(const ExprNode& node, uint32_t index, const Env& env);
+
+  const CellInputs& in_;
+  const Program& program_;
+  const Activations& activations_;
+  Draft& draft_;
+  Budget& budget_;
+  std::vector<Segment> segments_;  ///< of all skeletons
+  std::vector<PlanPiece> pieces_;  ///< of all footprints
+  uint64_t parameters_read_ = 0;
+};
+
+}  // namespace sgm::interpret

@@ -1,0 +1,22 @@
+#pragma once
+// Terminals of the grammar to leaves.
+
+#include <cstdint>
+#include <initializer_list>
+
+#include "derive/interpret/cell_context.h"
+#include "derive/interpret/env.h"
+
+namespace sgm::interpret {
+
+/// Derives a call of a primitive; a leaf with impossible sizes is left out, with a note. node: the call.
+void addPrimitive(Primitive kind, const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env,
+                  ShapeList& out);
+
+/// The primitive `ca`: the voxels of a cellular automaton in the whole cell (voxels.cpp).
+void addAutomaton(const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out);
+
+/// The exponent of a superquadric: 2 at squareness 0, kMaxPower at 1.
+double exponentOfSquare(double square);
+
+}  // namespace sgm::interpret
