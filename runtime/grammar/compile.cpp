@@ -7,6 +7,7 @@
 #include "grammar/check/warnings.h"
 #include "grammar/check_file.h"
 #include "grammar/parse/imports.h"
+#include "grammar/parse/parse_module.h"
 #include "grammar/print/printer.h"
 #include "grammar/text/codes.h"
 
@@ -116,7 +117,7 @@ FormatResult formatGrammar(std::string_view text, std::string_view path, const C
   if (fits(text, limits, sink)) {
     const std::shared_ptr<Program> program = newProgram(text, path, std::pmr::get_default_resource());
     NameTable names(program->ast);
-    const ModuleSyntax syntax = Parser(*program, names, 0, limits, sink).run();
+    const ModuleSyntax syntax = parseModule(*program, names, 0, limits, sink);
     if (sink.errorCount() == 0) result.text = printModule(*program, syntax);
   }
   result.diagnostics = sink.take();

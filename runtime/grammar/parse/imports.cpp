@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "grammar/parse/assets.h"
+#include "grammar/parse/parse_module.h"
 #include "grammar/std/std_library.h"
 #include "grammar/text/codes.h"
 
@@ -46,7 +47,7 @@ class Loader {
   }
 
  private:
-  void parse(uint32_t module) { syntax_.push_back(Parser(program_, names_, module, options_.limits, sink_).run()); }
+  void parse(uint32_t module) { syntax_.push_back(parseModule(program_, names_, module, options_.limits, sink_)); }
 
   bool pathIsGood(const ImportDecl& import) {
     const std::string complaint = importPathComplaint(program_.text(import.path));

@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "grammar/parse/parser.h"
+#include "grammar/syntax/name_table.h"
+#include "grammar/syntax/program.h"
+#include "grammar/syntax/syntax.h"
 #include "grammar/text/limits.h"
 #include "grammar/text/sink.h"
 

@@ -1,0 +1,67 @@
+#pragma once
+// Statements. Each function parses one kind of statement with its end and adds it: kNoId after an error.
+
+#include <string_view>
+
+#include "grammar/parse/parse_context.h"
+
+namespace sgm::parse {
+
+// parse_statements.cpp
+
+/// Any statement, by its first token.
+StmtId parseStatement(ParseContext& in);
+/// Statements in braces.
+StmtId parseBlock(ParseContext& in);
+/// A block, or one statement; `word` stands for what it belongs to in messages.
+StmtId parseBody(ParseContext& in, std::string_view word);
+/// A block, or a call without ';'.
+StmtId parseMorphOperand(ParseContext& in);
+/// [ lerp | power ]: whether a morph is by exponent.
+bool parseMorphPower(TokenStream& tokens);
+
+StmtId parseCall(ParseContext& in);
+StmtId parseUnion(ParseContext& in);
+StmtId parseCut(ParseContext& in);
+StmtId parseMeet(ParseContext& in);
+StmtId parseSum(ParseContext& in);
+StmtId parseMorph(ParseContext& in);
+StmtId parseLet(ParseContext& in);
+StmtId parseField(ParseContext& in);
+StmtId parseMaterial(ParseContext& in);
+StmtId parseTag(ParseContext& in);
+StmtId parseAnchor(ParseContext& in);
+StmtId parseDetail(ParseContext& in);
+
+// parse_transforms.cpp
+
+/// Whether the current token starts a transform.
+bool isAtTransform(const TokenStream& tokens);
+StmtId parseTransform(ParseContext& in);
+StmtId parseRepeat(ParseContext& in);
+StmtId parseFor(ParseContext& in);
+StmtId parseScatter(ParseContext& in);
+StmtId parseDisplace(ParseContext& in);
+StmtId parseWarp(ParseContext& in);
+
+// parse_split.cpp, parse_treemap.cpp, parse_wfc.cpp
+
+StmtId parseSplit(ParseContext& in);
+StmtId parseSnap(ParseContext& in);
+StmtId parseComp(ParseContext& in);
+StmtId parseTreemap(ParseContext& in);
+/// Of a treemap.
+StmtId parseLink(ParseContext& in);
+StmtId parseWfc(ParseContext& in);
+/// Of a wfc.
+StmtId parseBorder(ParseContext& in);
+
+// parse_profiles.cpp, parse_fit.cpp, parse_overrides.cpp
+
+StmtId parseFootprint(ParseContext& in);
+StmtId parseExtrude(ParseContext& in);
+StmtId parseRoof(ParseContext& in);
+StmtId parseFit(ParseContext& in);
+StmtId parseInner(ParseContext& in);
+
+}  // namespace sgm::parse
