@@ -6,7 +6,7 @@
 
 namespace sgm::parse {
 
-NameId wordName(ParseContext& in, std::string_view of_what) {
+NameId parseName(ParseContext& in, std::string_view of_what) {
   if (!in.tokens.at(Tok::word)) {
     in.tokens.failExpecting(of_what);
     return kNoId;
@@ -14,7 +14,7 @@ NameId wordName(ParseContext& in, std::string_view of_what) {
   return in.build.addName(in.tokens.textOf(in.tokens.take()));
 }
 
-NameId textName(ParseContext& in, std::string_view of_what) {
+NameId parseText(ParseContext& in, std::string_view of_what) {
   if (!in.tokens.at(Tok::text)) {
     in.tokens.failExpecting(of_what);
     return kNoId;
@@ -22,7 +22,7 @@ NameId textName(ParseContext& in, std::string_view of_what) {
   return in.build.addName(textContent(in.tokens.textOf(in.tokens.take())));
 }
 
-NameId declaredName(ParseContext& in, std::string_view of_what) {
+NameId parseNewName(ParseContext& in, std::string_view of_what) {
   const Token& token = in.tokens.peek();
   if (token.kind == Tok::word && (token.keyword || token.unavailable)) {
     const std::string_view word = in.tokens.textOf(token);
@@ -31,7 +31,7 @@ NameId declaredName(ParseContext& in, std::string_view of_what) {
                    join({"choose another name, such as `", word, "_`"}));
     return kNoId;
   }
-  return wordName(in, of_what);
+  return parseName(in, of_what);
 }
 
 void recover(ParseContext& in, Level level, size_t first) {

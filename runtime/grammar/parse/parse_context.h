@@ -1,9 +1,9 @@
 #pragma once
-// What the functions of the parser share while they parse one file, and what most of them need: names, recovery.
+// The state that the functions of the parser share while they parse one file; names; recovery after errors.
 //
-// Each function parses one construct from the current token on, and adds it to the tree. After an error it returns as
-// it can, with kNoId for what it lacks: the stream has panicked then, and a loop over statements or declarations
-// recovers.
+// Each function parses one construct from the current token on and adds it to the tree. After an error the stream
+// panics, so that the functions return soon, with kNoId for missing parts; the innermost loop over statements, parts or
+// declarations recovers.
 
 #include <cstdint>
 #include <map>
@@ -18,6 +18,7 @@
 
 namespace sgm::parse {
 
+/// The tokens of a file, the tree and the declarations so far, and the constructs around the current token.
 struct ParseContext {
   TokenStream& tokens;
   AstBuilder& build;
@@ -29,16 +30,16 @@ struct ParseContext {
   uint32_t joined = 0;                 ///< blocks of `meet` and `sum` around
 };
 
-/// Parse one word, or a text in quotes, and add it to the names. `of_what` stands for it in messages.
-NameId wordName(ParseContext& in, std::string_view of_what);
-NameId textName(ParseContext& in, std::string_view of_what);
-/// The same for a new name: no word of the language.
-NameId declaredName(ParseContext& in, std::string_view of_what);
+/// Parse one word, or a text in quotes, and return its id; kNoId after an error, whose message calls it `of_what`.
+NameId parseName(ParseContext& in, std::string_view of_what);
+NameId parseText(ParseContext& in, std::string_view of_what);
+/// The same for a new name, which must not be a word of the language.
+NameId parseNewName(ParseContext& in, std::string_view of_what);
 
-/// Continues after an error, behind the part that begins with the token `first`.
+/// Ends the panic: parsing continues behind the part that begins with the token `first` and holds the error.
 void recover(ParseContext& in, Level level, size_t first);
 
-/// Parses by `parse_one()` what stands within braces, up to the '}' or the end of the text; recovers after errors.
+/// Calls `parse_one()` for each statement or part before the '}', or before the end of the text; recovers after errors.
 template <typename ParseOne>
 void parseUntilBrace(ParseContext& in, const ParseOne& parse_one) {
   TokenStream& tokens = in.tokens;

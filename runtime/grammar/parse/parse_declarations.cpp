@@ -13,10 +13,11 @@ namespace sgm::parse {
 
 namespace {
 
+/// How a kind of declaration is written.
 struct DeclarationForm {
-  std::string_view word;  ///< that starts it
+  std::string_view word;  ///< the word that starts it
   void (*declare)(ParseContext&);
-  bool may_bound;  ///< if it is lost in an error, what bounds the rest may be lost
+  bool may_bound;  ///< an error in it may hide a bound of the shapes of others
 };
 
 constexpr std::array<DeclarationForm, 14> kForms = {{
@@ -36,7 +37,7 @@ constexpr std::array<DeclarationForm, 14> kForms = {{
     {"expect", declareExpectation, true},
 }};
 
-/// Reports what stands in the place of a declaration.
+/// Fails, since no declaration starts with the current token.
 void failAtUnknown(TokenStream& tokens) {
   if (tokens.failIfUnavailable()) return;
   if (tokens.at(Tok::close_brace)) {
@@ -85,7 +86,7 @@ IdRange parseFormals(ParseContext& in) {
   while (!tokens.at(Tok::close_paren) && !tokens.hasFailed()) {
     FormalNode formal;
     const Span begin = tokens.here();
-    formal.name = declaredName(in, "the name of a parameter");
+    formal.name = parseNewName(in, "the name of a parameter");
     formal.slot = static_cast<uint32_t>(list.size());
     if (tokens.accept(Tok::assign)) formal.fallback = parseExpression(in);
     if (tokens.acceptWord("in")) {
@@ -110,10 +111,10 @@ void declareImport(ParseContext& in) {
   const Span begin = tokens.last();
   ImportDecl import;
   import.path_span = tokens.here();
-  import.path = textName(in, "the path of a file in quotes");
+  import.path = parseText(in, "the path of a file in quotes");
   tokens.expectWord("as");
   import.alias_span = tokens.here();
-  import.alias = declaredName(in, "the name of an import");
+  import.alias = parseNewName(in, "the name of an import");
   tokens.expect(Tok::semicolon, "`;`");
   declare(in, ItemKind::import, begin, in.syntax.imports, import);
 }
@@ -122,7 +123,7 @@ void declareUnits(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   const Span begin = tokens.last();
   const Span word = tokens.here();
-  const NameId unit = wordName(in, "a unit of length");
+  const NameId unit = parseName(in, "a unit of length");
   const std::string_view text = in.program.text(unit);
   if (text != "m" && text != "cm" && text != "mm" && text != "km")
     tokens.fail(word, codes::kUnknownUnit, join({"unknown unit of length `", text, "`"}), "units are m, cm, mm and km");
@@ -141,7 +142,7 @@ void declareParam(ParseContext& in) {
   Param param;
   param.module = in.syntax.module;
   param.span = tokens.here();
-  param.name = declaredName(in, "the name of a parameter");
+  param.name = parseNewName(in, "the name of a parameter");
   tokens.expect(Tok::assign, "`=`");
   param.value_expr = parseExpression(in);
   if (tokens.acceptWord("in")) {
@@ -151,7 +152,7 @@ void declareParam(ParseContext& in) {
     param.has_range = true;
   }
   param.animated = tokens.acceptWord("animated");
-  if (tokens.at(Tok::text)) param.doc = textName(in, "a text");
+  if (tokens.at(Tok::text)) param.doc = parseText(in, "a text");
   tokens.expect(Tok::semicolon, "`;`");
   declare(in, ItemKind::param, begin, in.program.params, param);
 }
@@ -179,7 +180,7 @@ void declareLet(ParseContext& in) {
   Let let;
   let.module = in.syntax.module;
   let.span = tokens.here();
-  let.name = declaredName(in, "a name");
+  let.name = parseNewName(in, "a name");
   let.function = tokens.at(Tok::open_paren);
   let.formals = parseFormals(in);
   let.slot_count = let.formals.count;
@@ -195,7 +196,7 @@ uint32_t addField(ParseContext& in, bool local) {
   field.module = in.syntax.module;
   field.local = local;
   field.span = tokens.here();
-  field.name = declaredName(in, "the name of a field");
+  field.name = parseNewName(in, "the name of a field");
   field.formals = parseFormals(in);
   field.slot_count = field.formals.count;
   tokens.expect(Tok::assign, "`=`");

@@ -8,7 +8,7 @@
 
 namespace sgm::parse {
 
-/// Any declaration, by its first word; recovers after errors.
+/// Parses any declaration, by its first word; recovers after errors.
 void parseDeclaration(ParseContext& in);
 
 // parse_declarations.cpp
@@ -29,7 +29,8 @@ void declare(ParseContext& in, ItemKind kind, const Span& begin, Table& table, V
 
 /// [ ( NAME [= DEFAULT] [in LOW..HIGH], ... ) ]
 IdRange parseFormals(ParseContext& in);
-/// NAME [FORMALS] = EXPR; of a field: its index in Program::fields, or kNoId after an error. local: in a rule.
+/// NAME [FORMALS] = EXPR; behind `field`. Returns its index in Program::fields, or kNoId after an error. local: in a
+/// rule.
 uint32_t addField(ParseContext& in, bool local);
 
 void declareImport(ParseContext& in);

@@ -41,7 +41,7 @@ void parseFilling(ParseContext& in, DomainDecl& domain) {
   tokens.take();
   const bool clause = tokens.atWord("output") || tokens.atWord("axes") || tokens.atWord("box") ||
                       tokens.atWord("solid") || tokens.atWord("empty");
-  if (domain.solid && tokens.at(Tok::word) && !clause) domain.material = declaredName(in, "a material");
+  if (domain.solid && tokens.at(Tok::word) && !clause) domain.material = parseNewName(in, "a material");
 }
 
 void parseBox(ParseContext& in, DomainDecl& domain) {
@@ -95,7 +95,7 @@ void declareLayer(ParseContext& in) {
   const Span begin = tokens.last();
   LayerDecl layer;
   layer.span = tokens.here();
-  layer.name = declaredName(in, "the name of a layer");
+  layer.name = parseNewName(in, "the name of a layer");
   tokens.expectWord("cell");
   layer.cell = parseExpression(in);
   tokens.expectWord("reach");
@@ -104,7 +104,7 @@ void declareLayer(ParseContext& in) {
   if (tokens.acceptWord("uses")) {
     do {
       const Span place = tokens.here();
-      layer.uses.push_back({wordName(in, "the name of a layer"), place});
+      layer.uses.push_back({parseName(in, "the name of a layer"), place});
     } while (tokens.accept(Tok::comma));
   }
   layer.span = tokens.since(layer.span);

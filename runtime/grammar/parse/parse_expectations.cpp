@@ -1,4 +1,4 @@
-// What a grammar says of its own world: report and expect.
+// The statements of a grammar about its own world: report and expect.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ void parseCondition(ParseContext& in, Expectation& e) {
   TokenStream& tokens = in.tokens;
   if (tokens.accept(Tok::open_paren)) {
     if (!tokens.atWord("air") && !tokens.atWord("solid")) tokens.failExpecting("`air` or `solid`");
-    e.of = wordName(in, "`air` or `solid`");
+    e.of = parseName(in, "`air` or `solid`");
     if (tokens.acceptWord("above")) e.above = parseExpression(in);
     tokens.expect(Tok::close_paren, "`)`");
   }
@@ -72,7 +72,7 @@ void parseScope(ParseContext& in, Expectation& e) {
   const bool twice = tokens.atWord("per") ? e.per_name != kNoId : block ? e.block != 0 : e.low != kNoId;
   if (twice) return tokens.fail(tokens.here(), codes::kDuplicate, "this stands here twice", kRemoveOne);
   if (tokens.acceptWord("per")) {
-    e.per_name = wordName(in, "the name of a rule");
+    e.per_name = parseName(in, "the name of a rule");
     return;
   }
   tokens.take();

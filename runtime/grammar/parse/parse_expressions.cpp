@@ -96,7 +96,7 @@ ExprId parseQuery(ParseContext& in) {
     node.children = in.build.addIds({radius});
   }
   tokens.expectWord("of");
-  node.name = wordName(in, "the name of a layer");
+  node.name = parseName(in, "the name of a layer");
   return tokens.hasFailed() ? kNoId : in.build.addExpr(node, begin);
 }
 
@@ -148,7 +148,7 @@ ExprId parsePrimary(ParseContext& in) {
     case Tok::text:
       node.kind = ExprKind::text;
       node.type.kind = ValueKind::text;
-      node.name = textName(in, "a text");
+      node.name = parseText(in, "a text");
       return in.build.addExpr(node, begin);
     case Tok::open_paren:
       return parseParenthesised(in);
@@ -169,7 +169,7 @@ ExprId parsePostfix(ParseContext& in) {
     if (value == kNoId) return kNoId;
     if (tokens.accept(Tok::dot)) {
       ExprNode node = nodeOf(ExprKind::member);
-      node.name = wordName(in, "a name after the point");
+      node.name = parseName(in, "a name after the point");
       value = addOperation(in, node, {value}, begin);
       continue;
     }
@@ -280,7 +280,7 @@ std::vector<ArgNode> parseArguments(ParseContext& in, std::string_view callee) {
     const Span begin = tokens.here();
     ArgNode arg;
     if (isNamedArgumentAhead(tokens, callee)) {
-      arg.name = wordName(in, "a name");
+      arg.name = parseName(in, "a name");
       tokens.accept(Tok::assign);
     }
     arg.value = parseExpression(in);

@@ -11,7 +11,7 @@ StmtId parseFit(ParseContext& in) {
   StmtScope stmt(in, StmtKind::fit);
   FitNode fit;
   fit.name_span = tokens.here();
-  stmt->name = declaredName(in, "the name of an imported asset");
+  stmt->name = parseNewName(in, "the name of an imported asset");
   std::vector<FitZoneNode> zones;
   while (tokens.atWord("stretch") || tokens.atWord("repeat")) {
     FitZoneNode zone;

@@ -13,7 +13,7 @@ void declareOverride(ParseContext& in) {
   Override edit;
   edit.by_tag = tokens.acceptWord("tag");
   edit.address_span = tokens.here();
-  edit.address = textName(in, edit.by_tag ? "a tag in quotes" : "a derivation path in quotes, or `tag`");
+  edit.address = parseText(in, edit.by_tag ? "a tag in quotes" : "a derivation path in quotes, or `tag`");
   in.inners = 0;
   edit.body = parseBlock(in);
   in.inners.reset();

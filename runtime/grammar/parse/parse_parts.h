@@ -24,7 +24,7 @@ bool parsePartsEnd(ParseContext& in, const Span& begin);
 /// Adds the parts to the tree, and ends their statement.
 StmtId finishParts(ParseContext& in, StmtScope& stmt, const Parts& parts);
 
-/// 0 1 2 for x y z; nullopt after an error. `what` stands for the letter in the message.
+/// 0 1 2 for x y z; nullopt after an error, whose message calls the letter `what`.
 std::optional<uint32_t> parseAxis(TokenStream& tokens, std::string_view what);
 
 }  // namespace sgm::parse

@@ -12,7 +12,7 @@ ExprId parsePlanName(ParseContext& in) {
   const Span begin = in.tokens.here();
   ExprNode node;
   node.kind = ExprKind::name;
-  node.name = declaredName(in, "the name of a plan");
+  node.name = parseNewName(in, "the name of a plan");
   return in.tokens.hasFailed() ? kNoId : in.build.addExpr(node, begin);
 }
 
@@ -35,7 +35,7 @@ StmtId parseFootprint(ParseContext& in) {
   footprint.args = addArguments(in, tokens.textOf(tokens.take()));
   footprint.span = tokens.since(outline);
   tokens.expectWord("as");
-  stmt->name = declaredName(in, "the name of a plan");
+  stmt->name = parseNewName(in, "the name of a plan");
   tokens.expect(Tok::semicolon, "`;`");
   return stmt.finish(&Ast::footprints, footprint);
 }

@@ -100,7 +100,7 @@ void declareRule(ParseContext& in) {
   const Span begin = tokens.last();
   const Span name_span = tokens.here();
   Alternative head;
-  const NameId name = declaredName(in, "the name of a rule");
+  const NameId name = parseNewName(in, "the name of a rule");
   head.formals = parseFormals(in);
   while (parseClause(in, head)) {
   }
@@ -116,7 +116,7 @@ void declareMorphicRule(ParseContext& in) {
   const Span begin = tokens.last();
   const Span name_span = tokens.here();
   Alternative head;
-  const NameId name = declaredName(in, "the name of a rule");
+  const NameId name = parseNewName(in, "the name of a rule");
   head.formals = parseFormals(in);
   head.span = tokens.since(begin);
   tokens.expect(Tok::colon, "`:`");

@@ -13,9 +13,9 @@ namespace sgm::parse {
 
 namespace {
 
-/// How statements of a kind are written.
+/// How a kind of statement is written.
 struct StmtForm {
-  std::string_view word;  ///< that starts them among other statements; empty: none of their own
+  std::string_view word;  ///< the word that starts it in a block; empty if it has none
   StmtId (*parse)(ParseContext&) = nullptr;
 };
 
@@ -98,7 +98,7 @@ StmtForm findForm(const Visit& visit) {
   }
 }
 
-/// Fails if the current word is a misspelt start of a statement.
+/// Fails if the current word is a misspelt word that starts a statement.
 void failIfMisspelt(TokenStream& tokens) {
   const Tok next = tokens.peek(1).kind;
   if (!tokens.at(Tok::word) || next == Tok::open_paren || next == Tok::semicolon || next == Tok::dot ||
@@ -246,7 +246,7 @@ StmtId parseMorph(ParseContext& in) {
 StmtId parseLet(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   StmtScope stmt(in, StmtKind::let);
-  stmt->name = declaredName(in, "a name");
+  stmt->name = parseNewName(in, "a name");
   if (tokens.at(Tok::open_paren))
     tokens.fail(tokens.here(), codes::kSyntax, "a let with parameters stands outside of rules",
                 "move it to the top of the file");
@@ -264,22 +264,22 @@ StmtId parseField(ParseContext& in) {
 
 StmtId parseMaterial(ParseContext& in) {
   StmtScope stmt(in, StmtKind::mat);
-  stmt->name = declaredName(in, "the name of a material");
+  stmt->name = parseNewName(in, "the name of a material");
   in.tokens.expect(Tok::semicolon, "`;`");
   return stmt.finish();
 }
 
 StmtId parseTag(ParseContext& in) {
   StmtScope stmt(in, StmtKind::tag);
-  stmt->name = textName(in, "a text in quotes");
+  stmt->name = parseText(in, "a text in quotes");
   in.tokens.expect(Tok::semicolon, "`;`");
   return stmt.finish();
 }
 
 StmtId parseAnchor(ParseContext& in) {
   StmtScope stmt(in, StmtKind::anchor);
-  stmt->name = declaredName(in, "the kind of an anchor");
-  if (in.tokens.at(Tok::text)) stmt->name2 = textName(in, "a text");
+  stmt->name = parseNewName(in, "the kind of an anchor");
+  if (in.tokens.at(Tok::text)) stmt->name2 = parseText(in, "a text");
   in.tokens.expect(Tok::semicolon, "`;`");
   return stmt.finish();
 }

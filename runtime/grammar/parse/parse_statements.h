@@ -9,15 +9,15 @@ namespace sgm::parse {
 
 // parse_statements.cpp
 
-/// Any statement, by its first token.
+/// Parses any statement, by its first token.
 StmtId parseStatement(ParseContext& in);
 /// Statements in braces.
 StmtId parseBlock(ParseContext& in);
-/// A block, or one statement; `word` stands for what it belongs to in messages.
+/// A block, or one statement; messages call the statement around it `word`.
 StmtId parseBody(ParseContext& in, std::string_view word);
 /// A block, or a call without ';'.
 StmtId parseMorphOperand(ParseContext& in);
-/// [ lerp | power ]: whether a morph is by exponent.
+/// [ lerp | power ]; returns whether the morph is by exponent.
 bool parseMorphPower(TokenStream& tokens);
 
 StmtId parseCall(ParseContext& in);

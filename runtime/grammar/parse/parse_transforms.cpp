@@ -75,9 +75,9 @@ void parseProbe(ParseContext& in, ScatterNode& scatter) {
   scatter.distance = parseExpression(in);
   tokens.expectWord("of");
   scatter.span = tokens.here();
-  scatter.layer_name = wordName(in, "the name of a layer");
+  scatter.layer_name = parseName(in, "the name of a layer");
   if (!tokens.acceptWord("gap")) return;
-  scatter.gap = declaredName(in, "the name of the open length behind a point");
+  scatter.gap = parseNewName(in, "the name of the open length behind a point");
   tokens.expectWord("within");
   scatter.within = parseExpression(in);
 }
@@ -110,7 +110,7 @@ StmtId parseRepeat(ParseContext& in) {
 
 StmtId parseFor(ParseContext& in) {
   StmtScope stmt(in, StmtKind::for_each);
-  stmt->name = declaredName(in, "the name of a loop variable");
+  stmt->name = parseNewName(in, "the name of a loop variable");
   in.tokens.expectWord("in");
   stmt->expr = parseRangeOrExpression(in);
   stmt->body = parseBody(in, stmt.word());

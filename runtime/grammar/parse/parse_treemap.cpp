@@ -19,7 +19,7 @@ void parseRoom(ParseContext& in, Parts& parts) {
   else if (colon && tokens.atWord("facade"))
     part.floor = FloorPart::facade;
   if (part.floor == FloorPart::room) {
-    part.label = declaredName(in, "the name of a room");
+    part.label = parseNewName(in, "the name of a room");
     if (tokens.at(Tok::colon)) tokens.failExpecting("the area of the room, such as `living 28:`");
     part.size = parseExpression(in);
   } else {
@@ -60,7 +60,7 @@ StmtId parseLink(ParseContext& in) {
   StmtScope stmt(in, StmtKind::link);
   for (NameId* name : {&stmt->name, &stmt->name2}) {
     if (tokens.at(Tok::word) && !tokens.peek().keyword)
-      *name = wordName(in, "the name of a room");
+      *name = parseName(in, "the name of a room");
     else
       tokens.failExpecting("the name of a room");
   }

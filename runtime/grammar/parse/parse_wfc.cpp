@@ -15,18 +15,18 @@ namespace {
 /// The sides of a tile among the parts of a box.
 std::span<const std::string_view> sideWords() { return boxPartTable().first(static_cast<size_t>(BoxPart::side) + 1); }
 
-/// LABEL or LABEL ...: each once.
+/// LABEL { or LABEL }; keeps each label once.
 IdRange parseLabels(ParseContext& in) {
   std::vector<NameId> labels;
   do {
-    const NameId label = declaredName(in, "the label of a side");
+    const NameId label = parseNewName(in, "the label of a side");
     if (in.tokens.hasFailed()) return {};
     if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
   } while (in.tokens.acceptWord("or"));
   return in.build.addIds(labels);
 }
 
-/// A side and its labels: `left wall or gate`, `left plug meets hole`. before: those of the same tile.
+/// A side and its labels: `left wall or gate`, `left plug meets hole`. before: the sides before it of the same tile.
 std::optional<SocketNode> parseSocket(ParseContext& in, const std::vector<SocketNode>& before) {
   TokenStream& tokens = in.tokens;
   SocketNode out;
@@ -70,7 +70,7 @@ void parseTile(ParseContext& in, Parts& parts) {
   TokenStream& tokens = in.tokens;
   PartNode part;
   const Span begin = tokens.here();
-  part.label = declaredName(in, "the name of a tile");
+  part.label = parseNewName(in, "the name of a tile");
   if (tokens.at(Tok::colon) || tokens.at(Tok::comma)) tokens.failExpecting("the weight of the tile, such as `wall 3`");
   part.size = parseExpression(in);
   const bool turns = tokens.acceptWord("turn");

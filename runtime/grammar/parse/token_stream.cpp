@@ -9,7 +9,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// What to write instead of another language's syntax, or empty. kind, word: of the token that stands in the place of
+/// The advice for a habit from another language, or empty. kind, word: of the token that stands in the place of
 /// `wanted`; number: the text of the number before it, or empty.
 std::string habitHint(std::string_view wanted, Tok kind, std::string_view word, std::string_view number) {
   if (!number.empty() && kind == Tok::word && isUnit(word))

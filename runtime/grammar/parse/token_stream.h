@@ -16,7 +16,7 @@
 
 namespace sgm::parse {
 
-/// Where the parser continues after an error: behind a declaration, or behind a statement or part within braces.
+/// The loop that recovers from an error: the one over declarations, or one over statements or parts within braces.
 enum class Level : uint8_t { declaration, statement };
 
 /// A place among the tokens of one file, and whether an error has hidden the tokens behind it.
@@ -35,20 +35,20 @@ class TokenStream {
   const Token& take();
   bool at(Tok kind) const { return peek().kind == kind; }
   bool atWord(std::string_view word) const;
-  /// Take the token if it is there; they return whether it was.
+  /// Take the current token if it is this one; return whether it was.
   bool accept(Tok kind);
   bool acceptWord(std::string_view word);
-  /// The same, but a missing token is an error; `what` names it in the message.
+  /// The same, but another token is an error; the message calls the missing one `what`.
   bool expect(Tok kind, std::string_view what);
   bool expectWord(std::string_view word);
 
   std::string_view textOf(const Token& token) const;
-  /// Of the current token.
+  /// The text of the current token.
   std::string_view text() const { return textOf(peek()); }
   Span here() const { return peek().span; }
   /// The span of the token that was taken last.
   const Span& last() const { return last_; }
-  /// From `begin` to the token that was taken last.
+  /// The span from `begin` to the token that was taken last.
   Span since(const Span& begin) const;
   /// The index of the current token, for skipFailed().
   size_t position() const { return next_; }
@@ -62,7 +62,7 @@ class TokenStream {
   void failExpecting(std::string_view wanted);
   /// Fails, and returns true, if the current token is a word that is reserved for a later version.
   bool failIfUnavailable();
-  /// Fails at the current token, and shows only the end of the text from now on: a budget is used up.
+  /// Fails at the current token for good: from now on the stream shows only the end of the text.
   void exhaust(std::string_view code, std::string message, std::string hint);
 
   /// Whether the stream panics.
@@ -70,9 +70,9 @@ class TokenStream {
   bool isExhausted() const { return exhausted_; }
   /// Whether parsing may go on after an error.
   bool canContinue() const { return !exhausted_ && !sink_.full(); }
-  /// Ends the panic behind the part with the error, and returns the omitted tokens from the index `first` on: past the
-  /// next ';', to the '}' of the enclosing block, or past a block that opened after the error. Among declarations a
-  /// keyword at the start of a line that starts one also ends the search.
+  /// Ends the panic and moves behind the part with the error: past the next ';', to the '}' of the enclosing block, or
+  /// past a block that opened after the error. Among declarations the first word of one, at the start of a line, ends
+  /// the search, too. Returns the omitted tokens from the index `first` on.
   std::span<const Token> skipFailed(Level level, size_t first);
 
  private:
@@ -87,7 +87,7 @@ class TokenStream {
   LexResult lexed_;
   size_t next_ = 0;
   bool panic_ = false;
-  bool exhausted_ = false;  ///< out of nodes: only the end of the text is left
+  bool exhausted_ = false;  ///< only the end of the text is left
   uint32_t nesting_ = 0;
   Token end_token_;
   Span last_;
