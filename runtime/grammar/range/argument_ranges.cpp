@@ -6,6 +6,7 @@
 
 #include "base/math.h"
 #include "grammar/range/argument_ranges.h"
+#include "grammar/range/reach_values.h"
 #include "grammar/text/codes.h"
 #include "grammar/text/limits.h"
 
@@ -110,19 +111,20 @@ void report(const Program& program, const Misfit& misfit, DiagnosticSink& sink) 
 
 }  // namespace
 
-void RangeEvaluator::judge(ExprId id, IdRange formals, std::span<const RangeValue> given) {
+void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::span<const RangeValue> given,
+                      const CallPath& calls) {
   constexpr size_t kMostMisfits = 256;
-  const ExprNode& call = program_.expr(id);
-  if (!judges_ || pieces_ || call.circular) return;
+  const ExprNode& call = program.expr(id);
+  if (!compares_ || call.circular) return;
   for (uint32_t i = 0; i < formals.count && i < given.size(); ++i) {
-    const FormalNode& formal = program_.ast.formals[formals.first + i];
-    const ExprId argument = program_.idAt(call.bound, i);
+    const FormalNode& formal = program.ast.formals[formals.first + i];
+    const ExprId argument = program.idAt(call.bound, i);
     if (!formal.ranged || argument == formal.fallback || given[i].kind != ValueKind::number) continue;
     const Interval value = given[i].v[0];
     const double low = formal.low - kWidening * std::fabs(formal.low),
                  high = formal.high + kWidening * std::fabs(formal.high);
     const bool certain = value.hi < low || value.lo > high;
-    const ExprId caller = callerOf(id);
+    const ExprId caller = calls.writtenCaller(id);
     const std::pair key(argument, caller);
     if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
     if (value.lo >= low && value.hi <= high) continue;
@@ -141,7 +143,7 @@ void RangeEvaluator::judge(ExprId id, IdRange formals, std::span<const RangeValu
   }
 }
 
-std::vector<Misfit> RangeEvaluator::takeMisfits() {
+std::vector<Misfit> Misfits::take() {
   std::vector<Misfit> out;
   std::set<ExprId> callers;
   for (const Misfit& misfit : misfits_) {
@@ -164,7 +166,7 @@ void checkRanges(const Program& program, const CompileLimits& limits, Diagnostic
   RangeFrame anywhere;
   anywhere.scope.fill(Interval::everything());
   values.setCell(anywhere.scope, false);
-  values.judgeArguments(true);
+  values.misfits().enable(true);
   for (uint32_t id = 0; id < program.ast.exprs.size(); ++id) {
     const ExprNode& call = program.expr(id);
     if (call.bound.count == 0 || isStandard(program, call.span.file)) continue;
@@ -180,9 +182,9 @@ void checkRanges(const Program& program, const CompileLimits& limits, Diagnostic
       given.push_back(program.ast.formals[formals.first + i].ranged
                           ? values.evaluate(program.idAt(call.bound, i), anywhere)
                           : RangeValue::unknown());
-    values.judge(id, formals, given);
+    values.compareArguments(id, formals, given);
   }
-  reportMisfits(program, values.takeMisfits(), sink);
+  reportMisfits(program, values.misfits().take(), sink);
 }
 
 }  // namespace sgm

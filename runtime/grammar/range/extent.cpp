@@ -142,12 +142,12 @@ double Extent::size() const {
   return empty ? 0 : out;
 }
 
-void Extent::blame(ExprId call) {
+void Extent::attribute(ExprId call) {
   // An unbounded extent is best shown where it starts, any other where the layer's own rule calls it.
-  if (culprit != kNoId && !std::isfinite(culprit_size)) return;
-  culprit = call;
+  if (largest_contributor != kNoId && !std::isfinite(contributor_size)) return;
+  largest_contributor = call;
   inside = kNoId;
-  culprit_size = size();
+  contributor_size = size();
 }
 
 void Extent::merge(const Extent& other) {
@@ -163,11 +163,11 @@ void Extent::merge(const Extent& other) {
   inner = std::max(inner, other.inner);
   if (why == Unbound::none) why = other.why, allowed = other.allowed;
   if (loss == 0) loss = other.loss;
-  if (other.culprit_size > culprit_size) {
-    culprit = other.culprit;
-    edit = other.edit;
+  if (other.contributor_size > contributor_size) {
+    largest_contributor = other.largest_contributor;
+    override_id = other.override_id;
     inside = other.inside;
-    culprit_size = other.culprit_size;
+    contributor_size = other.contributor_size;
   }
 }
 
@@ -196,6 +196,13 @@ void Extent::either(const Extent& other) {
   certain = certain && other.certain;
   count = std::max(count, other.count);
   merge(other);
+}
+
+void addAlternative(std::optional<Extent>& all, const Extent& one) {
+  if (all)
+    all->either(one);
+  else
+    all = one;
 }
 
 void Extent::intersect(const Extent& other) {

@@ -2,10 +2,12 @@
 // The extents of shapes: boxes of intervals, propagated from the leaves through transforms and combiners. They contain
 // at least what derive/bounds.h computes for derived shapes; change both together.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/math.h"
-#include "grammar/range/reach_values.h"
+#include "grammar/range/range_value.h"
 
 namespace sgm {
 
@@ -49,10 +51,10 @@ struct Extent {
   double count = 0;      ///< the most shapes
   bool certain = false;  ///< whether at least one shape is certain
 
-  ExprId culprit = kNoId;  ///< the outermost call that extends farthest
-  uint32_t edit = kNoId;   ///< the override that adds that call, or none
-  double culprit_size = -1;
-  ExprId inside = kNoId;  ///< the responsible call if it is in the standard library, called by the culprit
+  ExprId largest_contributor = kNoId;  ///< the outermost call that extends farthest
+  double contributor_size = -1;        ///< metres; its distance from the origin, or -1
+  uint32_t override_id = kNoId;        ///< the override that adds that call, or none
+  ExprId inside = kNoId;  ///< the responsible call if it is in the standard library, called by largest_contributor
   uint32_t loss = 0;      ///< index in RangeEvaluator::losses() where its bound was lost; 0: nowhere, or unknown
   Unbound why = Unbound::none;
   double allowed = 0;  ///< for Unbound::sum: a displacement must stay below this
@@ -77,7 +79,8 @@ struct Extent {
   void mirror(int axis);
   void repeat(Interval times);  ///< multiplies the number of shapes
   void summed();                ///< the compact sum of its shapes
-  void blame(ExprId call);
+  /// Makes a call the largest contributor, unless an unbounded contributor is known.
+  void attribute(ExprId call);
   bool lost() const;    ///< whether no bound is proven
   double size() const;  ///< the largest distance of its box from the origin along an axis
 
@@ -85,6 +88,9 @@ struct Extent {
   void merge(const Extent& other);
   void loseBound(Unbound reason);
 };
+
+/// Adds another alternative of which one is derived: joins it with the others by Extent::either. nullopt: none yet.
+void addAlternative(std::optional<Extent>& all, const Extent& one);
 
 /// The range of a scale; derivation omits scales that are not positive.
 Interval scaleFactor(Interval written);

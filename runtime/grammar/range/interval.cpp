@@ -52,6 +52,8 @@ Interval operator/(Interval a, Interval b) {
 Interval hull(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 Interval minimum(Interval a, Interval b) { return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)}; }
 Interval maximum(Interval a, Interval b) { return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+Interval atLeastZero(Interval a) { return {std::max(0.0, a.lo), std::max(0.0, a.hi)}; }
+Interval positivePart(Interval a) { return {std::max(a.lo, 0.0), std::max(a.hi, 0.0)}; }
 Interval absolute(Interval a) { return {a.mignitude(), a.magnitude()}; }
 Interval floorOf(Interval a) { return {std::floor(a.lo), std::floor(a.hi)}; }
 

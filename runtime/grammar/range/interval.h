@@ -27,6 +27,8 @@ Interval operator/(Interval a, Interval b);  ///< everything if b contains 0
 Interval hull(Interval a, Interval b);
 Interval minimum(Interval a, Interval b);
 Interval maximum(Interval a, Interval b);
+Interval atLeastZero(Interval a);   ///< the maximum of a and 0; an end that is NaN becomes 0
+Interval positivePart(Interval a);  ///< the maximum of a and 0; an end that is NaN stays NaN
 Interval absolute(Interval a);
 Interval squareRoot(Interval a);  ///< of the part from 0 on
 Interval floorOf(Interval a);

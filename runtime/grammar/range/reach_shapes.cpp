@@ -13,9 +13,6 @@ namespace {
 constexpr Interval kHalf{0.5, 0.5};
 constexpr double kLargestSize = 1e5;  ///< metres; larger shapes may be omitted after scaling
 
-// Derivation rejects negative sizes.
-Interval positive(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
-
 /// A call of a terminal.
 class Terminal {
  public:
@@ -30,14 +27,15 @@ class Terminal {
 
   /// It is certainly derived if all its sizes are positive; `inner`: its inner radius.
   static void sized(Extent& e, std::initializer_list<Interval> sizes, Interval inner) {
-    e.inner = positive(inner).hi;
-    e.inner_low = positive(inner).lo;
+    e.inner = positivePart(inner).hi;
+    e.inner_low = positivePart(inner).lo;
     e.certain = std::all_of(sizes.begin(), sizes.end(), [](Interval v) { return v.lo > 0 && v.hi <= kLargestSize; });
     e.node();
   }
 
+  // Derivation rejects negative sizes.
   static Extent centred(Interval x, Interval y, Interval z) {
-    const IntervalVector upper{positive(x), positive(y), positive(z)};
+    const IntervalVector upper{positivePart(x), positivePart(y), positivePart(z)};
     Extent e = Extent::leaf({-upper[0], -upper[1], -upper[2]}, upper);
     sized(e, {x, y, z}, minimum(x, minimum(y, z)));
     return e;
@@ -124,7 +122,7 @@ class Terminal {
   }
 
   Extent prism() {
-    const Interval h = positive(in(0) * kHalf);
+    const Interval h = positivePart(in(0) * kHalf);
     IntervalVector lower{Interval{kInfinity, kInfinity}, -h, Interval{kInfinity, kInfinity}};
     IntervalVector upper{Interval{-kInfinity, -kInfinity}, h, Interval{-kInfinity, -kInfinity}};
     for (uint32_t i = 1; i < call_.bound.count; ++i) {
@@ -150,7 +148,7 @@ Extent Terminal::extent() {
   switch (static_cast<Primitive>(call_.id)) {
     case Primitive::sphere:
     case Primitive::blob: {
-      const Interval r = positive(in(0));
+      const Interval r = positivePart(in(0));
       Extent e = Extent::leaf({-r, -r, -r}, {r, r, r}, r.hi);
       sized(e, {in(0)}, r);
       return e;
@@ -162,26 +160,26 @@ Extent Terminal::extent() {
     case Primitive::cylinder:
       return centred(in(0), in(1) * kHalf, in(0));
     case Primitive::truncone: {
-      const Interval top = in(1), bottom = in(2), widest = maximum(positive(top), positive(bottom));
+      const Interval top = in(1), bottom = in(2), widest = maximum(positivePart(top), positivePart(bottom));
       Extent e = centred(widest, in(0) * kHalf, widest);
       // One radius may be 0; a negative one omits the cone.
       e.certain = e.certain && top.lo >= 0 && bottom.lo >= 0;
       return e;
     }
     case Primitive::torus: {
-      const Interval ring = positive(in(0)) + positive(in(1));
+      const Interval ring = positivePart(in(0)) + positivePart(in(1));
       Extent e = centred(ring, in(1), ring);
       sized(e, {in(0), in(1)}, in(1));
       return e;
     }
     case Primitive::capsule:
-      return around(positive(in(2)), positive(in(2)).hi, true);
+      return around(positivePart(in(2)), positivePart(in(2)).hi, true);
     // Coincident ends omit both shapes.
     case Primitive::tube:
-      return around(positive(in(2)), positive(in(2)).hi + positive(in(3)).hi, false);
+      return around(positivePart(in(2)), positivePart(in(2)).hi + positivePart(in(3)).hi, false);
     // The corner of a square section at an end extends as far along as across.
     case Primitive::beam:
-      return around(positive(in(2)), positive(in(2)).hi * 1.7320508075688774 + positive(in(3)).hi, false);
+      return around(positivePart(in(2)), positivePart(in(2)).hi * 1.7320508075688774 + positivePart(in(3)).hi, false);
     case Primitive::halfspace: {
       Extent e = Extent::unbounded();
       e.count = 1;
@@ -203,6 +201,19 @@ Extent Terminal::extent() {
 
 Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame) {
   return Terminal(program, call, values, frame).extent();
+}
+
+Extent solidIn(const IntervalVector& edges) {
+  IntervalVector lower, upper;
+  for (size_t i = 0; i < 3; ++i) {
+    upper[i] = positivePart(edges[i] * kHalf);
+    lower[i] = -upper[i];
+  }
+  Extent e = Extent::leaf(lower, upper);
+  e.inner = e.size();
+  e.uncertain();
+  e.node();
+  return e;
 }
 
 }  // namespace sgm

@@ -2,6 +2,7 @@
 // The extents of terminals.
 
 #include "grammar/range/extent.h"
+#include "grammar/range/reach_values.h"
 #include "grammar/syntax/builtins.h"
 
 namespace sgm {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/math.h"
 
@@ -11,9 +12,6 @@ namespace {
 
 constexpr int kDeepestPiece = 8;    // halvings of one argument's range
 constexpr int kDeepestValue = 600;  // stack frames of this evaluation
-constexpr Interval kEither{0, 1};
-constexpr Interval kTrue{1, 1};
-constexpr Interval kFalse{0, 0};
 
 Interval compare(BinaryOp op, Interval a, Interval b) {
   switch (op) {
@@ -36,52 +34,17 @@ Interval compare(BinaryOp op, Interval a, Interval b) {
   }
 }
 
-/// The field computes with floats: if a step lies at a whole number, the value may fall on either side.
-Interval sampledFloats(Interval v) {
-  auto whole = [](double x) { return x == std::floor(x) && std::fabs(x) < 1e6; };
-  return {whole(v.lo) ? v.lo : v.lo - 1e-6 * std::fabs(v.lo) - 1e-9,
-          whole(v.hi) ? v.hi : v.hi + 1e-6 * std::fabs(v.hi) + 1e-9};
-}
-
 }  // namespace
 
-bool RangeValue::bounded() const {
-  if (kind == ValueKind::number) return v[0].bounded();
-  if (kind == ValueKind::pair) return v[0].bounded() && v[1].bounded();
-  return kind != ValueKind::vector || (v[0].bounded() && v[1].bounded() && v[2].bounded());
-}
-
-bool isStandard(const Program& program, uint32_t file) {
-  return file != 0 && program.modules[file].path.starts_with("std/");
-}
-
-bool hasPieces(const RangeValue& value) {
-  return value.kind == ValueKind::number && value.v[0].bounded() && middleOf(value.v[0]) > value.v[0].lo &&
-         middleOf(value.v[0]) < value.v[0].hi;
-}
-
-double middleOf(Interval range) {
-  return range.lo > 0 ? std::sqrt(range.lo) * std::sqrt(range.hi) : range.lo + (range.hi - range.lo) / 2;
-}
-
 RangeEvaluator::RangeEvaluator(const Program& program, uint32_t& steps)
-    : program_(program), steps_(steps), asked_parameters_(program.params.size(), false) {
+    : program_(program), steps_(steps), used_parameters_(program.params.size(), false), calls_(program) {
   // Without a declared range the host may set any number.
   for (const Param& param : program.params)
     parameters_.push_back(param.has_range ? Interval{param.low, param.high} : Interval::everything());
 }
 
-IntervalVector anyDirection(const IntervalVector& v) {
-  double sum = 0;
-  for (const Interval& part : v) sum += part.magnitude() * part.magnitude();
-  const double length = std::sqrt(sum) * (1 + 1e-12);
-  const Interval ball{-length, length};
-  return {ball, ball, ball};
-}
-
-void PlaceRange::move(const IntervalVector& by) {
-  const IntervalVector step = turned ? anyDirection(by) : by;
-  for (size_t i = 0; i < 3; ++i) offset[i] = offset[i] + step[i] * scale;
+void RangeEvaluator::compareArguments(ExprId call, IdRange formals, std::span<const RangeValue> given) {
+  if (!pieces_) misfits_.compare(program_, call, formals, given, calls_);
 }
 
 Interval RangeEvaluator::number(ExprId id, const RangeFrame& frame) {
@@ -104,35 +67,20 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
   if (id == kNoId || steps_ == 0 || depth_ >= kDeepestValue) return RangeValue::unknown();
   --steps_;
   ++depth_;
-  const uint32_t before = std::exchange(loss_, 0);
-  RangeValue out = valueOf(id, frame);
+  const uint32_t before = losses_.takeLatest();
+  RangeValue out = evaluateNode(id, frame);
+  const uint32_t inside = losses_.takeLatest();
   // A bounded value does not inherit the losses of its operands.
   if (out.bounded())
     out.loss = 0;
   else if (out.loss == 0)
-    out.loss = loss_;
-  loss_ = before != 0 ? before : out.loss;
+    out.loss = inside;
+  losses_.restoreLatest(before != 0 ? before : out.loss);
   --depth_;
   return out;
 }
 
-ExprId RangeEvaluator::callerOf(ExprId id) const {
-  if (!isStandard(program_, program_.expr(id).span.file)) return kNoId;
-  const auto written = std::find_if(callers_.rbegin(), callers_.rend(),
-                                    [&](ExprId call) { return !isStandard(program_, program_.expr(call).span.file); });
-  return written == callers_.rend() ? kNoId : *written;
-}
-
-void RangeEvaluator::lose(BoundLoss::Cause cause, ExprId id, Interval divisor) {
-  constexpr size_t kMostKept = 256;
-  const bool zero = cause == BoundLoss::Cause::divisor && divisor == Interval{0, 0};
-  if (zero && zeros_.size() < kMostKept) zeros_.push_back({cause, id, callerOf(id), divisor});
-  if (loss_ != 0) return;
-  if (losses_.size() < kMostKept) losses_.push_back({cause, id, callerOf(id), divisor});
-  loss_ = static_cast<uint32_t>(losses_.size() - 1);
-}
-
-RangeValue RangeEvaluator::valueOf(ExprId id, const RangeFrame& frame) {
+RangeValue RangeEvaluator::evaluateNode(ExprId id, const RangeFrame& frame) {
   const ExprNode& n = program_.expr(id);
   RangeValue out;
   switch (n.kind) {
@@ -191,7 +139,7 @@ RangeValue RangeEvaluator::valueOf(ExprId id, const RangeFrame& frame) {
 
 RangeValue RangeEvaluator::query(ExprId id, const RangeFrame& frame) {
   const ExprNode& n = program_.expr(id);
-  asked_.place = asked_.scale = true;
+  dependence_.place = dependence_.scale = true;
   const double radius = n.children.count == 0 ? 0 : std::max(0.0, number(child(n, 0), frame).hi);
   const double ball = boundProduct(radius, frame.place.scale.magnitude());
   for (size_t i = 0; i < 3; ++i) {
@@ -199,7 +147,7 @@ RangeValue RangeEvaluator::query(ExprId id, const RangeFrame& frame) {
     const Interval at = frame.place.offset[i];
     const Interval cell = Interval{low_, low_ + 1} * cell_[i];
     const double far = std::max(cell.lo - at.lo, at.hi - cell.hi) + ball;
-    if (far > sight_.far) sight_ = {far, id};
+    if (far > observation_.distance_m) observation_ = {far, id};
   }
   return RangeValue::condition(kEither);
 }
@@ -230,7 +178,8 @@ RangeValue RangeEvaluator::binary(ExprId id, const RangeFrame& frame) {
         out.v[i] = x * y;
         break;
       default:
-        if (i == 0 && y.holds(0) && b.loss == 0) lose(BoundLoss::Cause::divisor, id, y);
+        if (i == 0 && y.holds(0) && b.loss == 0)
+          losses_.add({BoundLoss::Cause::divisor, id, calls_.writtenCaller(id), y});
         out.v[i] = x / y;
         break;
     }
@@ -242,8 +191,8 @@ RangeValue RangeEvaluator::call(ExprId id, const RangeFrame& frame) {
   const ExprNode& n = program_.expr(id);
   switch (n.ref) {
     case Ref::parameter:
-      asked_parameters_[n.id] = true;
-      if (!parameters_[n.id].bounded()) lose(BoundLoss::Cause::parameter, id, {});
+      used_parameters_[n.id] = true;
+      if (!parameters_[n.id].bounded()) losses_.add({BoundLoss::Cause::parameter, id, calls_.writtenCaller(id), {}});
       return RangeValue::number(parameters_[n.id]);
     case Ref::local:
       return n.id < frame.slots.size() ? frame.slots[n.id] : RangeValue::unknown();
@@ -287,15 +236,15 @@ RangeValue RangeEvaluator::applied(ExprId id, const RangeFrame& frame) {
     given.push_back(evaluate(program_.idAt(n.bound, i), frame));
     inner.slots[slot] = given.back();
   }
-  judge(id, formals, given);
-  enter(id);
+  compareArguments(id, formals, given);
+  calls_.enter(id);
   RangeValue out = evaluate(body, inner);
   for (uint32_t i = 0; pieces_ && !out.bounded() && i < formals.count && i < n.bound.count; ++i) {
     const uint32_t slot = program_.ast.formals[formals.first + i].slot;
     if (!hasPieces(inner.slots[slot])) continue;
     if (const auto tighter = inPieces(body, inner, slot, inner.slots[slot].v[0], 0)) out = *tighter;
   }
-  leave();
+  calls_.leave();
   return out;
 }
 
@@ -308,7 +257,7 @@ std::optional<RangeValue> RangeEvaluator::inPieces(ExprId body, RangeFrame& fram
   if (depth > 0) out = evaluate(body, frame);
   if (depth == 0 || !out->bounded()) {
     out.reset();
-    const double middle = middleOf(range);
+    const double middle = dividingPoint(range);
     const auto low = cut ? inPieces(body, frame, slot, {range.lo, middle}, depth + 1) : std::nullopt;
     const auto high = low ? inPieces(body, frame, slot, {middle, range.hi}, depth + 1) : std::nullopt;
     if (high && low->kind == high->kind) {
@@ -318,146 +267,6 @@ std::optional<RangeValue> RangeEvaluator::inPieces(ExprId body, RangeFrame& fram
     }
   }
   argument.v[0] = whole;
-  return out;
-}
-
-RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
-  const RangeValue of = evaluate(child(n, 0), frame);
-  const bool place = of.kind == ValueKind::cell || of.kind == ValueKind::face;
-  switch (n.member) {
-    case Member::x:
-    case Member::y:
-    case Member::z:
-      if (place || of.kind == ValueKind::unknown) return RangeValue::number(Interval::everything());
-      return RangeValue::number(of.v[static_cast<size_t>(n.member) - static_cast<size_t>(Member::x)]);
-    case Member::other: {
-      RangeValue out{ValueKind::cell, of.v};
-      for (size_t i = 0; i < 3; ++i) out.v[i] = of.v[i] + Interval{0, 1};
-      return out;
-    }
-    case Member::axis:
-      return RangeValue::number({0, 2});
-    case Member::size:
-      return RangeValue::vector(cell_);
-    case Member::center: {
-      if (!place) return RangeValue::unknown();
-      // For a face: on the side between its cells, half way along the others.
-      const Interval share = of.kind == ValueKind::face ? Interval{0.5, 1} : Interval{0.5, 0.5};
-      return point({of.v[0] + share, of.v[1] + share, of.v[2] + share}, frame);
-    }
-    case Member::faces:
-      return {ValueKind::faces, of.v};
-    case Member::from:
-    case Member::to:
-      if (of.kind != ValueKind::segment) return RangeValue::unknown();
-      return RangeValue::vector({of.v[0], of.v[0], of.v[0]});
-    case Member::along:
-      return RangeValue::number({0, 1});
-    case Member::depth:
-      return RangeValue::number(of.v[1]);
-    default:
-      return RangeValue::unknown();
-  }
-}
-
-RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
-  const Builtin id = static_cast<Builtin>(n.id);
-  auto arg = [&](uint32_t i) { return program_.idAt(n.bound, i); };
-  auto in = [&](uint32_t i) { return number(arg(i), frame); };
-  switch (id) {
-    case Builtin::min:
-      return RangeValue::number(minimum(in(0), in(1)));
-    case Builtin::max:
-      return RangeValue::number(maximum(in(0), in(1)));
-    case Builtin::abs:
-      return RangeValue::number(absolute(in(0)));
-    case Builtin::floor:
-      return RangeValue::number(floorOf(program_.expr(arg(0)).type.sample ? sampledFloats(in(0)) : in(0)));
-    case Builtin::ceil:
-      return RangeValue::number(-floorOf(-in(0)));
-    case Builtin::sqrt:
-      return RangeValue::number(squareRoot(in(0)));
-    case Builtin::mix: {
-      const Interval a = in(0), b = in(1), t = in(2);
-      const Interval line = a + (b - a) * t, both = hull(a, b);
-      // For t in 0..1 the value lies between the ends, whatever a and b have in common; the line is tighter if t is
-      // known.
-      if (t.lo >= 0 && t.hi <= 1) return RangeValue::number({std::max(line.lo, both.lo), std::min(line.hi, both.hi)});
-      return RangeValue::number(line);
-    }
-    case Builtin::clamp:
-      return RangeValue::number(minimum(maximum(in(0), in(1)), in(2)));
-    case Builtin::smoothstep:
-      return RangeValue::number(smoothStep(in(0), in(1), in(2)));
-    case Builtin::fract:
-      in(0);  // the queries in its operand
-      return RangeValue::number({0, 1});
-    case Builtin::sin:
-      return RangeValue::number(sine(in(0)));
-    case Builtin::cos:
-      return RangeValue::number(cosine(in(0)));
-    case Builtin::atan2:
-      return RangeValue::number({-3.1415926535897936, 3.1415926535897936});
-    case Builtin::pow:
-      return RangeValue::number(power(in(0), in(1)));
-    case Builtin::length: {
-      const IntervalVector v = vector(arg(0), frame);
-      Interval sum{};
-      for (const Interval& part : v) sum = sum + absolute(part) * absolute(part);
-      return RangeValue::number(squareRoot(sum));
-    }
-    case Builtin::rand:
-      return RangeValue::number(hull(in(0), in(1)));
-    case Builtin::rand_keyed:
-      return RangeValue::number(hull(in(1), in(2)));
-    case Builtin::chance: {
-      const Interval p = in(0);
-      return RangeValue::condition(p.lo >= 1 ? kTrue : p.hi <= 0 ? kFalse : kEither);
-    }
-    case Builtin::chance_keyed: {
-      const Interval p = in(1);
-      return RangeValue::condition(p.lo >= 1 ? kTrue : p.hi <= 0 ? kFalse : kEither);
-    }
-    case Builtin::cell_noise:
-      return RangeValue::number({0, 1});
-    case Builtin::fractal:
-      in(0);
-      return RangeValue::number({-1, 1});
-    case Builtin::cell_point:
-    case Builtin::face_point: {
-      const RangeValue of = evaluate(arg(0), frame);
-      if (of.kind != ValueKind::cell && of.kind != ValueKind::face) return RangeValue::unknown();
-      Interval jitter = arg(1) == kNoId ? Interval{0.5, 0.5} : in(1);
-      jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
-      const double half = jitter.hi / 2;
-      Interval spread{0.5 - half, 0.5 + half};
-      // On one axis a point of a face lies on the side between its cells.
-      if (of.kind == ValueKind::face) spread.hi = 1;
-      return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
-    }
-    case Builtin::cell_links:
-      return {ValueKind::faces, evaluate(arg(0), frame).v};
-    case Builtin::position:
-      return RangeValue::vector({in(0), in(1), in(2)});
-    case Builtin::branch: {
-      // Ends are no farther than all steps in a straight line, with room for the rounding of each.
-      const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
-      const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
-      return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};
-    }
-  }
-  return RangeValue::unknown();
-}
-
-RangeValue RangeEvaluator::point(const IntervalVector& cells, const RangeFrame& frame) {
-  RangeValue out = RangeValue::vector(cells);
-  for (size_t i = 0; i < 3; ++i) out.v[i] = (cells[i] + Interval::exactly(low_)) * cell_[i];
-  asked_.place = true;
-  const PlaceRange& start = frame.start;
-  if (start == PlaceRange{}) return out;
-  for (size_t i = 0; i < 3; ++i) out.v[i] = out.v[i] - start.offset[i];
-  if (start.turned) out.v = anyDirection(out.v);
-  for (Interval& part : out.v) part = part / start.scale;
   return out;
 }
 

@@ -50,12 +50,12 @@ void ReachCheck::layerReach(uint32_t index) {
   setCell(layer);
   const uint32_t errors = sink_.errorCount();
   // Later attempts use other cells than the layer's, or parts of ranges.
-  values_.judgeArguments(true);
+  values_.misfits().enable(true);
   const Extent extent = provenExtent(index);
-  values_.judgeArguments(false);
-  reportMisfits(program_, values_.takeMisfits(), sink_);
+  values_.misfits().enable(false);
+  reportMisfits(program_, values_.misfits().take(), sink_);
   if (sink_.full()) return;
-  seen(layer, values_.sight());
+  reportObservation(layer, values_.observation());
   // A division by 0 also has no bound; do not report that as a second error.
   if (sink_.full() || (sink_.errorCount() > errors && !isEnough(layer, extent))) return;
 
@@ -105,7 +105,7 @@ Extent ReachCheck::provenExtent(uint32_t index) {
   spent_ += before - std::min(before, steps_);
   reportZeroDivisions();
   if (cut_short_ || isEnough(layer, extent)) return extent;
-  const RangeEvaluator::Sight sight = values_.sight();
+  const Observation observation = values_.observation();
   const auto attempt = [&](Pieces pieces, bool parameters) {
     if (cut_short_ || isEnough(layer, extent)) return;
     pieces_ = pieces;
@@ -117,7 +117,7 @@ Extent ReachCheck::provenExtent(uint32_t index) {
     if (!std::exchange(cut_short_, false) && (tighter.empty || tighter.size() < extent.size())) extent = tighter;
     pieces_ = Pieces::none;
     values_.takePieces(false);
-    values_.sight() = sight;
+    values_.observation() = observation;
     steps_ = limits_.bound_steps;
   };
   if (extent.lost()) attempt(Pieces::lost, false);
@@ -130,7 +130,7 @@ Extent ReachCheck::startExtent(uint32_t index) {
   known_.clear();
   scaled_.clear();
   placed_.clear();
-  values_.sight() = {};
+  values_.observation() = {};
   startOverrides(index);
   RangeFrame frame;
   frame.scope = cell_;

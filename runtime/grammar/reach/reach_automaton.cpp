@@ -14,7 +14,7 @@ Extent ReachCheck::automaton(const ExprNode& n, const RangeFrame& frame) {
                 "put it into a layer: `layer caves cell 32m reach 1m { start ...; }`");
     return Extent::nothing();
   }
-  values_.asked().place = true;
+  values_.dependence().place = true;
   if (!(frame.place == PlaceRange{})) {
     sink_.error(n.span, codes::kWrongUse, "`ca` fills its layer's cell and cannot be placed elsewhere",
                 "take it out of at, rot, scale, mirror, repeat and scatter");

@@ -69,7 +69,7 @@ class ReachCheck {
   bool isFinite(const Layer& layer) const { return !program_.domain.infinite && layer.cell_expr == kNoId; }
   Excess excessOf(const Layer& layer, const Extent& extent) const;
   bool isEnough(const Layer& layer, const Extent& extent) const;
-  void seen(const Layer& layer, const RangeEvaluator::Sight& sight);
+  void reportObservation(const Layer& layer, const Observation& farthest);
 
   // Pieces.
   bool cut(RangeValue& value, int depth, const std::function<Extent()>& extent, Extent& out, bool& first);
@@ -78,11 +78,11 @@ class ReachCheck {
 
   // Messages.
   /// The call that extends farthest, and its place.
-  struct Culprit {
+  struct Contributor {
     std::string name;
     Span span;
   };
-  Culprit culpritOf(const Layer& layer, const Extent& extent) const;
+  Contributor describeContributor(const Layer& layer, const Extent& extent) const;
   std::string hint(const Extent& extent) const;
   bool needsBox(uint32_t index);
   std::string lossHint(const BoundLoss& loss) const;

@@ -111,8 +111,8 @@ Extent ReachCheck::overridden(const UnderEdit& what, size_t at, const RangeFrame
   edits_.depth = 0;
   if (edit.by_tag) edits_.within.push_back(what.edits[at]);
   Extent out = statement(edit.body, frame);
-  out.edit = what.edits[at];
-  if (!out.empty) out.culprit_size = std::max(out.culprit_size, out.size());
+  out.override_id = what.edits[at];
+  if (!out.empty) out.contributor_size = std::max(out.contributor_size, out.size());
   edits_ = before;
   under_ = outer;
   return out;

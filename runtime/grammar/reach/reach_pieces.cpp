@@ -36,7 +36,7 @@ bool ReachCheck::cut(RangeValue& value, int depth, const std::function<Extent()>
     }
     if (depth >= kDeepest || !hasPieces(value) || isNarrow(range)) return false;
   }
-  const double middle = middleOf(range);
+  const double middle = dividingPoint(range);
   bool good = true;
   for (const Interval half : {Interval{range.lo, middle}, Interval{middle, range.hi}}) {
     value.v[0] = half;
@@ -76,7 +76,7 @@ Extent ReachCheck::ruleInPieces(uint32_t rule, std::vector<RangeValue> args, con
 /// The same for a parameter of the grammar, which may be used anywhere.
 Extent ReachCheck::overParameters(uint32_t layer) {
   Extent whole = startExtent(layer);
-  const std::vector<bool> asked = values_.askedParameters();
+  const std::vector<bool> asked = values_.usedParameters();
   for (uint32_t p = 0; p < asked.size() && !cut_short_; ++p) {
     if (!asked[p]) continue;
     RangeValue value = RangeValue::number(values_.parameter(p));

@@ -21,19 +21,6 @@ Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
 
 }  // namespace
 
-Extent solidIn(const IntervalVector& edges) {
-  IntervalVector lower, upper;
-  for (size_t i = 0; i < 3; ++i) {
-    upper[i] = notBelowZero(edges[i] * kMiddle);
-    lower[i] = -upper[i];
-  }
-  Extent e = Extent::leaf(lower, upper);
-  e.inner = e.size();
-  e.uncertain();
-  e.node();
-  return e;
-}
-
 RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& frame) {
   RangeValue out;
   out.kind = ValueKind::plan;
@@ -83,7 +70,7 @@ Extent ReachCheck::extrude(const StmtNode& s, RangeFrame& frame) {
   frame.place = place;
   e.repeat({0, kMergeRange.high});
   e.move(middle);
-  e.blame(s.plan);
+  e.attribute(s.plan);
   return e;
 }
 
@@ -110,7 +97,7 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   Extent e = solidIn(edges);
   e.repeat({0, kMergeRange.high});
   e.move({plan.at[0], floor + edges[1] * kMiddle, plan.at[2]});
-  if (s.plan != kNoId) e.blame(s.plan);
+  if (s.plan != kNoId) e.attribute(s.plan);
   return e;
 }
 

@@ -41,20 +41,21 @@ std::string_view ReachCheck::written(ExprId id) const {
 }
 
 /// Content on which a cell depends must lie within its reach.
-void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
+void ReachCheck::reportObservation(const Layer& layer, const Observation& farthest) {
   const double reach = layer.reach * kUnit;
-  if (sight.query == kNoId || sight.far <= reach) return;
-  const bool bounded = std::isfinite(sight.far);
-  sink_.error(program_.expr(sight.query).span, codes::kReach,
-              join({"cannot prove reach: this query may look ", bounded ? metresText(sight.far) : "without bound",
-                    " from its cell, layer `", program_.text(layer.name), "` declares reach ", metresText(reach)}),
-              bounded ? join({"raise reach to ", metresText(std::ceil(sight.far)), " or ask nearer to the cell"})
-                      : "bound its radius and where it stands: a parameter's range, or clamp()");
+  if (farthest.query == kNoId || farthest.distance_m <= reach) return;
+  const bool bounded = std::isfinite(farthest.distance_m);
+  sink_.error(
+      program_.expr(farthest.query).span, codes::kReach,
+      join({"cannot prove reach: this query may look ", bounded ? metresText(farthest.distance_m) : "without bound",
+            " from its cell, layer `", program_.text(layer.name), "` declares reach ", metresText(reach)}),
+      bounded ? join({"raise reach to ", metresText(std::ceil(farthest.distance_m)), " or ask nearer to the cell"})
+              : "bound its radius and where it stands: a parameter's range, or clamp()");
 }
 
 /// Divisions that never have a value. Each is an error of its own, at its line.
 void ReachCheck::reportZeroDivisions() {
-  for (const BoundLoss& zero : values_.zeroDivisions()) {
+  for (const BoundLoss& zero : values_.losses().zeroDivisions()) {
     const ExprNode& quotient = program_.expr(zero.expr);
     if (zero.caller == kNoId) {
       const ExprId divisor = program_.idAt(quotient.children, 1);
@@ -72,9 +73,10 @@ void ReachCheck::reportZeroDivisions() {
   }
 }
 
-ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {
-  if (extent.edit != kNoId) return {"the shape of this override", program_.overrides[extent.edit].address_span};
-  const ExprNode& node = program_.expr(extent.culprit == kNoId ? layer.start : extent.culprit);
+ReachCheck::Contributor ReachCheck::describeContributor(const Layer& layer, const Extent& extent) const {
+  if (extent.override_id != kNoId)
+    return {"the shape of this override", program_.overrides[extent.override_id].address_span};
+  const ExprNode& node = program_.expr(extent.largest_contributor == kNoId ? layer.start : extent.largest_contributor);
   return {node.shape ? join({"`", program_.text(node.name), "`"}) : "the shape that this displaces", node.span};
 }
 
@@ -133,7 +135,7 @@ std::string ReachCheck::hint(const Extent& extent) const {
   if (extent.why == Unbound::radius)
     return "give the smallest radius of the displaced shape a lower bound, such as max(r, 1m)";
   if (extent.loss != 0) return lossHint(values_.losses()[extent.loss]);
-  const ExprNode* blamed = extent.culprit == kNoId ? nullptr : &program_.expr(extent.culprit);
+  const ExprNode* blamed = extent.largest_contributor == kNoId ? nullptr : &program_.expr(extent.largest_contributor);
   if (blamed != nullptr && blamed->ref == Ref::primitive && static_cast<Primitive>(blamed->id) == Primitive::halfspace)
     return "meet it with a box, or cut a shape with it";
   return "bound what it depends on: a parameter's range, clamp(), or `amp` of displace and warp";
@@ -227,7 +229,7 @@ void ReachCheck::report(uint32_t index, const Extent& extent) {
 void ReachCheck::reportOne(const Layer& layer, const Extent& extent, const std::string& room) {
   const bool finite = isFinite(layer), boxed = !program_.domain.box.empty();
   const bool unbounded = extent.lost() || cut_short_;
-  auto [shape, span] = culpritOf(layer, extent);
+  auto [shape, span] = describeContributor(layer, extent);
   const Excess over = excessOf(layer, extent);
   const std::string name = join({"`", program_.text(layer.name), "`"});
   const double reach = layer.reach * kUnit;

@@ -28,24 +28,24 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   if (n.ref == Ref::primitive) {
     const bool automaton_of = static_cast<Primitive>(n.id) == Primitive::ca;
     Extent e = automaton_of ? automaton(n, frame) : primitiveExtent(program_, n, values_, frame);
-    e.blame(id);
+    e.attribute(id);
     return e;
   }
   if (n.ref != Ref::rule) return Extent::nothing();
   std::vector<RangeValue> args;
   for (uint32_t i = 0; i < n.bound.count; ++i) args.push_back(values_.evaluate(program_.idAt(n.bound, i), frame));
-  values_.judge(id, program_.rules[n.id].alternatives[0].formals, args);
-  values_.enter(id);
+  values_.compareArguments(id, program_.rules[n.id].alternatives[0].formals, args);
+  values_.calls().enter(id);
   Extent e = pieces_ == Pieces::none ? ruleExtent(n.id, args, frame, call == Call::start)
                                      : ruleInPieces(n.id, args, frame, call == Call::start);
-  values_.leave();
+  values_.calls().leave();
   // Name the outermost call: the one in the start rule.
-  if (call == Call::written && !e.empty) e.blame(id);
+  if (call == Call::written && !e.empty) e.attribute(id);
   // The author cannot change the library: report its caller.
-  if (e.culprit != kNoId && call != Call::start && isStandard(program_, program_.expr(e.culprit).span.file) &&
-      !isStandard(program_, n.span.file)) {
-    e.inside = e.culprit;
-    e.culprit = id;
+  if (e.largest_contributor != kNoId && call != Call::start &&
+      isStandard(program_, program_.expr(e.largest_contributor).span.file) && !isStandard(program_, n.span.file)) {
+    e.inside = e.largest_contributor;
+    e.largest_contributor = id;
   }
   return e;
 }
@@ -76,7 +76,7 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
   for (const Interval& part : caller.place.offset) note(placed, part);
   std::get<2>(placed).push_back(caller.place.turned ? 1 : 0);
 
-  RangeEvaluator::Asked& asked = values_.asked();
+  Dependence& asked = values_.dependence();
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   if (const auto known = scaled_.find(scaled); known != scaled_.end()) {
     asked.scale = true;
@@ -89,7 +89,7 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
   // A recursive call with the same ranges is unbounded. Its place makes no progress towards an end.
   if (tooFar() || !open_.insert(scaled).second) return Extent::unbounded();
   --steps_;
-  const RangeEvaluator::Asked before = asked;
+  const Dependence before = asked;
   asked = {};
   ++active_[rule];
   ++rules_;
@@ -158,7 +158,7 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
 /// Derivation treats negative weights as 0, which is never intended.
 void ReachCheck::judgeWeight(ExprId id, Interval weight) {
   if (pieces_ != Pieces::none || only_ != kNoId || weight.lo >= 0 || !weight.bounded()) return;
-  const ExprId caller = values_.callerOf(id);
+  const ExprId caller = values_.calls().writtenCaller(id);
   const Span& span = program_.expr(caller != kNoId ? caller : id).span;
   if (weight.hi < 0)
     sink_.error(span, codes::kValueRange, join({"a weight is 0 or more, and this is at most ", numberText(weight.hi)}),
@@ -204,7 +204,7 @@ Extent ReachCheck::alternativeExtent(uint32_t rule, const Alternative& head, Ran
   }
   if (head.minsize != kNoId) {
     // Use final sizes, however the scope is scaled.
-    values_.asked().scale = true;
+    values_.dependence().scale = true;
     const Interval scale = frame.place.scale, least = values_.number(head.minsize, frame);
     Interval size{};
     for (const Interval& edge : frame.scope) size = maximum(size, edge);

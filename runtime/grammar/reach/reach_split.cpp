@@ -75,9 +75,9 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
       frame.scope[axis] = {piece.lo, std::min(piece.hi + 2 * kSeamOverlap, length.hi)};
       frame.place.move(by);
       ++splits_;
-      if (!size.exact()) values_.enterLoose();
+      if (!size.exact()) values_.misfits().enterLoose();
       Extent e = body(program_.idAt(s.children, i), frame);
-      if (!size.exact()) values_.leaveLoose();
+      if (!size.exact()) values_.misfits().leaveLoose();
       --splits_;
       frame.scope = scope;
       frame.place = place;

@@ -32,11 +32,11 @@ Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
   --steps_;
   ++depth_;
   // Keep the loss of the enclosing statement's evaluations: a place, a count.
-  const uint32_t around = values_.takeLoss();
+  const uint32_t around = values_.losses().takeLatest();
   Extent e = statementKinds(program_.stmt(id), frame);
-  const uint32_t loss = values_.takeLoss();
+  const uint32_t loss = values_.losses().takeLatest();
   if (e.loss == 0 && e.lost()) e.loss = loss;
-  values_.giveBackLoss(around);
+  values_.losses().restoreLatest(around);
   --depth_;
   return e;
 }
@@ -221,8 +221,8 @@ Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
   e.grow(std::max(0.0, -by.lo));
   e.node();
   if ((!std::isfinite(by.lo) || e.why != before) && !e.empty) {
-    e.culprit = s.expr;
-    e.culprit_size = kInfinity;
+    e.largest_contributor = s.expr;
+    e.contributor_size = kInfinity;
   }
   return e;
 }
@@ -240,8 +240,8 @@ Extent ReachCheck::warped(const StmtNode& s, RangeFrame& frame) {
   e.node();
   e.shrinkSure(largest);
   if (!std::isfinite(largest) && !e.empty) {
-    e.culprit = s.expr;
-    e.culprit_size = largest;
+    e.largest_contributor = s.expr;
+    e.contributor_size = largest;
   }
   return e;
 }

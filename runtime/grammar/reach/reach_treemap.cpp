@@ -42,9 +42,9 @@ Extent ReachCheck::inPieces(StmtId child, const IntervalVector& edges, RangeFram
         by[axis] = std::isfinite(off) ? Interval{-off, off} : Interval::everything();
       }
       frame.place.move(by);
-      values_.enterLoose();
+      values_.misfits().enterLoose();
       Extent e = body(child, frame);
-      values_.leaveLoose();
+      values_.misfits().leaveLoose();
       frame.scope = scope;
       frame.place = place;
       e.move(by);

@@ -38,9 +38,9 @@ Extent ReachCheck::tile(StmtId child, const IntervalVector& edges, const Interva
     by[axis] = std::isfinite(off) ? Interval{-off, off} : Interval::everything();
   }
   frame.place.move(by);
-  values_.enterLoose();
+  values_.misfits().enterLoose();
   Extent e = body(child, frame);
-  values_.leaveLoose();
+  values_.misfits().leaveLoose();
   frame.scope = written;
   frame.place = place;
   e.move(by);
