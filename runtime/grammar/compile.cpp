@@ -9,6 +9,7 @@
 #include "grammar/parse/imports.h"
 #include "grammar/parse/parse_module.h"
 #include "grammar/print/printer.h"
+#include "grammar/reach/reach.h"
 #include "grammar/text/codes.h"
 
 namespace sgm {

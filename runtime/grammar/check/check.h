@@ -298,10 +298,6 @@ void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const 
 /// not depend on the frame. checkReach() checks the rest, where the frame is known.
 void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
-/// Proves how far each layer's shapes may extend from their cell; sets Layer::bound, and a finite domain's box if it is
-/// not written.
-void checkReach(Program& program, const CompileLimits& limits, DiagnosticSink& sink);
-
 /// Sets Layer::coarsest_cell and Layer::anchors. Precondition: the program has no errors.
 void findLayerContents(Program& program, const CompileLimits& limits);
 
