@@ -192,7 +192,7 @@ Extent Terminal::extent() {
     case Primitive::prism:
       return prism();
     case Primitive::ca:
-      break;  // depends on a cell, not a scope: ReachCheck::automaton()
+      break;  // depends on a cell, not a scope: boundAutomaton() of grammar/reach
   }
   return Extent::unbounded();
 }

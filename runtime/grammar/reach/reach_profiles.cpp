@@ -4,11 +4,12 @@
 
 #include "base/math.h"
 #include "grammar/range/reach_shapes.h"
-#include "grammar/reach/reach_check.h"
+#include "grammar/reach/kept_scope.h"
+#include "grammar/reach/reach_statements.h"
 #include "grammar/syntax/profile_limits.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::reach {
 
 namespace {
 
@@ -16,15 +17,16 @@ constexpr Interval kMiddle{0.5, 0.5};
 /// A roof's peak is cut slightly above it, and heights are rounded (derive/interpret/profiles.cpp).
 constexpr double kRounding = 4.0 / kUnitsPerMetre;
 
-Interval notBelowZero(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
 Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
 
 }  // namespace
 
-RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& frame) {
+RangeValue evaluateFootprint(const FootprintNode& plan, const RangeFrame& frame, ReachContext& context) {
   RangeValue out;
   out.kind = ValueKind::plan;
-  const auto number = [&](uint32_t i) { return notBelowZero(values_.number(program_.idAt(plan.bound, i), frame)); };
+  const auto number = [&](uint32_t i) {
+    return positivePart(context.values.number(context.program.idAt(plan.bound, i), frame));
+  };
   out.v[1] = out.at[1] = Interval{};
   switch (plan.outline) {
     case Outline::rect:
@@ -36,59 +38,56 @@ RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& fr
       out.v[0] = out.v[2] = number(1) * Interval{1.5, 2};
       break;
     case Outline::polygon: {
-      IntervalVector low = values_.vector(program_.idAt(plan.bound, 0), frame), high = low;
+      IntervalVector low = context.values.vector(context.program.idAt(plan.bound, 0), frame), high = low;
       for (uint32_t i = 1; i < plan.bound.count; ++i) {
-        const IntervalVector corner = values_.vector(program_.idAt(plan.bound, i), frame);
+        const IntervalVector corner = context.values.vector(context.program.idAt(plan.bound, i), frame);
         for (size_t k = 0; k < 2; ++k) {
           low[k] = minimum(low[k], corner[k]);
           high[k] = maximum(high[k], corner[k]);
         }
       }
       for (size_t k = 0; k < 2; ++k) {
-        out.v[2 * k] = notBelowZero(high[k] - low[k]);
+        out.v[2 * k] = positivePart(high[k] - low[k]);
         out.at[2 * k] = (low[k] + high[k]) * kMiddle;
       }
       return out;
     }
   }
-  const bool merged = plan.count != kNoId && !(values_.number(plan.count, frame).hi < 1.5);
+  const bool merged = plan.count != kNoId && !(context.values.number(plan.count, frame).hi < 1.5);
   for (size_t axis : {size_t{0}, size_t{2}}) out.at[axis] = merged ? symmetric(out.v[axis] * kMiddle) : Interval{};
   return out;
 }
 
-Extent ReachCheck::extrude(const StmtNode& s, RangeFrame& frame) {
-  const RangeValue plan = values_.evaluate(s.plan, frame);
-  const Interval height = notBelowZero(values_.number(s.expr, frame));
-  const IntervalVector scope = frame.scope;
-  const PlaceRange place = frame.place;
+Extent boundExtrude(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  const RangeValue plan = context.values.evaluate(s.plan, frame);
+  const Interval height = positivePart(context.values.number(s.expr, frame));
   const IntervalVector middle{plan.at[0], height * kMiddle, plan.at[2]};
+  const KeptScope kept(frame);
   frame.scope = {plan.v[0], height, plan.v[2]};
   frame.place.move(middle);
   Extent e = solidIn(frame.scope);
-  if (s.body != kNoId) e = block(program_.stmt(s.body), frame, std::move(e));
-  frame.scope = scope;
-  frame.place = place;
+  if (s.body != kNoId) e = boundBlock(context.program.stmt(s.body), frame, context, std::move(e));
   e.repeat({0, kMergeRange.high});
   e.move(middle);
   e.attribute(s.plan);
   return e;
 }
 
-Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
-  const RoofNode& roof = program_.ast.roofs[s.extra];
+Extent boundRoof(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  const RoofNode& roof = context.program.ast.roofs[s.extra];
   RangeValue plan = RangeValue::vector(frame.scope);
-  Interval overhang = roof.overhang == kNoId ? Interval{} : notBelowZero(values_.number(roof.overhang, frame));
+  Interval overhang = roof.overhang == kNoId ? Interval{} : positivePart(context.values.number(roof.overhang, frame));
   Interval floor = -(frame.scope[1] * kMiddle);
   if (s.plan != kNoId) {
-    plan = values_.evaluate(s.plan, frame);
+    plan = context.values.evaluate(s.plan, frame);
     floor = Interval::exactly(-kSeamOverlap);
     overhang = overhang * Interval::exactly(kMostMiter);
   }
   IntervalVector edges = plan.v;
-  for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = notBelowZero(edges[axis]) + overhang + overhang;
-  const Interval measure = values_.number(roof.measure, frame);
+  for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = positivePart(edges[axis]) + overhang + overhang;
+  const Interval measure = context.values.number(roof.measure, frame);
   if (roof.form == RoofForm::flat) {
-    edges[1] = notBelowZero(measure);
+    edges[1] = positivePart(measure);
   } else {
     const double pitch = std::clamp(measure.hi, kLeastPitch, kMostPitch);
     const double slope = detSin(pitch) / detCos(pitch) * (1 + 1e-12);
@@ -102,13 +101,13 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
 }
 
 /// An asset fills exactly the scope's box, or is omitted.
-Extent ReachCheck::fit(const StmtNode& s, RangeFrame& frame) {
-  const FitNode& fit = program_.ast.fits[s.extra];
+Extent boundFit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  const FitNode& fit = context.program.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
-    const FitZoneNode& zone = program_.ast.fit_zones[fit.zones.first + i];
-    for (const ExprId end : {zone.from, zone.to}) values_.number(end, frame);  // queries in these
+    const FitZoneNode& zone = context.program.ast.fit_zones[fit.zones.first + i];
+    for (const ExprId end : {zone.from, zone.to}) context.values.number(end, frame);  // queries in these
   }
   return solidIn(frame.scope);
 }
 
-}  // namespace sgm
+}  // namespace sgm::reach

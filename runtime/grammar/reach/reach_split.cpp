@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "grammar/reach/reach_check.h"
+#include "grammar/reach/kept_scope.h"
+#include "grammar/reach/reach_statements.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::reach {
 
 namespace {
 
@@ -16,32 +17,93 @@ struct Sums {
   Interval rigid{}, wanted{};
 };
 
-Interval notBelow(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
-
 /// Pieces of a range of sizes: a small part lies farther out than a large one.
 constexpr int kPieces = 4;
-constexpr int kSplitsInPieces = 4;
+
+/// The possible places of a part along the axis of its split, metres.
+struct PartPlace {
+  size_t axis = 0;
+  Interval length;               ///< of the scope
+  Interval size;                 ///< of the part
+  double before = 0, after = 0;  ///< lengths of other parts that certainly lie there
+};
+
+/// The extent of a part with some of its sizes. exact: the part has this size alone.
+Extent boundPiece(StmtId child, const PartPlace& part, Interval piece, bool exact, RangeFrame& frame,
+                  ReachContext& context) {
+  const KeptScope kept(frame);
+  IntervalVector by{};
+  const double end = 0.5 * (part.length.hi - piece.lo), low = part.before - end, high = end - part.after;
+  by[part.axis] = std::isfinite(end) ? Interval{std::min(low, high), std::max(low, high)} : Interval::everything();
+  by[part.axis] = by[part.axis] + Interval{-kSeamOverlap, kSeamOverlap};
+  frame.scope[part.axis] = {piece.lo, std::min(piece.hi + 2 * kSeamOverlap, part.length.hi)};
+  frame.place.move(by);
+  context.pieces.enterSplit();
+  if (!exact) context.values.misfits().enterLoose();
+  Extent e = boundStatement(child, frame, context);
+  if (!exact) context.values.misfits().leaveLoose();
+  context.pieces.leaveSplit();
+  e.move(by);
+  return e;
+}
+
+/// The extent of one copy of a part, with all of its sizes.
+Extent boundPart(StmtId child, const PartPlace& part, RangeFrame& frame, ReachContext& context) {
+  const Interval size = part.size;
+  const bool wide = std::isfinite(size.hi) && size.hi - size.lo > part.length.hi / 8 && context.pieces.dividesSizes();
+  std::optional<Extent> out;
+  for (int k = 0; k < (wide ? kPieces : 1); ++k) {
+    const double step = (size.hi - size.lo) / kPieces;
+    const Interval piece =
+        wide ? Interval{size.lo + k * step, k + 1 == kPieces ? size.hi : size.lo + (k + 1) * step} : size;
+    addAlternative(out, boundPiece(child, part, piece, size.exact(), frame, context));
+  }
+  return *out;
+}
+
+/// The extent of a child at a face of a box, or at the edge to its right. face: in the order of BoxPart: front, right,
+/// back, left, top, bottom. box: the edges of the box.
+Extent boundFace(StmtId child, int face, bool edge, const IntervalVector& box, RangeFrame& frame,
+                 ReachContext& context) {
+  const KeptScope kept(frame);
+  const bool upright = face < 4;
+  const size_t depth = !upright ? 1 : face % 2 == 0 ? 2 : 0, width = depth == 0 ? 2 : 0, height = upright ? 1 : 2;
+  const Interval half = box[depth] * Interval::exactly(0.5);
+  IntervalVector by{}, along{};
+  by[depth] = face == 2 || face == 3 || face == 5 ? -half : half;
+  if (edge) along[0] = box[width] * Interval::exactly(0.5);
+  const double quarters = upright ? face : face == 4 ? -1 : 1;
+  const Interval angle = Interval::exactly(quarters * (kPi / 2));
+  frame.place.move(by);
+  frame.place.turned = frame.place.turned || face != 0;
+  frame.place.move(along);
+  frame.scope = {edge ? Interval{} : box[width], box[height], Interval{}};
+  Extent e = boundStatement(child, frame, context);
+  e.move(along);
+  if (face != 0) e.rotate(upright ? 1 : 0, angle);
+  e.move(by);
+  return e;
+}
 
 }  // namespace
 
-Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
+Extent boundSplit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const size_t axis = s.extra;
-  const IntervalVector scope = frame.scope;
-  const Interval length = notBelow(scope[axis]);
-  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
+  const Interval length = atLeastZero(frame.scope[axis]);
+  const PartNode* parts = context.program.ast.parts.data() + s.parts.first;
   std::vector<Interval> sizes;
   Sums others, group;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
-    Interval size = values_.number(parts[i].size, frame);
+    Interval size = context.values.number(parts[i].size, frame);
     if (parts[i].relative) size = size * length;
-    size = notBelow(size);
+    size = atLeastZero(size);
     sizes.push_back(size);
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
   // Rigid parts keep their size if nothing is cut off. Flexible parts of a group share up to half a copy more than they
   // want, or less than the rigid part of one copy that does not fit.
-  const double snap = s.amount == kNoId ? 0 : std::max(0.0, values_.number(s.amount, frame).hi);
+  const double snap = s.amount == kNoId ? 0 : std::max(0.0, context.values.number(s.amount, frame).hi);
   const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
@@ -59,34 +121,7 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
     if (parts[i].flexible) size.hi = std::max(0.0, size.hi - before - after);
     if (parts[i].flexible && parts[i].repeated) size.hi = std::min(size.hi, sizes[i].hi * most);
     size.hi = std::min(size.hi + 2 * snap, length.hi);
-    const bool wide =
-        std::isfinite(size.hi) && size.hi - size.lo > length.hi / 8 && (!few_pieces_ || splits_ < kSplitsInPieces);
-    Extent one = Extent::nothing();
-    for (int k = 0; k < (wide ? kPieces : 1); ++k) {
-      const double step = (size.hi - size.lo) / kPieces;
-      const Interval piece =
-          wide ? Interval{size.lo + k * step, k + 1 == kPieces ? size.hi : size.lo + (k + 1) * step} : size;
-      IntervalVector by{};
-      const double end = 0.5 * (length.hi - piece.lo);
-      by[axis] = std::isfinite(end) ? Interval{std::min(before - end, end - after), std::max(before - end, end - after)}
-                                    : Interval::everything();
-      by[axis] = by[axis] + Interval{-kSeamOverlap, kSeamOverlap};
-      const PlaceRange place = frame.place;
-      frame.scope[axis] = {piece.lo, std::min(piece.hi + 2 * kSeamOverlap, length.hi)};
-      frame.place.move(by);
-      ++splits_;
-      if (!size.exact()) values_.misfits().enterLoose();
-      Extent e = body(program_.idAt(s.children, i), frame);
-      if (!size.exact()) values_.misfits().leaveLoose();
-      --splits_;
-      frame.scope = scope;
-      frame.place = place;
-      e.move(by);
-      if (k == 0)
-        one = e;
-      else
-        one.either(e);
-    }
+    Extent one = boundPart(context.program.idAt(s.children, i), {axis, length, size, before, after}, frame, context);
     one.repeat({0, parts[i].repeated ? times : 1});
     out.join(one);
     if (sure) before += sizes[i].lo;
@@ -94,42 +129,22 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
   return out;
 }
 
-Extent ReachCheck::comp(const StmtNode& s, RangeFrame& frame) {
-  const IntervalVector scope = {notBelow(frame.scope[0]), notBelow(frame.scope[1]), notBelow(frame.scope[2])};
-  const IntervalVector written = frame.scope;
-  const PlaceRange place = frame.place;
+Extent boundComp(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  const IntervalVector scope = {atLeastZero(frame.scope[0]), atLeastZero(frame.scope[1]), atLeastZero(frame.scope[2])};
   Extent out = Extent::nothing();
   for (uint32_t i = 0; i < s.parts.count; ++i) {
-    const StmtId child = program_.idAt(s.children, i);
-    const BoxPart of = program_.ast.parts[s.parts.first + i].of;
+    const StmtId child = context.program.idAt(s.children, i);
+    const BoxPart of = context.program.ast.parts[s.parts.first + i].of;
     if (of == BoxPart::inside) {
-      out.join(body(child, frame));
+      out.join(boundStatement(child, frame, context));
       continue;
     }
     const bool edges = of == BoxPart::edges;
     Extent some = Extent::nothing();
     double count = 0;
     for (int face = 0; face < 6; ++face) {
-      const bool upright = face < 4;
-      if (static_cast<int>(of) != face && !(upright && (edges || of == BoxPart::side))) continue;
-      // Faces are in the order of BoxPart: front, right, back, left, top, bottom.
-      const size_t depth = !upright ? 1 : face % 2 == 0 ? 2 : 0, width = depth == 0 ? 2 : 0, height = upright ? 1 : 2;
-      const Interval half = scope[depth] * Interval::exactly(0.5);
-      IntervalVector by{}, along{};
-      by[depth] = face == 2 || face == 3 || face == 5 ? -half : half;
-      if (edges) along[0] = scope[width] * Interval::exactly(0.5);
-      const double quarters = upright ? face : face == 4 ? -1 : 1;
-      const Interval angle = Interval::exactly(quarters * (kPi / 2));
-      frame.place.move(by);
-      frame.place.turned = frame.place.turned || face != 0;
-      frame.place.move(along);
-      frame.scope = {edges ? Interval{} : scope[width], scope[height], Interval{}};
-      Extent e = body(child, frame);
-      frame.scope = written;
-      frame.place = place;
-      e.move(along);
-      if (face != 0) e.rotate(upright ? 1 : 0, angle);
-      e.move(by);
+      if (static_cast<int>(of) != face && !(face < 4 && (edges || of == BoxPart::side))) continue;
+      Extent e = boundFace(child, face, edges, scope, frame, context);
       count += e.count;
       e.certain = false;
       some.join(e);
@@ -140,4 +155,4 @@ Extent ReachCheck::comp(const StmtNode& s, RangeFrame& frame) {
   return out;
 }
 
-}  // namespace sgm
+}  // namespace sgm::reach

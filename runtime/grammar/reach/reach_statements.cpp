@@ -1,11 +1,13 @@
+#include "grammar/reach/reach_statements.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
-#include "grammar/reach/reach_check.h"
+#include "grammar/reach/reach_rules.h"
 #include "grammar/text/codes.h"
 
-namespace sgm {
+namespace sgm::reach {
 
 namespace {
 
@@ -15,121 +17,25 @@ bool isSilent(StmtKind kind) {
          kind == StmtKind::anchor || kind == StmtKind::footprint;
 }
 
-}  // namespace
-
-Extent ReachCheck::body(StmtId id, RangeFrame& frame) {
-  const IntervalVector scope = frame.scope;
-  const PlaceRange place = frame.place;
-  Extent e = statement(id, frame);
-  frame.scope = scope;
-  frame.place = place;
-  return e;
+/// The tag of a body that is a block; 0 if it is another statement, or kNoId.
+uint16_t blockTag(StmtId body, const Program& program) {
+  const bool block = body != kNoId && program.stmt(body).kind == StmtKind::block;
+  return block ? program.stmt(body).tag : uint16_t{0};
 }
 
-Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
-  if (id == kNoId) return Extent::nothing();
-  if (tooFar()) return Extent::unbounded();
-  --steps_;
-  ++depth_;
-  // Keep the loss of the enclosing statement's evaluations: a place, a count.
-  const uint32_t around = values_.losses().takeLatest();
-  Extent e = statementKinds(program_.stmt(id), frame);
-  const uint32_t loss = values_.losses().takeLatest();
-  if (e.loss == 0 && e.lost()) e.loss = loss;
-  values_.losses().restoreLatest(around);
-  --depth_;
-  return e;
-}
-
-Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
-  switch (s.kind) {
-    case StmtKind::block:
-      return tagged(s, s.tag, frame);
-    case StmtKind::call:
-      return callExtent(s.expr, frame, Call::written);
-    case StmtKind::unite:
-    case StmtKind::cut: {
-      Extent e = body(s.body, frame);
-      if (s.amount != kNoId) e.smooth(std::max(0.0, values_.number(s.amount, frame).hi));
-      return e;
-    }
-    case StmtKind::meet:
-      return tagged(s, program_.stmt(s.body).kind == StmtKind::block ? program_.stmt(s.body).tag : uint16_t{0}, frame);
-    case StmtKind::sum: {
-      Extent e = body(s.body, frame);
-      e.summed();
-      return e;
-    }
-    case StmtKind::morph:
-      return morph(s, frame);
-    case StmtKind::displace:
-      return displaced(s, frame);
-    case StmtKind::warp:
-      return warped(s, frame);
-    case StmtKind::transform:
-      return transformed(s, frame);
-    case StmtKind::repeat:
-      return repeated(s, frame);
-    case StmtKind::for_each:
-      return forEach(s, frame);
-    case StmtKind::scatter:
-      return scattered(s, frame);
-    case StmtKind::split:
-      return split(s, frame);
-    case StmtKind::comp:
-      return comp(s, frame);
-    case StmtKind::treemap:
-      return treemap(s, frame);
-    case StmtKind::wfc:
-      return wave(s, frame);
-    case StmtKind::let:
-      frame.slots[s.slot] = values_.evaluate(s.expr, frame);
-      return Extent::nothing();
-    case StmtKind::snap:
-      values_.number(s.expr, frame);  // queries in these
-      if (s.amount != kNoId) values_.number(s.amount, frame);
-      return body(s.body, frame);
-    case StmtKind::detail: {
-      values_.number(s.expr, frame);  // a query in it
-      return body(s.body, frame);
-    }
-    case StmtKind::footprint:
-      frame.slots[s.slot] = footprint(program_.ast.footprints[s.extra], frame);
-      return Extent::nothing();
-    case StmtKind::extrude:
-      return tagged(s, s.body == kNoId ? uint16_t{0} : program_.stmt(s.body).tag, frame);
-    case StmtKind::roof:
-      return roof(s, frame);
-    case StmtKind::fit:
-      return fit(s, frame);
-    case StmtKind::inner:
-      return inner(s, frame);
-    case StmtKind::field:
-    case StmtKind::mat:
-    case StmtKind::tag:
-    case StmtKind::anchor:
-    case StmtKind::link:
-    case StmtKind::border:
-      return Extent::nothing();
-  }
-  return Extent::unbounded();
-}
-
-Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame, Extent first) {
-  return blockFrom(s, 0, frame, std::move(first));
-}
-
-Extent ReachCheck::blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame, Extent out) {
+/// The extent of a block's statements from `next` on; out: of those before.
+Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, ReachContext& context, Extent out) {
   for (uint32_t i = next; i < s.children.count; ++i) {
-    const StmtId child = program_.idAt(s.children, i);
-    const StmtNode& inner = program_.stmt(program_.innermost(child));
-    const Extent part = statement(child, frame);
-    if (inner.kind == StmtKind::let && pieces_ != Pieces::none && hasPieces(frame.slots[inner.slot])) {
+    const StmtId child = context.program.idAt(s.children, i);
+    const StmtNode& inner = context.program.stmt(context.program.innermost(child));
+    const Extent part = boundStatement(child, frame, context);
+    if (inner.kind == StmtKind::let && context.pieces.isDividing() && hasPieces(frame.slots[inner.slot])) {
       const uint32_t slot = inner.slot;
-      return overPieces({&frame.slots[slot]}, [&] {
+      const auto rest = [&] {
         RangeFrame at = frame;
-        return blockFrom(s, i + 1, at, out);
-      });
+        return boundRestOfBlock(s, i + 1, at, context, out);
+      };
+      return context.pieces.boundOver({&frame.slots[slot]}, rest, context.budget);
     }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
       // A nested cut adds nothing, but makes the content before it uncertain.
@@ -142,45 +48,63 @@ Extent ReachCheck::blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame
   return out;
 }
 
-Extent ReachCheck::meet(const StmtNode& s, RangeFrame& frame) {
-  const StmtNode& inner = program_.stmt(s.body);
-  if (inner.kind != StmtKind::block) return body(s.body, frame);
-  Extent out = Extent::nothing();
+Extent boundMeet(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  const StmtNode& inner = context.program.stmt(s.body);
+  if (inner.kind != StmtKind::block) return boundStatement(s.body, frame, context);
+  std::optional<Extent> out;
   double inner_radius = 0, count = 0;
-  bool first = true, missing = false;
+  bool missing = false;
   for (uint32_t i = 0; i < inner.children.count; ++i) {
-    const StmtId child = program_.idAt(inner.children, i);
-    const Extent part = statement(child, frame);
-    if (isSilent(program_.stmt(child).kind)) continue;
-    if (program_.stmt(program_.innermost(child)).kind == StmtKind::cut) continue;
+    const StmtId child = context.program.idAt(inner.children, i);
+    const Extent part = boundStatement(child, frame, context);
+    if (isSilent(context.program.stmt(child).kind)) continue;
+    if (context.program.stmt(context.program.innermost(child)).kind == StmtKind::cut) continue;
     missing = missing || part.empty;
     inner_radius = std::max(inner_radius, part.inner);
     count += part.count;
-    if (first)
-      out = part;
+    if (out)
+      out->intersect(part);
     else
-      out.intersect(part);
-    first = false;
+      out = part;
   }
-  if (missing || first) return Extent::nothing();
+  if (missing || !out) return Extent::nothing();
   // A missing operand removes the whole meet.
-  out.certain = false;
-  out.inner = inner_radius;
-  out.inner_low = 0;
-  out.count = std::max(1.0, count);
-  out.node();
-  return out;
+  out->certain = false;
+  out->inner = inner_radius;
+  out->inner_low = 0;
+  out->count = std::max(1.0, count);
+  out->node();
+  return *out;
 }
 
-Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
-  Extent a = body(program_.idAt(s.children, 0), frame);
-  const Extent b = body(program_.idAt(s.children, 1), frame);
+Extent boundSmooth(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  Extent e = boundStatement(s.body, frame, context);
+  if (s.amount != kNoId) e.smooth(std::max(0.0, context.values.number(s.amount, frame).hi));
+  return e;
+}
+
+Extent boundSum(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  Extent e = boundStatement(s.body, frame, context);
+  e.summed();
+  return e;
+}
+
+/// A snap or a detail, whose expressions may contain queries.
+Extent boundWithQueries(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  context.values.number(s.expr, frame);
+  if (s.amount != kNoId) context.values.number(s.amount, frame);
+  return boundStatement(s.body, frame, context);
+}
+
+Extent boundMorph(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  Extent a = boundStatement(context.program.idAt(s.children, 0), frame, context);
+  const Extent b = boundStatement(context.program.idAt(s.children, 1), frame, context);
   bool apart = false;
   for (size_t i = 0; i < 3 && !a.empty && !b.empty; ++i)
     apart = apart || a.at.may[i].hi < b.at.may[i].lo || b.at.may[i].hi < a.at.may[i].lo;
-  if (apart && pieces_ == Pieces::none)
-    sink_.warning(s.span, codes::kMorphDisjoint, "the two shapes of this morph lie apart, and may vanish half way",
-                  "let them overlap");
+  if (apart && !context.pieces.isDividing())
+    context.sink.warning(s.span, codes::kMorphDisjoint,
+                         "the two shapes of this morph lie apart, and may vanish half way", "let them overlap");
   // A blend contains the intersection of both: only that is certain.
   std::array<double, 3> lo = a.sure_lo, hi = a.sure_hi;
   for (size_t i = 0; i < 3; ++i) {
@@ -208,13 +132,13 @@ Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
   return a;
 }
 
-Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
-  Interval by = values_.number(s.expr, frame);
+Extent boundDisplace(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  Interval by = context.values.number(s.expr, frame);
   if (s.amount != kNoId) {
-    const double most = values_.number(s.amount, frame).magnitude();
+    const double most = context.values.number(s.amount, frame).magnitude();
     by = minimum(maximum(by, {-most, -most}), {most, most});
   }
-  Extent e = body(s.body, frame);
+  Extent e = boundStatement(s.body, frame, context);
   const Unbound before = e.why;
   // Positive displacement makes the shape smaller, negative larger.
   e.shrinkSure(by.magnitude() * (std::isfinite(e.spread) ? e.spread : 1));
@@ -227,15 +151,15 @@ Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-Extent ReachCheck::warped(const StmtNode& s, RangeFrame& frame) {
-  IntervalVector by = values_.vector(s.expr, frame);
+Extent boundWarp(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  IntervalVector by = context.values.vector(s.expr, frame);
   double most = kInfinity, largest = 0;
-  if (s.amount != kNoId) most = values_.number(s.amount, frame).magnitude();
+  if (s.amount != kNoId) most = context.values.number(s.amount, frame).magnitude();
   for (Interval& part : by) {
     part = -minimum(maximum(part, {-most, -most}), {most, most});
     largest = std::max(largest, part.magnitude());
   }
-  Extent e = body(s.body, frame);
+  Extent e = boundStatement(s.body, frame, context);
   e.add(by);
   e.node();
   e.shrinkSure(largest);
@@ -246,4 +170,93 @@ Extent ReachCheck::warped(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-}  // namespace sgm
+/// Dispatches by kind. Without a default the compiler names a new kind that the proof misses.
+Extent boundKind(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  switch (s.kind) {
+    case StmtKind::block:
+      return context.overrides.boundTagged(s, s.tag, frame, context);
+    case StmtKind::call:
+      return boundCall(s.expr, CallSite::statement, frame, context);
+    case StmtKind::unite:
+    case StmtKind::cut:
+      return boundSmooth(s, frame, context);
+    case StmtKind::meet:
+    case StmtKind::extrude:
+      return context.overrides.boundTagged(s, blockTag(s.body, context.program), frame, context);
+    case StmtKind::sum:
+      return boundSum(s, frame, context);
+    case StmtKind::morph:
+      return boundMorph(s, frame, context);
+    case StmtKind::displace:
+      return boundDisplace(s, frame, context);
+    case StmtKind::warp:
+      return boundWarp(s, frame, context);
+    case StmtKind::transform:
+      return boundTransform(s, frame, context);
+    case StmtKind::repeat:
+      return boundRepeat(s, frame, context);
+    case StmtKind::for_each:
+      return boundForEach(s, frame, context);
+    case StmtKind::scatter:
+      return boundScatter(s, frame, context);
+    case StmtKind::split:
+      return boundSplit(s, frame, context);
+    case StmtKind::comp:
+      return boundComp(s, frame, context);
+    case StmtKind::treemap:
+      return boundTreemap(s, frame, context);
+    case StmtKind::wfc:
+      return boundWfc(s, frame, context);
+    case StmtKind::let:
+      frame.slots[s.slot] = context.values.evaluate(s.expr, frame);
+      return Extent::nothing();
+    case StmtKind::snap:
+    case StmtKind::detail:
+      return boundWithQueries(s, frame, context);
+    case StmtKind::footprint:
+      frame.slots[s.slot] = evaluateFootprint(context.program.ast.footprints[s.extra], frame, context);
+      return Extent::nothing();
+    case StmtKind::roof:
+      return boundRoof(s, frame, context);
+    case StmtKind::fit:
+      return boundFit(s, frame, context);
+    case StmtKind::inner:
+      return context.overrides.boundInner(s, frame, context);
+    case StmtKind::field:
+    case StmtKind::mat:
+    case StmtKind::tag:
+    case StmtKind::anchor:
+    case StmtKind::link:
+    case StmtKind::border:
+      return Extent::nothing();
+  }
+  return Extent::unbounded();
+}
+
+}  // namespace
+
+Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context) {
+  if (id == kNoId) return Extent::nothing();
+  if (context.budget.cutAtLimit()) return Extent::unbounded();
+  context.budget.enter();
+  // Keep the loss of the enclosing statement's evaluations: a place, a count.
+  BoundLosses& losses = context.values.losses();
+  const uint32_t around = losses.takeLatest();
+  Extent e = boundKind(context.program.stmt(id), frame, context);
+  const uint32_t loss = losses.takeLatest();
+  if (e.loss == 0 && e.lost()) e.loss = loss;
+  losses.restoreLatest(around);
+  context.budget.leave();
+  return e;
+}
+
+Extent boundUntagged(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
+  if (s.kind == StmtKind::extrude) return boundExtrude(s, frame, context);
+  return s.kind == StmtKind::meet ? boundMeet(s, frame, context) : boundBlock(s, frame, context);
+}
+
+Extent boundBlock(const StmtNode& s, RangeFrame& frame, ReachContext& context, Extent first) {
+  return boundRestOfBlock(s, 0, frame, context, std::move(first));
+}
+
+}  // namespace sgm::reach

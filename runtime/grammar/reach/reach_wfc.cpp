@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "grammar/reach/reach_check.h"
+#include "grammar/reach/kept_scope.h"
+#include "grammar/reach/reach_statements.h"
 #include "grammar/syntax/scope_parts.h"
 
-namespace sgm {
+namespace sgm::reach {
 
 namespace {
-
-Interval notUnderZero(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
 /// The number of places along an edge: the whole number nearest to edge / wanted, but at least one.
 Interval placesIn(Interval edge, Interval wanted) {
@@ -25,12 +24,10 @@ Interval placeEdge(Interval edge, Interval wanted, Interval count) {
   return {std::min(edge.lo, 0.75 * wanted.lo), std::min(edge.hi, 1.5 * wanted.hi)};
 }
 
-}  // namespace
-
-/// The content of a box with edges `tile` that lies anywhere in one with edges `edges`.
-Extent ReachCheck::tile(StmtId child, const IntervalVector& edges, const IntervalVector& tile, RangeFrame& frame) {
-  const IntervalVector written = frame.scope;
-  const PlaceRange place = frame.place;
+/// The extent of a child whose scope has the edges `tile` and lies anywhere in a box of these edges.
+Extent boundTile(StmtId child, const IntervalVector& edges, const IntervalVector& tile, RangeFrame& frame,
+                 ReachContext& context) {
+  const KeptScope kept(frame);
   frame.scope = tile;
   IntervalVector by{};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -38,27 +35,27 @@ Extent ReachCheck::tile(StmtId child, const IntervalVector& edges, const Interva
     by[axis] = std::isfinite(off) ? Interval{-off, off} : Interval::everything();
   }
   frame.place.move(by);
-  values_.misfits().enterLoose();
-  Extent e = body(child, frame);
-  values_.misfits().leaveLoose();
-  frame.scope = written;
-  frame.place = place;
+  context.values.misfits().enterLoose();
+  Extent e = boundStatement(child, frame, context);
+  context.values.misfits().leaveLoose();
   e.move(by);
   return e;
 }
 
-Extent ReachCheck::wave(const StmtNode& s, RangeFrame& frame) {
+}  // namespace
+
+Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   IntervalVector wanted{};
-  if (program_.expr(s.expr).type.kind == ValueKind::vector)
-    wanted = values_.vector(s.expr, frame);
+  if (context.program.expr(s.expr).type.kind == ValueKind::vector)
+    wanted = context.values.vector(s.expr, frame);
   else
-    wanted.fill(values_.number(s.expr, frame));
+    wanted.fill(context.values.number(s.expr, frame));
   IntervalVector edges{}, place{};
   double places = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
     // Smaller tiles are omitted.
     wanted[axis] = maximum(wanted[axis], Interval::exactly(kTileRange.low));
-    edges[axis] = notUnderZero(frame.scope[axis]);
+    edges[axis] = atLeastZero(frame.scope[axis]);
     const Interval count = placesIn(edges[axis], wanted[axis]);
     place[axis] = placeEdge(edges[axis], wanted[axis], count);
     place[axis].hi = std::min(place[axis].hi + 2 * kSeamOverlap, edges[axis].hi);
@@ -66,31 +63,28 @@ Extent ReachCheck::wave(const StmtNode& s, RangeFrame& frame) {
   }
   Extent out = Extent::nothing();
   for (uint32_t i = 0; i < s.parts.count; ++i) {
-    const PartNode& part = program_.ast.parts[s.parts.first + i];
+    const PartNode& part = context.program.ast.parts[s.parts.first + i];
     if (part.label == kNoId) continue;
-    values_.number(part.size, frame);  // a query in it
-    const StmtId child = program_.idAt(s.children, i);
-    Extent one = Extent::nothing();
-    const int turns = program_.ast.tiles[part.tile].turns ? 4 : 1;
+    context.values.number(part.size, frame);  // a query in it
+    const StmtId child = context.program.idAt(s.children, i);
+    std::optional<Extent> one;
+    const int turns = context.program.ast.tiles[part.tile].turns ? 4 : 1;
     for (int turn = 0; turn < turns; ++turn) {
       // In the tile's own axes; its surroundings are turned the other way.
       const bool across = turn % 2 != 0;
       const auto own = [&](const IntervalVector& v) { return across ? IntervalVector{v[2], v[1], v[0]} : v; };
       const bool turned = frame.place.turned;
       frame.place.turned = turned || turn != 0;
-      Extent e = tile(child, own(edges), own(place), frame);
+      Extent e = boundTile(child, own(edges), own(place), frame, context);
       frame.place.turned = turned;
       if (turn != 0) e.rotate(1, Interval::exactly(turn * (kPi / 2)));
-      if (turn == 0)
-        one = e;
-      else
-        one.either(e);
+      addAlternative(one, e);
     }
-    one.certain = false;
-    one.repeat({0, std::min(places, kMostPlaces)});
-    out.join(one);
+    one->certain = false;
+    one->repeat({0, std::min(places, kMostPlaces)});
+    out.join(*one);
   }
   return out;
 }
 
-}  // namespace sgm
+}  // namespace sgm::reach
