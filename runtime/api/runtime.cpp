@@ -1,8 +1,7 @@
 #include "api/runtime.h"
 
-#include <cstdio>
-
 #include "api/barrier.h"
+#include "base/short_text.h"
 
 namespace sgm::api {
 namespace {
@@ -94,9 +93,9 @@ CallerJobs::~CallerJobs() {
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
 
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept {
-  char message[128];  // on the stack, because memory may have run out
-  std::snprintf(message, sizeof message, "%s: this handle was already destroyed; nothing was done", function);
-  head.runtime.log(SGM_LOG_ERROR, message);
+  ShortText<128> message;  // on the stack, because memory may have run out
+  message.add(function).add(": this handle was already destroyed; nothing was done");
+  head.runtime.log(SGM_LOG_ERROR, message.c_str());
   return SGM_ERR_INVALID_ARGUMENT;
 }
 
@@ -147,10 +146,9 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
 sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
   if (runtime == nullptr) return SGM_OK;
   if (const uint64_t alive = runtime->children.load(std::memory_order_acquire); alive != 0) {
-    char message[128];  // on the stack, because memory may have run out
-    std::snprintf(message, sizeof message, "sgm_runtime_destroy: handles of this runtime that were not destroyed: %llu",
-                  static_cast<unsigned long long>(alive));
-    runtime->log(SGM_LOG_ERROR, message);
+    sgm::ShortText<128> message;  // on the stack, because memory may have run out
+    message.add("sgm_runtime_destroy: handles of this runtime that were not destroyed: ").add(alive);
+    runtime->log(SGM_LOG_ERROR, message.c_str());
     return SGM_ERR_BUSY;
   }
   const sgm_allocator allocator = runtime->allocator;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <queue>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "base/share_priority.h"
+#include "base/short_text.h"
 
 namespace sgm {
 
@@ -77,9 +77,9 @@ class ThreadPool final : public JobSystem {
 
  private:
   void work(size_t number) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%s %zu", names_, number);
-    profiler_.nameThread(name);
+    ShortText<32> name;
+    name.add(names_).add(" ").add(uint64_t{number});
+    profiler_.nameThread(name.c_str());
     for (;;) {
       Job job;
       {

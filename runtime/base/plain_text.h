@@ -2,6 +2,7 @@
 // Texts that do not depend on the locale of the host program, unlike those of the C library.
 
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <system_error>
@@ -34,6 +35,15 @@ inline std::string fixedText(double value, int digits) {
   char text[400];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
   return std::string(text, end.ptr);
+}
+
+/// A number in hexadecimal, in lower case, with zeros in front up to the given number of digits.
+inline std::string hexText(uint64_t value, size_t digits) {
+  char text[16];
+  const auto end = std::to_chars(text, text + sizeof text, value, 16);
+  std::string hex(text, end.ptr);
+  if (hex.size() < digits) hex.insert(0, digits - hex.size(), '0');
+  return hex;
 }
 
 }  // namespace sgm

@@ -1,15 +1,9 @@
+#include "base/plain_text.h"
 #include "store/frames.h"
 
 namespace sgm::store {
 
-std::string nameOf(const ContentId& id) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string name;
-  for (const uint64_t half : {id.high, id.low}) {
-    for (int shift = 60; shift >= 0; shift -= 4) name += kDigits[half >> shift & 15];
-  }
-  return name;
-}
+std::string nameOf(const ContentId& id) { return hexText(id.high, 16) + hexText(id.low, 16); }
 
 void putId(const ContentId& id, ByteWriter& out) {
   out.put(id.high);

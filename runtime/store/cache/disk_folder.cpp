@@ -1,13 +1,12 @@
 #include "store/cache/disk_folder.h"
 
-#include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <string_view>
 
+#include "base/plain_text.h"
 #include "base/platform/file.h"
 #include "store/cache/disk_entry.h"
 
@@ -46,17 +45,10 @@ std::optional<DiskKey> keyOfName(std::string_view name, size_t shard) {
 
 }  // namespace
 
-std::string DiskFolder::shardName(size_t shard) const {
-  std::array<char, 4> digits{};
-  std::snprintf(digits.data(), digits.size(), "/%02x", static_cast<unsigned>(shard & (kShards - 1)));
-  return folder_ + digits.data();
-}
+std::string DiskFolder::shardName(size_t shard) const { return folder_ + "/" + hexText(shard & (kShards - 1), 2); }
 
 std::string DiskFolder::fileName(const DiskKey& key) const {
-  std::array<char, kDigits + 2> digits{};
-  std::snprintf(digits.data(), digits.size(), "/%016llx%016llx", static_cast<unsigned long long>(key.high),
-                static_cast<unsigned long long>(key.low));
-  return shardName(shardOf(key)) + digits.data();
+  return shardName(shardOf(key)) + "/" + hexText(key.high, kDigits / 2) + hexText(key.low, kDigits / 2);
 }
 
 int DiskFolder::read(const DiskKey& key, std::pmr::vector<std::byte>& file) const {

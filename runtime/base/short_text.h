@@ -1,0 +1,35 @@
+#pragma once
+// Texts for moments when no memory may be allocated, such as messages about memory that has run out.
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace sgm {
+
+/// Owns a text of fewer than N bytes; more is cut off.
+template <size_t N>
+class ShortText {
+ public:
+  ShortText& add(std::string_view text) {
+    const size_t size = std::min(text.size(), N - 1 - size_);
+    std::copy_n(text.data(), size, text_.data() + size_);
+    size_ += size;
+    return *this;
+  }
+  ShortText& add(uint64_t number) {
+    char digits[20];
+    const auto end = std::to_chars(digits, digits + sizeof digits, number);
+    return add(std::string_view(digits, static_cast<size_t>(end.ptr - digits)));
+  }
+  const char* c_str() const { return text_.data(); }
+
+ private:
+  std::array<char, N> text_{};  // ends with 0
+  size_t size_ = 0;
+};
+
+}  // namespace sgm
