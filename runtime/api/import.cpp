@@ -1,12 +1,9 @@
 #include "api/import.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <system_error>
 
+#include "base/file_reader.h"
 #include "base/plain_text.h"
 
 namespace sgm::api {
@@ -17,36 +14,12 @@ Error ioError(const fs::path& path, const std::string& why) {
   return {Code::io, "cannot read " + path.string() + ": " + why, 0, 0};
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 bool liesIn(const fs::path& folder, const fs::path& file) {
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   return end == folder.end() && rest != file.end();
 }
 
 }  // namespace
-
-Result<std::string> readTextFile(const fs::path& path, size_t limit) {
-  std::error_code why;
-  const fs::file_status status = fs::status(path, why);
-  if (status.type() == fs::file_type::not_found) return ioError(path, "no such file");
-  // for example, a folder cannot be read, or links are circular
-  if (!fs::exists(status)) return ioError(path, systemMessage(why));
-  if (fs::is_directory(status)) return ioError(path, "it is a folder");
-  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (file == nullptr) return ioError(path, systemMessage(errno));
-  std::string text;
-  char buffer[16384];
-  while (const size_t got = std::fread(buffer, 1, sizeof buffer, file.get())) {
-    text.append(buffer, got);
-    if (text.size() > limit)
-      return Error{Code::limit, path.string() + " is larger than " + std::to_string(limit) + " bytes", 0, 0};
-  }
-  if (std::ferror(file.get())) return ioError(path, systemMessage(errno));
-  return text;
-}
 
 Result<std::string> FolderImports::read(std::string_view path, size_t limit) {
   std::error_code why;
@@ -56,7 +29,7 @@ Result<std::string> FolderImports::read(std::string_view path, size_t limit) {
   if (why) return ioError(folder / path, systemMessage(why));
   if (!liesIn(folder, file)) return ioError(folder / path, "the link leaves the grammar's folder");
   if (!fs::is_regular_file(file, why)) return ioError(file, "not a regular file");
-  return readTextFile(file, limit);
+  return readFile(file, limit);
 }
 
 CallerImports::CallerImports(sgm_import_function function, void* user, const char* folder)

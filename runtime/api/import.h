@@ -35,9 +35,6 @@ class CallerImports final : public ImportResolver {
   std::optional<FolderImports> folder_;
 };
 
-/// Reads a whole file of at most limit bytes. Errors: io (with the system's reason), limit.
-Result<std::string> readTextFile(const std::filesystem::path& path, size_t limit);
-
 /// Returns a line of the file with this name, without its line end; "" if it does not exist. line: from 1.
 std::string sourceLine(const std::vector<SourceFile>& files, std::string_view file, int line);
 

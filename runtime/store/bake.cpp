@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/bytes.h"
+#include "base/file_reader.h"
 #include "chunk/mesh_chunks.h"
 
 namespace sgm::store {
@@ -125,7 +126,7 @@ std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const s
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
   const auto bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
   if (!bytes) return std::nullopt;
-  std::optional<TileRecord> record = decodeTileFile(bakery.job, *bytes, bakery.memory);
+  std::optional<TileRecord> record = decodeTileFile(bakery.job, std::as_bytes(std::span(*bytes)), bakery.memory);
   if (!record || record->key != tile) return std::nullopt;
   std::error_code error;
   const uint64_t there = std::filesystem::file_size(packFile(bakery.folder, tile), error);

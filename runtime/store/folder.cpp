@@ -195,14 +195,6 @@ Result<void> syncFolder(const fs::path& folder) {
   return {};
 }
 
-Result<std::pmr::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
-  const Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
-  if (!file) return file.error();
-  if ((*file)->size() > most)
-    return Error{Code::limit, "'" + path.string() + "' has more than " + std::to_string(most) + " bytes"};
-  return (*file)->read(0, static_cast<size_t>((*file)->size()));
-}
-
 Result<void> writeFile(const fs::path& file, std::span<const std::byte> bytes, UnfinishedFiles* unfinished) {
   Result<FileWriter> writer = FileWriter::create(file, unfinished);
   if (!writer) return writer.error();

@@ -105,8 +105,6 @@ bool isPack(const std::filesystem::path& path, const PackFile& pack);
 Result<void> syncFolder(const std::filesystem::path& folder);
 /// Creates a folder and its parents. Error: io.
 Result<void> makeFolder(const std::filesystem::path& folder);
-/// Reads a whole file. Errors: io; limit if it is larger than `most` bytes. Throws std::bad_alloc.
-Result<std::pmr::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
 /// Writes a file completely or not at all. unfinished: same as for FileWriter::create(). Error: io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "base/file_reader.h"
+
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
@@ -131,20 +133,22 @@ class Merger {
     // Linking fails if a damaged file has that name, or if the file system has no links: then the pack is copied.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
-    if (Result<void> written = writeFile(to, *bytes, bakery_.unfinished); !written) return written.error();
+    if (Result<void> written = writeFile(to, std::as_bytes(std::span(*bytes)), bakery_.unfinished); !written)
+      return written.error();
     return pack;
   }
 
   /// Makes a pack of only the contents that are new (`fresh`), and updates their locations in the record.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
-    const auto bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
-    if (!bytes) return bytes.error();
+    const auto pack_bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
+    if (!pack_bytes) return pack_bytes.error();
+    const std::span bytes = std::as_bytes(std::span(*pack_bytes));
     std::vector<std::byte> frames = packHead();
     for (const size_t i : fresh) {
       StoredContent& content = record.contents[i];
-      const auto first = bytes->begin() + static_cast<ptrdiff_t>(content.offset);
+      const std::span frame = bytes.subspan(content.offset, content.stored);
       content.offset = frames.size();
-      frames.insert(frames.end(), first, first + static_cast<ptrdiff_t>(content.stored));
+      frames.insert(frames.end(), frame.begin(), frame.end());
     }
     const PackFile pack{idOf(frames), frames.size()};
     const Result<bool> there = isThere(pack);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/bytes.h"
+#include "base/file_reader.h"
 #include "chunk/mesh_chunks.h"
 #include "field/prune.h"
 
@@ -117,7 +118,8 @@ class Estimate {
 Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileKey> tiles, const Progress& progress) {
   const std::filesystem::path file = bakery.folder / "plan";
   if (const auto bytes = readFile(file, kMostPlan)) {
-    if (std::optional<std::vector<uint64_t>> costs = decodePlan(bakery.job, *bytes, tiles.size()))
+    if (std::optional<std::vector<uint64_t>> costs =
+            decodePlan(bakery.job, std::as_bytes(std::span(*bytes)), tiles.size()))
       return std::move(*costs);
   }
   std::vector<uint64_t> costs(tiles.size());

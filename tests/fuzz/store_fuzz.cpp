@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/file_reader.h"
 #include "chunk/chunk_codec.h"
 #include "store/closure.h"
 #include "store/folder.h"
@@ -121,10 +122,11 @@ std::vector<std::byte> writtenIndex() {
   for (const store::TileKey& tile : store::tilesOf(region))
     require(bool(writer->add(recordOf(none, tile), std::pmr::get_default_resource())));
   require(bool(writer->commit({1, 2}, region)));
-  const auto bytes = store::readFile(file, 1 << 24);
-  require(bool(bytes));
+  const auto content = readFile(file, 1 << 24);
+  require(bool(content));
   std::filesystem::remove_all(name);
-  return {bytes->begin(), bytes->end()};
+  const std::span bytes = std::as_bytes(std::span(*content));
+  return {bytes.begin(), bytes.end()};
 }
 
 /// So that the file's end and directory count as whole, whatever is in them.

@@ -1,11 +1,10 @@
 #include "backend/vulkan/pipeline_cache.h"
 
 #include <bit>
-#include <cstdio>
 #include <cstring>
-#include <fstream>
 
 #include "base/checksum.h"
+#include "base/file_reader.h"
 #include "base/file_writer.h"
 #include "base/plain_text.h"
 
@@ -22,7 +21,7 @@ struct FileHeader {
 };
 static_assert(sizeof(FileHeader) == 24);
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;  // our shaders take some hundred kilobytes
+constexpr uint64_t kLargestFile = uint64_t{256} << 20;  // our shaders take some hundred kilobytes
 
 FileHeader headerFor(std::span<const std::byte> data) {
   FileHeader header;
@@ -31,28 +30,12 @@ FileHeader headerFor(std::span<const std::byte> data) {
   return header;
 }
 
-std::vector<std::byte> readCacheFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return {};
-  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  if (error || bytes > kLargestFile) return {};
-  std::vector<std::byte> content(static_cast<size_t>(bytes));
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<size_t>(file.gcount()));
-  return content;
-}
-
 }  // namespace
 
 std::string pipelineCacheName(const DeviceInfo& info) {
-  char text[64];
-  std::snprintf(text, sizeof text, "vulkan-%08x-%08x-%08x-", info.vendor, info.device, info.driver_version);
-  std::string name = text;
-  for (const uint8_t byte : info.cache_id) {
-    std::snprintf(text, sizeof text, "%02x", byte);
-    name += text;
-  }
+  std::string name = "vulkan-";
+  for (const uint32_t number : {info.vendor, info.device, info.driver_version}) name += hexText(number, 8) + "-";
+  for (const uint8_t byte : info.cache_id) name += hexText(byte, 2);
   return name + ".cache";
 }
 
@@ -82,13 +65,15 @@ std::optional<std::span<const std::byte>> unpackPipelineCache(const DeviceInfo& 
 
 Result<std::unique_ptr<PipelineCache>> PipelineCache::create(Device& device, const std::filesystem::path& folder) {
   std::unique_ptr<PipelineCache> cache(new PipelineCache(device));
-  std::vector<std::byte> file;
+  // A file that is missing or cannot be read is made anew.
+  Result<std::string> file = std::string();
   VkPipelineCacheCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
   if (!folder.empty()) {
     cache->file_ = folder / pipelineCacheName(device.info());
-    file = readCacheFile(cache->file_);
-    if (const auto data = unpackPipelineCache(device.info(), file)) {
+    file = readFile(cache->file_, kLargestFile);
+    const auto data = file ? unpackPipelineCache(device.info(), std::as_bytes(std::span(*file))) : std::nullopt;
+    if (data) {
       info.initialDataSize = data->size();
       info.pInitialData = data->data();
       cache->loaded_ = true;

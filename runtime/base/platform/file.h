@@ -29,11 +29,13 @@ enum OpenFlag : unsigned {
   kCreate = 4,     ///< create the file if it is missing
   kExclusive = 8,  ///< with kCreate: fail with EEXIST if it is there
   kNoFollow = 16,  ///< fail with ELOOP if the path is a symbolic link
+  kWait = 32,      ///< wait for a pipe's other end, and when it is read, for its bytes
 };
 
-/// Opens a file. flags: OpenFlags. The call never waits, for a pipe's other end for example; child processes do not
-/// inherit the file.
+/// Opens a file. flags: OpenFlags. Without kWait the call never waits; child processes do not inherit the file.
 int openFile(const std::filesystem::path& path, unsigned flags);
+/// Opens the same file once more, for reading, at its beginning.
+int openAgain(int file);
 int closeFile(int file);
 
 int statusOf(int file, FileStatus& status);
@@ -69,6 +71,9 @@ int touchFile(const std::filesystem::path& path);
 
 /// A file in the folder that has no name yet, for writing. ENOTSUP if the system or the file system has no such files.
 int openNamelessFile(const std::filesystem::path& folder);
+/// A file in the folder that never has a name, for reading and writing; the system deletes it when it is closed.
+/// openAgain() may read it, and nobody may open it for writing.
+int openScratchFile(const std::filesystem::path& folder);
 /// Gives a file of openNamelessFile() its name. EEXIST if another file has it.
 int nameFile(int file, const std::filesystem::path& name);
 /// Gives the file the mode, and if this process may the owner, of the file at the path.

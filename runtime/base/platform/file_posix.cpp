@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 
 #include "base/platform/file.h"
@@ -39,14 +40,16 @@ std::string linkOf(int file) { return "/proc/self/fd/" + std::to_string(file); }
 }  // namespace
 
 int openFile(const fs::path& path, unsigned flags) {
-  // Without O_NONBLOCK the call would wait for a pipe's other end.
-  int how = O_CLOEXEC | O_NONBLOCK;
+  // Without O_NONBLOCK the call waits for a pipe's other end.
+  int how = O_CLOEXEC | ((flags & kWait) != 0 ? 0 : O_NONBLOCK);
   how |= (flags & kWrite) == 0 ? O_RDONLY : (flags & kRead) != 0 ? O_RDWR : O_WRONLY;
   if ((flags & kCreate) != 0) how |= O_CREAT;
   if ((flags & kExclusive) != 0) how |= O_EXCL;
   if ((flags & kNoFollow) != 0) how |= O_NOFOLLOW;
   return withoutInterruption([&] { return ::open(path.c_str(), how, 0666); });
 }
+
+int openAgain(int file) { return ::open(linkOf(file).c_str(), O_RDONLY | O_CLOEXEC); }
 
 // After EINTR the descriptor is closed all the same on Linux.
 int closeFile(int file) { return ::close(file); }
@@ -125,6 +128,19 @@ int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 #endif
   errno = ENOTSUP;
   return -1;
+}
+
+int openScratchFile(const fs::path& folder) {
+#ifdef O_TMPFILE
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
+  // Any other problem of the folder also affects named files.
+  if (file >= 0) return file;
+#endif
+  std::string name = (folder / "sgm_scratch_XXXXXX").string();
+  File named(::mkostemp(name.data(), O_CLOEXEC));
+  if (!named) return -1;
+  ::unlink(name.c_str());
+  return ::fchmod(named.number(), 0400) == 0 ? named.release() : -1;
 }
 
 int nameFile(int file, const fs::path& name) {

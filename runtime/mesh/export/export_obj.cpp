@@ -1,7 +1,6 @@
 // Wavefront OBJ and its material library.
 
-#include <fstream>
-
+#include "base/file_reader.h"
 #include "base/hash.h"
 #include "mesh/export/export_formats.h"
 
@@ -95,15 +94,12 @@ std::string materialLibraryName(const std::filesystem::path& obj) {
 }
 
 Result<void> mayReplaceLibrary(const std::filesystem::path& library) {
-  std::string start(4096, '\0');
-  std::ifstream in(library, std::ios::binary);
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<size_t>(in.gcount()));
+  const Result<std::string> start = readBeginning(library, 4096);
   // An unreadable or empty file is accepted: replacing an empty file loses nothing, and FileWriter reports why a file
   // cannot be read.
-  if (start.empty()) return {};
-  const size_t second = start.find('\n') + 1;
-  if (start.starts_with("# ") && start.substr(second).starts_with(kSecondLine)) return {};
+  if (!start || start->empty()) return {};
+  const size_t second = start->find('\n') + 1;
+  if (start->starts_with("# ") && start->substr(second).starts_with(kSecondLine)) return {};
   return Error{Code::io, "cannot write '" + library.string() +
                              "', the materials of the .obj file: a file that sgm did not write is there; move it away "
                              "or choose another name"};

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "api/import.h"
+#include "base/file_reader.h"
 
 namespace sgm::cli {
 namespace {
@@ -69,7 +69,7 @@ Result<PathPoints> readPathPoints(std::string_view text) {
 }
 
 Result<FlightPath> FlightPath::ofFile(const std::string& file) {
-  const Result<std::string> read = api::readTextFile(file, kMostPathBytes);
+  const Result<std::string> read = readFile(file, kMostPathBytes, Readable::all_but_folders);
   if (!read && read.error().code == Code::limit)
     return Error{Code::limit, file + ": the file is larger than 64 MiB, the limit of a path"};
   if (!read) return read.error();

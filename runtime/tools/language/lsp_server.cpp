@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "api/import.h"
+#include "base/file_reader.h"
 #include "grammar/check_file.h"
 #include "grammar/help/word_help.h"
 #include "grammar/parse/imports.h"
@@ -283,7 +284,7 @@ std::optional<std::string> LanguageServer::textOf(const std::string& uri) const 
     return text.empty() ? std::nullopt : std::optional(std::string(text));
   }
   if (const auto open = documents_.find(uri); open != documents_.end()) return open->second.text();
-  Result<std::string> text = api::readTextFile(pathOfUri(uri), CompileLimits{}.text_bytes);
+  Result<std::string> text = readFile(pathOfUri(uri), CompileLimits{}.text_bytes);
   return text ? std::optional(std::move(*text)) : std::nullopt;
 }
 

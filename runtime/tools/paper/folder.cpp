@@ -7,8 +7,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -17,6 +15,7 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "base/file_reader.h"
 #include "base/file_writer.h"
 #include "base/plain_text.h"
 
@@ -60,12 +59,8 @@ fs::path cleaned(const fs::path& target) {
 std::optional<std::string> contentOf(const fs::path& path) {
   std::error_code why;
   if (!fs::is_regular_file(fs::symlink_status(path, why))) return std::nullopt;
-  const uintmax_t size = fs::file_size(path, why);
-  if (why) return std::nullopt;
-  std::string bytes(size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
-  return bytes;
+  Result<std::string> bytes = readFile(path, UINT64_MAX);
+  return bytes ? std::optional(std::move(*bytes)) : std::nullopt;
 }
 
 std::string sumOf(const std::string& bytes) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "api/import.h"
+#include "base/file_reader.h"
 
 namespace sgm::cli {
 namespace {
@@ -24,7 +25,7 @@ Result<Made> readAnd(Made (*make)(std::string_view, std::string_view, const Comp
 }  // namespace
 
 Result<std::string> readGrammarText(const std::string& file) {
-  return api::readTextFile(file, CompileLimits{}.text_bytes);
+  return readFile(file, CompileLimits{}.text_bytes, Readable::all_but_folders);
 }
 
 Result<CompileResult> compileFile(const std::string& file) { return readAnd(compileGrammar, file); }

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/file_reader.h"
 #include "store/folder.h"
 #include "tools/support/program_output.h"
 
@@ -90,9 +91,9 @@ std::filesystem::path numbersOf(const SlurmBake& bake) { return bake.folder / "j
 }  // namespace
 
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
-  const auto bytes = store::readFile(numbersOf(bake), 4096);
-  if (!bytes) return std::optional<SlurmJobs>();
-  std::istringstream text(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+  const Result<std::string> numbers = readFile(numbersOf(bake), 4096);
+  if (!numbers) return std::optional<SlurmJobs>();
+  std::istringstream text(*numbers);
   SlurmJobs jobs;
   if (!(text >> jobs.shards >> jobs.merge >> jobs.verification >> jobs.count)) return std::optional<SlurmJobs>();
   const Result<SlurmState> state = stateOf(jobs);

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/file_reader.h"
 #include "base/json.h"
 #include "store/verify.h"
 #include "tools/cli/bake/commands.h"
@@ -67,8 +67,10 @@ Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)
 
 /// The origin in a world's manifest; nullopt if it cannot be read.
 std::optional<Json> originOf(const fs::path& manifest) {
-  std::ifstream text(manifest);
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  constexpr uint64_t kMostManifest = uint64_t{64} << 20;
+  const Result<std::string> text = readFile(manifest, kMostManifest);
+  if (!text) return std::nullopt;
+  const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   Json origin = Json::object();
   const auto take = [&](const char* name, const nlohmann::json& from, const char* key) {

@@ -1,13 +1,7 @@
 #include "tools/service/judge/upload.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -43,24 +37,6 @@ std::string lowered(std::string_view text) {
 
 Error failed(const std::string& what) { return {Code::io, what + ": " + systemMessage(errno)}; }
 
-/// An unlinked file, which can only be opened again for reading. -1, with errno, on failure.
-int openNameless(const std::string& folder) {
-#if defined(O_TMPFILE)
-  const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
-  // Any other problem of the folder also affects named files.
-  if (file >= 0) return file;
-#endif
-  std::string path = folder + "/sgm_upload_XXXXXX";
-  const int named = mkostemp(path.data(), O_CLOEXEC);
-  if (named < 0) return named;
-  unlink(path.c_str());
-  if (fchmod(named, 0400) == 0) return named;
-  const int why = errno;
-  close(named);
-  errno = why;
-  return -1;
-}
-
 }  // namespace
 
 std::string_view nameOf(UploadKind kind) { return std::ranges::find(kNames, kind, &KindName::kind)->name; }
@@ -86,37 +62,14 @@ Result<Upload> Upload::create(const std::string& folder) {
     in = std::filesystem::temp_directory_path(why).string();
     if (why) return Error{Code::io, "there is no folder for temporary files: " + systemMessage(why)};
   }
-  const int file = openNameless(in);
-  if (file < 0) return failed("cannot make a file in " + in);
-  return Upload(file);
-}
-
-Upload::Upload(Upload&& other) noexcept
-    : name(std::move(other.name)),
-      kind(other.kind),
-      options(std::move(other.options)),
-      file_(std::exchange(other.file_, -1)),
-      bytes_(std::exchange(other.bytes_, 0)) {}
-
-Upload& Upload::operator=(Upload&& other) noexcept {
-  if (this == &other) return *this;
-  if (file_ >= 0) close(file_);
-  name = std::move(other.name);
-  kind = other.kind;
-  options = std::move(other.options);
-  file_ = std::exchange(other.file_, -1);
-  bytes_ = std::exchange(other.bytes_, 0);
-  return *this;
-}
-
-Upload::~Upload() {
-  if (file_ >= 0) close(file_);
+  platform::File file(platform::openScratchFile(in));
+  if (!file) return failed("cannot make a file in " + in);
+  return Upload(std::move(file));
 }
 
 Result<void> Upload::append(std::string_view piece) {
   while (!piece.empty()) {
-    const ssize_t written = write(file_, piece.data(), piece.size());
-    if (written < 0 && errno == EINTR) continue;
+    const ptrdiff_t written = platform::writeNext(file(), piece.data(), piece.size());
     if (written <= 0) return failed("cannot write a temporary file");
     bytes_ += static_cast<uint64_t>(written);
     piece.remove_prefix(static_cast<size_t>(written));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/platform/file.h"
 #include "base/result.h"
 
 namespace sgm::service {
@@ -24,13 +25,9 @@ class Upload {
  public:
   /// folder: empty: the system's folder for temporary files. Error: io.
   static Result<Upload> create(const std::string& folder);
-  Upload(Upload&& other) noexcept;
-  Upload& operator=(Upload&& other) noexcept;
-  ~Upload();
-
   /// Error: io (the disk is full).
   Result<void> append(std::string_view piece);
-  int file() const { return file_; }  ///< open for reading and writing
+  int file() const { return file_.number(); }  ///< open for reading and writing
   uint64_t bytes() const { return bytes_; }
 
   std::string name;  ///< the client's; for display
@@ -39,9 +36,9 @@ class Upload {
   std::vector<std::pair<std::string, std::string>> options;
 
  private:
-  explicit Upload(int file) : file_(file) {}
+  explicit Upload(platform::File file) : file_(std::move(file)) {}
 
-  int file_ = -1;
+  platform::File file_;
   uint64_t bytes_ = 0;
 };
 

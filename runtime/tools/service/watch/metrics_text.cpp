@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "base/platform/figures.h"
 #include "tools/service/watch/defect_names.h"
-#include "tools/service/watch/process_figures.h"
 #include "tools/service/watch/time_quantile.h"
 
 namespace sgm::service {
@@ -206,7 +206,7 @@ void addInspector(Families& all, const InspectorCounts& counts) {
 }
 
 void addProcess(Families& all) {
-  const ProcessFigures figures = processFigures();
+  const platform::ProcessFigures figures = platform::processFigures();
   if (figures.resident_bytes)
     all.gauge("process_resident_memory_bytes", "Resident memory size in bytes.", {}, *figures.resident_bytes);
   if (figures.cpu_seconds)

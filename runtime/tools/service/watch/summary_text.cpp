@@ -5,8 +5,8 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "base/platform/figures.h"
 #include "tools/service/watch/defect_names.h"
-#include "tools/service/watch/process_figures.h"
 #include "tools/service/watch/time_quantile.h"
 
 namespace sgm::service {
@@ -119,7 +119,7 @@ std::string summaryText(const ServiceState& state, const std::vector<WorldSample
   json all = json::array();
   for (const WorldSample& world : worlds) all.push_back(worldJson(world));
   const InspectorCounts& inspector = state.inspector;
-  const std::optional<uint64_t> resident = processFigures().resident_bytes;
+  const std::optional<uint64_t> resident = platform::processFigures().resident_bytes;
   return jsonText({{"version", sgm_version_string()},
                    {"build", sgm_build_info()},
                    {"now", timeText()},

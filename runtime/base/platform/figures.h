@@ -1,10 +1,11 @@
 #pragma once
-// Resource usage of the process, under the names that Prometheus' own clients use.
+// Resource usage of this process, under the names that Prometheus' own clients use. Each system has one source file
+// that implements this header.
 
 #include <cstdint>
 #include <optional>
 
-namespace sgm::service {
+namespace sgm::platform {
 
 /// Unreadable figures are nullopt.
 struct ProcessFigures {
@@ -17,4 +18,4 @@ struct ProcessFigures {
 /// Takes some ten microseconds. Throws std::bad_alloc.
 ProcessFigures processFigures();
 
-}  // namespace sgm::service
+}  // namespace sgm::platform

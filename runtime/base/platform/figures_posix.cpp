@@ -1,24 +1,26 @@
-#include "tools/service/watch/process_figures.h"
+#include "base/platform/figures.h"
 
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
-namespace sgm::service {
+#include "base/file_reader.h"
+
+namespace sgm::platform {
 namespace {
 
-std::string contentOf(const char* file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// A file of /proc; empty if there is none.
+std::string procFile(const char* name) {
+  constexpr uint64_t kMostBytes = uint64_t{64} << 20;
+  Result<std::string> content = readFile(name, kMostBytes);
+  return content ? std::move(*content) : std::string();
 }
 
 /// Boot time of the machine, seconds since 1970.
 std::optional<double> bootTime() {
-  std::ifstream in("/proc/stat");
+  std::istringstream in(procFile("/proc/stat"));
   for (std::string word; in >> word;) {
     double seconds = 0;
     if (word == "btime" && in >> seconds) return seconds;
@@ -28,7 +30,7 @@ std::optional<double> bootTime() {
 
 /// The fields of /proc/self/stat after the program's name, which may contain any characters.
 void readTimes(ProcessFigures& figures) {
-  const std::string stat = contentOf("/proc/self/stat");
+  const std::string stat = procFile("/proc/self/stat");
   const size_t name_end = stat.rfind(')');
   const long ticks = sysconf(_SC_CLK_TCK);
   if (name_end == stat.npos || ticks <= 0) return;
@@ -61,7 +63,7 @@ std::optional<uint64_t> openFiles() {
 
 ProcessFigures processFigures() {
   ProcessFigures figures;
-  std::istringstream memory(contentOf("/proc/self/statm"));
+  std::istringstream memory(procFile("/proc/self/statm"));
   uint64_t pages = 0, resident = 0;
   const long page = sysconf(_SC_PAGESIZE);
   if (page > 0 && memory >> pages >> resident) figures.resident_bytes = resident * static_cast<uint64_t>(page);
@@ -70,4 +72,4 @@ ProcessFigures processFigures() {
   return figures;
 }
 
-}  // namespace sgm::service
+}  // namespace sgm::platform

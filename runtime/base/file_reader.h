@@ -1,0 +1,28 @@
+#pragma once
+// Reads files whole, or their beginning.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "base/result.h"
+
+namespace sgm {
+
+enum class Readable {
+  regular_files,
+  all_but_folders,  ///< also pipes and devices, whose bytes are waited for
+};
+
+/// Reads a whole file. Errors: io, with the path and the system's reason; limit if it has more than `most_bytes`.
+/// Throws std::bad_alloc.
+Result<std::string> readFile(const std::filesystem::path& path, uint64_t most_bytes,
+                             Readable readable = Readable::regular_files);
+
+/// Reads the first `bytes` of a regular file, or all of it if it is smaller. Error: io.
+Result<std::string> readBeginning(const std::filesystem::path& path, size_t bytes);
+
+/// Reads an open file (platform/file.h) from its position to its end. name: for messages. Errors: as readFile().
+Result<std::string> readOpenFile(int file, const std::string& name, uint64_t most_bytes);
+
+}  // namespace sgm
