@@ -1,11 +1,12 @@
 #pragma once
 // A video, encoded picture by picture by the program ffmpeg.
 
-#include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/file_writer.h"
+#include "base/platform/process.h"
 #include "tools/render/image.h"
 
 namespace sgm::cli {
@@ -22,7 +23,7 @@ class VideoFile {
   static Result<std::unique_ptr<VideoFile>> begin(const std::string& target, UnfinishedFiles* unfinished,
                                                   const Format& format);
   /// Without commit(), removes the file.
-  ~VideoFile();
+  ~VideoFile() = default;
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
@@ -35,14 +36,11 @@ class VideoFile {
   explicit VideoFile(FileWriter file) : file_(std::move(file)) {}
 
   Result<void> start(const Format& format);
-  /// The encoder's status, as from waitpid().
-  int wait();
-  Error failed(int status) const;
+  Error failed(const platform::ProcessExit& exit) const;
 
   FileWriter file_;
-  std::FILE* words_ = nullptr;  ///< the encoder's messages
-  int pictures_ = -1;           ///< a socket to the encoder
-  int encoder_ = -1;            ///< its process; -1: none
+  platform::File words_;  ///< the encoder's messages
+  std::optional<platform::Process> encoder_;
 };
 
 }  // namespace sgm::cli

@@ -25,6 +25,8 @@ void endBy(int signal) {
 void handleSignals() {
   // Then exceeding the file size limit is a failed write, which cleans up after itself.
   std::signal(SIGXFSZ, SIG_IGN);
+  // If the caller ignores it, the system would forget how child processes end.
+  std::signal(SIGCHLD, SIG_DFL);
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
     // Signals that the caller ignores (nohup, a background job of a script) stay ignored.
     if (std::signal(signal, endBy) == SIG_IGN) std::signal(signal, SIG_IGN);

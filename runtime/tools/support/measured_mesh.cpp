@@ -2,37 +2,17 @@
 
 #include <fmt/core.h>
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string_view>
 #include <type_traits>
 
-#include "base/plain_text.h"
+#include "base/file_reader.h"
 #include "measure/world_triangles.h"
 
 namespace sgm::cli {
 namespace {
-
-Result<std::vector<std::byte>> readBytes(const std::string& path) {
-  const auto failed = [&](const std::string& why) {
-    return Error{Code::io, fmt::format("cannot read {}: {}", path, why)};
-  };
-  std::error_code why;
-  const std::filesystem::file_status status = std::filesystem::status(path, why);
-  // Reading anything else, such as a pipe, might block.
-  if (!std::filesystem::exists(status)) return failed(why ? systemMessage(why) : "no such file");
-  if (!std::filesystem::is_regular_file(status)) return failed("it is not a regular file");
-  const uintmax_t size = std::filesystem::file_size(path, why);
-  std::ifstream file(path, std::ios::binary);
-  if (why || !file) return failed(why ? systemMessage(why) : systemMessage(errno));
-  std::vector<std::byte> bytes(size);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its reported size");
-  return bytes;
-}
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -69,31 +49,33 @@ Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std:
 }
 
 Result<asset::TriangleMesh> readMeshFile(const std::string& file) {
-  const Result<std::vector<std::byte>> bytes = readBytes(file);
+  // Pipes are refused, because reading them might block.
+  const Result<std::string> bytes = readFile(file, UINT64_MAX);
   if (!bytes) return bytes.error();
   // If the name does not tell the kind, the bytes may.
   const Result<asset::MeshFileKind> named = asset::meshFileKind(std::string_view(file));
-  Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, named ? std::optional(*named) : std::nullopt);
+  Result<asset::TriangleMesh> mesh =
+      readMeshBytes(std::as_bytes(std::span(*bytes)), named ? std::optional(*named) : std::nullopt);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
   for (const std::string& note : mesh->notes) fmt::print(stderr, "sgm: note: {}: {}\n", file, note);
   return mesh;
 }
 
-Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const ProcessLimits& limits) {
-  const Result<std::string> said = runLimited(
-      [&]() -> Result<std::string> {
-        const Result<asset::TriangleMesh> mesh = readMeshFile(file);
-        if (!mesh) return mesh.error();
-        std::string bytes;
-        append(bytes, std::vector<uint64_t>{mesh->points.size(), mesh->triangles.size()});
-        append(bytes, std::vector<asset::Point>{mesh->origin});
-        append(bytes, mesh->points);
-        append(bytes, mesh->triangles);
-        return bytes;
-      },
-      limits);
+Result<std::string> meshFileAnswer(const std::string& file) {
+  const Result<asset::TriangleMesh> mesh = readMeshFile(file);
+  if (!mesh) return mesh.error();
+  std::string bytes;
+  append(bytes, std::vector<uint64_t>{mesh->points.size(), mesh->triangles.size()});
+  append(bytes, std::vector<asset::Point>{mesh->origin});
+  append(bytes, mesh->points);
+  append(bytes, mesh->triangles);
+  return bytes;
+}
+
+Result<asset::TriangleMesh> askSandboxForMesh(const std::string& file, const SandboxOptions& options) {
+  const Result<std::string> said = askSandbox(options);
   if (!said) return said.error();
-  // The child may be compromised, so its lengths are checked against the bytes received.
+  // The process may be compromised, so its lengths are checked against the bytes received.
   std::string_view left = *said;
   std::vector<uint64_t> counts(2);
   std::vector<asset::Point> origin(1);

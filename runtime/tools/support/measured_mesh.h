@@ -7,8 +7,8 @@
 
 #include "asset/read/mesh_file.h"
 #include "measure/defect_places.h"
-#include "tools/support/limited_process.h"
 #include "tools/support/region.h"
+#include "tools/support/sandbox.h"
 
 namespace sgm::cli {
 
@@ -21,9 +21,11 @@ Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std:
 /// Prints the reader's notes to stderr, a line each. Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file);
 
-/// The same in a sandboxed process, which returns only points, triangles and the origin. To be called before this
-/// process has threads. Errors: those of readMeshFile and runLimited.
-Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const ProcessLimits& limits);
+/// In a sandboxed process: the answer to askSandboxForMesh(), which has only points, triangles and the origin of the
+/// file's mesh. Errors: those of readMeshFile.
+Result<std::string> meshFileAnswer(const std::string& file);
+/// The mesh of a file that the sandboxed process reads. Errors: those of readMeshFile and askSandbox.
+Result<asset::TriangleMesh> askSandboxForMesh(const std::string& file, const SandboxOptions& options);
 
 /// The box that was meshed, relative to the mesh's origin.
 measure::Cut cutOf(const Region& region);

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/json.h"
-#include "base/plain_text.h"
+#include "base/platform/process.h"
 #include "store/folder.h"
 #include "tools/cli/bake/commands.h"
 #include "tools/cli/bake/slurm.h"
@@ -42,18 +42,17 @@ void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState&
 
 Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& name) {
   const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
-  std::error_code error;
-  const std::string program = fs::read_symlink("/proc/self/exe", error).string();
-  if (error) return Error{Code::io, "cannot find the path of this program: " + systemMessage(error)};
+  const Result<std::string> program = platform::ownProgram();
+  if (!program) return program.error();
   SlurmBake bake;
-  bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
+  bake.bake = {*program,       "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
                options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};
   for (const std::string& set : options.sets) bake.bake.insert(bake.bake.end(), {"--set", set});
   if (!options.region.empty()) bake.bake.insert(bake.bake.end(), {"--region", options.region});
   if (options.cell) bake.bake.insert(bake.bake.end(), {"--cell", fmt::format("{}", *options.cell)});
   if (options.density) bake.bake.insert(bake.bake.end(), {"--ld", fmt::format("{}", *options.density)});
   if (options.sharp) bake.bake.push_back("--sharp");
-  bake.verify = {program, "store", "verify", absolute(options.out)};
+  bake.verify = {*program, "store", "verify", absolute(options.out)};
   bake.shards = options.slurm;
   bake.options = options.sbatch;
   bake.name = "sgm-" + name.substr(0, 8);

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/file_reader.h"
+#include "base/platform/process.h"
 #include "store/folder.h"
-#include "tools/support/program_output.h"
 
 namespace sgm::cli {
 namespace {
@@ -31,10 +31,21 @@ std::string trimmed(std::string text) {
   return text;
 }
 
+/// What a command of Slurm prints to standard output and standard error. Error: unsupported if it is missing.
+Result<platform::ProcessOutput> runSlurm(const std::vector<std::string>& command) {
+  platform::ProcessSettings settings;
+  settings.program = command[0];
+  settings.arguments.assign(command.begin() + 1, command.end());
+  settings.input = {platform::Stream::none};
+  settings.output = {platform::Stream::pipe};
+  settings.error = {platform::Stream::output};
+  return platform::runProcess(settings);
+}
+
 Result<std::string> outputOrError(const std::vector<std::string>& command) {
-  Result<ProgramOutput> ran = outputOf(command);
+  const Result<platform::ProcessOutput> ran = runSlurm(command);
   if (!ran) return ran.error();
-  if (ran->status != 0) return Error{Code::io, command[0] + ": " + trimmed(ran->output)};
+  if (!ran->exit.succeeded()) return Error{Code::io, command[0] + ": " + trimmed(ran->output)};
   return trimmed(ran->output);
 }
 
@@ -68,11 +79,11 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
 using States = std::vector<std::pair<std::string, std::string>>;
 
 Result<States> statesFrom(const std::vector<std::string>& command) {
-  const Result<ProgramOutput> told = outputOf(command);
+  const Result<platform::ProcessOutput> told = runSlurm(command);
   if (!told) return told.error();
   // The queue prints this if it knows none of them.
-  if (told->status != 0 && told->output.find("Invalid job id") != std::string::npos) return States();
-  if (told->status != 0) return Error{Code::io, command[0] + ": " + trimmed(told->output)};
+  if (!told->exit.succeeded() && told->output.find("Invalid job id") != std::string::npos) return States();
+  if (!told->exit.succeeded()) return Error{Code::io, command[0] + ": " + trimmed(told->output)};
   States states;
   std::istringstream lines(told->output);
   for (std::string line; std::getline(lines, line);) {
@@ -122,7 +133,7 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
   // Cancel jobs that nothing follows, or that are not recorded: they would collide with those of the next call.
   const auto giveUp = [&](const Error& error) {
     for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
-      if (!job.empty()) (void)outputOf({"scancel", job});
+      if (!job.empty()) (void)runSlurm({"scancel", job});
     }
     return error;
   };

@@ -8,7 +8,6 @@
 #include "tools/cli/classify/commands.h"
 #include "tools/cli/classify/master_key.h"
 #include "tools/support/console.h"
-#include "tools/support/limited_process.h"
 #include "tools/support/measured_mesh.h"
 
 namespace sgm::cli {
@@ -32,7 +31,19 @@ Exit printOrComplain(const Result<std::string>& text) {
   return Exit::done;
 }
 
-Exit classifyGrammar(const ClassifyOptions& options, const masters::OpenedBase& base) {
+/// The report of a mesh file.
+Result<std::string> classifyFile(const ClassifyOptions& options) {
+  // Open the base before reading untrusted input.
+  const Result<masters::OpenedBase> base = mastersOf(options.masters);
+  if (!base) return base.error();
+  const Result<asset::TriangleMesh> mesh = readMeshFile(options.file);
+  if (!mesh) return mesh.error();
+  return reportOf(*mesh, options, *base, options.density.value_or(0), {{"file", options.file}, {"notes", mesh->notes}});
+}
+
+Exit classifyGrammar(const ClassifyOptions& options) {
+  const Result<masters::OpenedBase> base = mastersOf(options.masters);
+  if (!base) return complain(base.error());
   RegionPlan plan;
   plan.choose = [](const WorldField& world) { return blockRegion(*world.settings().program, 1); };
   const RegionResult made = meshRegion(options, plan);
@@ -40,7 +51,7 @@ Exit classifyGrammar(const ClassifyOptions& options, const masters::OpenedBase& 
   Json json = toJson(options, *made.region);
   json["file"] = options.file;
   return printOrComplain(
-      reportOf(trianglesOf(*made.region), options, base, 1 / metres(made.region->cell), std::move(json)));
+      reportOf(trianglesOf(*made.region), options, *base, 1 / metres(made.region->cell), std::move(json)));
 }
 
 }  // namespace
@@ -63,21 +74,8 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
 }
 
 Exit classifyMesh(const ClassifyOptions& options) {
-  const bool grammar = isGrammarFile(options.file);
-  const Result<masters::OpenedBase> base = mastersOf(options.masters);
-  if (!base) return complain(base.error());
-  if (grammar) return classifyGrammar(options, *base);
-  ProcessLimits limits;
-  limits.memory = options.memory << 20;
-  limits.seconds = options.seconds;
-  return printOrComplain(runLimited(
-      [&]() -> Result<std::string> {
-        const Result<asset::TriangleMesh> mesh = readMeshFile(options.file);
-        if (!mesh) return mesh.error();
-        return reportOf(*mesh, options, *base, options.density.value_or(0),
-                        {{"file", options.file}, {"notes", mesh->notes}});
-      },
-      limits));
+  if (options.sandbox.sandboxed) return answerFromSandbox([&] { return classifyFile(options); });
+  return isGrammarFile(options.file) ? classifyGrammar(options) : printOrComplain(askSandbox(options.sandbox));
 }
 
 }  // namespace sgm::cli

@@ -7,14 +7,14 @@
 
 #include "tools/support/console.h"
 #include "tools/support/options.h"
+#include "tools/support/sandbox.h"
 
 namespace sgm::cli {
 
 struct ClassifyOptions : WorldOptions {
   std::string masters;  ///< a base; empty: the default base, or the built-in reference histograms
   std::string mode = "curvature";
-  uint64_t memory = 4096;  ///< MB
-  double seconds = 300;
+  SandboxOptions sandbox;  ///< for the reading of mesh files
 };
 Exit classifyMesh(const ClassifyOptions& options);
 

@@ -4,80 +4,34 @@
 #include "tools/cli/classify/inspect.h"
 
 #include <fmt/core.h>
-#include <sys/mman.h>
-#if defined(__linux__)
-#include <sys/prctl.h>
-#include <sys/syscall.h>
-#endif
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <new>
 
-#include "base/plain_text.h"
+#include "base/file_reader.h"
+#include "base/platform/process.h"
 #include "tools/cli/classify/commands.h"
-#include "tools/support/limited_process.h"
 
 namespace sgm::cli {
 namespace {
 
 /// For any file that the process writes: more than an answer or a base needs.
-constexpr rlim_t kMostFileBytes = rlim_t{256} << 20;
+constexpr uint64_t kMostFileBytes = uint64_t{256} << 20;
 /// For its streams, a base with its journal, and files that libraries open briefly.
-constexpr rlim_t kMostDescriptors = 32;
+constexpr uint64_t kMostDescriptors = 32;
+constexpr int kStandardInput = 0, kStandardOutput = 1;
 
 void holdTo(const InspectOptions& options) {
-#if defined(__linux__)
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-#if defined(SYS_close_range)
-  // Close descriptors that the host has leaked.
-  syscall(SYS_close_range, 3u, ~0u, 0u);
-#endif
-#endif
-  const rlimit files{kMostFileBytes, kMostFileBytes};
-  setrlimit(RLIMIT_FSIZE, &files);
-  // Do not set RLIMIT_NPROC: it counts all processes of the user, so on a busy machine this one could start no thread.
-  const rlimit descriptors{kMostDescriptors, kMostDescriptors};
-  setrlimit(RLIMIT_NOFILE, &descriptors);
-  ProcessLimits limits;
-  limits.memory = options.memory << 20;
-  limits.seconds = static_cast<double>(options.seconds);
-  limitThisProcess(limits);
-}
-
-/// All of standard input. Error: io.
-Result<std::vector<std::byte>> readInput() {
-  const auto failed = [] {
-    return Error{Code::io, fmt::format("cannot read standard input: {}", systemMessage(errno))};
-  };
-  struct stat info {};
-  if (fstat(STDIN_FILENO, &info) != 0) return failed();
-  std::vector<std::byte> bytes;
-  bytes.reserve(S_ISREG(info.st_mode) ? static_cast<size_t>(info.st_size) + 1 : 0);
-  constexpr size_t kPiece = size_t{1} << 20;
-  for (size_t size = 0;;) {
-    bytes.resize(std::max(size + kPiece, bytes.capacity()));
-    const ssize_t more = read(STDIN_FILENO, bytes.data() + size, bytes.size() - size);
-    if (more < 0 && errno == EINTR) continue;
-    if (more < 0) return failed();
-    size += static_cast<size_t>(more);
-    if (more == 0) {
-      bytes.resize(size);
-      return bytes;
-    }
-  }
+  platform::ProcessLimits limits;
+  limits.memory_bytes = options.memory << 20;
+  limits.cpu_seconds = static_cast<double>(options.seconds);
+  limits.file_bytes = kMostFileBytes;
+  limits.open_files = kMostDescriptors;
+  platform::sandboxThisProcess(limits);
 }
 
 bool writeOutput(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = write(STDOUT_FILENO, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
+    const ptrdiff_t written = platform::writeNext(kStandardOutput, bytes.data(), bytes.size());
     if (written <= 0) return false;
     bytes.remove_prefix(static_cast<size_t>(written));
   }
@@ -98,10 +52,11 @@ InspectAnswer answerOf(const InspectOptions& options) {
   // Open the base before reading untrusted input.
   std::optional<Result<masters::OpenedBase>> base;
   if (!options.store_masters) base = inspectedBase(options.masters);
-  const Result<std::vector<std::byte>> bytes = readInput();
-  if (!bytes) return {toJson(problemOf(bytes.error(), options)), {}};
-  if (options.store_masters) return {storedMasters(*bytes, options), {}};
-  return inspectUpload(*bytes, options, *base);
+  const Result<std::string> input = readOpenFile(kStandardInput, "standard input", UINT64_MAX);
+  if (!input) return {toJson(problemOf(input.error(), options)), {}};
+  const std::span bytes = std::as_bytes(std::span(*input));
+  if (options.store_masters) return {storedMasters(bytes, options), {}};
+  return inspectUpload(bytes, options, *base);
 }
 
 const char* titleOf(int status) {

@@ -8,6 +8,7 @@
 
 #include "tools/support/console.h"
 #include "tools/support/options.h"
+#include "tools/support/sandbox.h"
 
 namespace sgm::cli {
 
@@ -28,8 +29,7 @@ struct MeasureOptions : WorldOptions {
   std::string against;                             ///< also the distance to this file's mesh; empty: none
   std::string from, to;                            ///< of a path through the void, points in metres; both or neither
   std::optional<double> radius;  ///< metres: of the agent; if given, or with a path, the void is measured
-  uint64_t memory = 4096;        ///< MB
-  double seconds = 300;
+  SandboxOptions sandbox;        ///< for the reading of mesh files
 };
 Exit measureMesh(const MeasureOptions& options);
 

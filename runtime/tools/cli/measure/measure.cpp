@@ -146,10 +146,10 @@ std::string textOf(const WorldOptions& options, const Region& region) {
                      metres(extent.hi.y), metres(extent.hi.z));
 }
 
-Exit measureGrammar(const MeasureOptions& options, const ProcessLimits& limits) {
+Exit measureGrammar(const MeasureOptions& options) {
   std::optional<asset::TriangleMesh> other;
   if (!options.against.empty()) {
-    Result<asset::TriangleMesh> read = readMeshFileApart(options.against, limits);
+    Result<asset::TriangleMesh> read = askSandboxForMesh(options.against, options.sandbox);
     if (!read) return complain(read.error());
     other = std::move(*read);
   }
@@ -193,27 +193,25 @@ Exit measureGrammar(const MeasureOptions& options, const ProcessLimits& limits) 
 
 Exit measureMesh(const MeasureOptions& options) {
   const bool grammar = isGrammarFile(options.file);
+  if (options.sandbox.sandboxed)
+    return answerFromSandbox([&] { return grammar ? meshFileAnswer(options.against) : measureFile(options); });
   if (asksForVoid(options)) {
     if (grammar) return measureVoid(options);
     return complain(Exit::usage, "--from, --to and --radius measure the void of a grammar: a mesh file has none");
   }
-  ProcessLimits limits;
-  limits.memory = options.memory << 20;
-  limits.seconds = options.seconds;
   if (grammar && options.against.empty() && !options.of_files.empty())
     return complain(Exit::usage, options.of_files.front() + " is for mesh files, and for a grammar's --against");
   if (grammar && options.level + options.levels > kMaxLevel)
     return complain(Exit::usage, fmt::format("--level and --levels reach level {}, and {} is the coarsest",
                                              options.level + options.levels, kMaxLevel));
-  if (grammar) return measureGrammar(options, limits);
+  if (grammar) return measureGrammar(options);
   if (options.field || options.levels > 0) {
     return complain(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
                                              options.field ? "--field" : "--levels"));
   }
   if (!options.of_grammars.empty())
     return complain(Exit::usage, options.of_grammars.front() + " is for grammars: a mesh file is measured as it is");
-  const Result<std::string> report = runLimited([&] { return measureFile(options); }, limits);
-  return printed(report, options.strict);
+  return printed(askSandbox(options.sandbox), options.strict);
 }
 
 }  // namespace sgm::cli

@@ -2,37 +2,23 @@
 
 #include <fmt/core.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <climits>
-#include <cstring>
-#include <fstream>
-
-#include "base/plain_text.h"
+#include "base/file_reader.h"
+#include "base/platform/process.h"
 #include "tools/flight/flight_engine.h"
 
 namespace sgm::cli {
 namespace {
 
 Result<std::string> readToken(const std::string& file) {
-  std::ifstream in(file);
-  std::string token;
-  if (!in || !std::getline(in, token))
-    return Error{Code::io, fmt::format("cannot read a token from the first line of {}", file)};
+  constexpr uint64_t kMostBytes = uint64_t{1} << 20;
+  const Result<std::string> text = readFile(file, kMostBytes, Readable::all_but_folders);
+  if (!text) return text.error();
+  if (text->empty())
+    return Error{Code::io, fmt::format("cannot read a token from the first line of {}: it is empty", file)};
+  std::string token = text->substr(0, text->find('\n'));
   while (!token.empty() && (token.back() == '\r' || token.back() == ' ')) token.pop_back();
   return token;
-}
-
-/// Path of this program, which also inspects uploads.
-Result<std::string> ownProgram() {
-  std::string path(PATH_MAX, '\0');
-  const ssize_t size = readlink("/proc/self/exe", path.data(), path.size());
-  if (size <= 0 || static_cast<size_t>(size) >= path.size())
-    return Error{Code::io, fmt::format("cannot find the path of this program: {}", systemMessage(errno))};
-  path.resize(static_cast<size_t>(size));
-  return path;
 }
 
 std::string urlOf(const std::string& address, uint16_t port) {
@@ -58,7 +44,8 @@ Result<Serving> Serving::start(const ServingOptions& options) {
     if (!read) return read.error();
     token = std::move(*read);
   }
-  const Result<std::string> program = ownProgram();
+  // This program also inspects uploads.
+  const Result<std::string> program = platform::ownProgram();
   if (!program) return program.error();
   std::vector<const char*> hosts;
   for (const std::string& host : options.hosts) hosts.push_back(host.c_str());

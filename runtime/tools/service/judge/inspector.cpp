@@ -1,7 +1,5 @@
 #include "tools/service/judge/inspector.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cmath>
 #include <condition_variable>
@@ -15,8 +13,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/plain_text.h"
+#include "base/platform/process.h"
 #include "base/thread_name.h"
-#include "tools/service/judge/child_process.h"
 #include "tools/service/judge/inspector_answer.h"
 
 namespace sgm::service {
@@ -54,11 +53,9 @@ Inspection saidOr(Inspection& otherwise, const Say& say) noexcept {
   }
 }
 
-bool runs(const std::string& program) { return !program.empty() && access(program.c_str(), X_OK) == 0; }
-
 class ProcessInspector final : public Inspector {
  public:
-  ProcessInspector(const InspectorSettings& settings, Pipe stop)
+  ProcessInspector(const InspectorSettings& settings, platform::Cancellation stop)
       : settings_(settings), environment_(environmentOfChildren()), stop_(std::move(stop)) {}
   ~ProcessInspector() override;
   /// Error: io.
@@ -99,13 +96,15 @@ class ProcessInspector final : public Inspector {
   void run(Job& job);
   Inspection judge(const Upload& upload) const;
   Inspection judgeMasters(const MastersJob& job) const;
-  Inspection answerOf(ChildSettings child, Answer wanted) const;
+  /// The answer of a process to its arguments and standard input. text: for an input that is a pipe.
+  Inspection answerTo(std::vector<std::string> arguments, platform::Stream input, std::string_view text,
+                      Answer wanted) const;
   void count(const Inspection& said, double seconds);
 
   const InspectorSettings settings_;
   const std::vector<std::string> environment_;
-  /// Becomes readable when the inspector ends, which wakes threads that wait for a process.
-  Pipe stop_;
+  /// Requested when the inspector ends, which wakes threads that wait for a process.
+  platform::Cancellation stop_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;
@@ -121,9 +120,7 @@ ProcessInspector::~ProcessInspector() {
     stopping_ = true;
   }
   changed_.notify_all();
-  // Write instead of closing: a process that the host forked meanwhile may hold a copy of the other end.
-  while (write(stop_.to.number(), "", 1) < 0 && errno == EINTR) {
-  }
+  stop_.request();
   for (std::thread& thread : threads_) thread.join();
 }
 
@@ -155,14 +152,14 @@ Result<void> ProcessInspector::wouldTakeLocked(bool program_runs) const {
 
 Result<void> ProcessInspector::wouldTake() const {
   // Outside the lock, since a file system may block.
-  const bool program_runs = runs(settings_.program);
+  const bool program_runs = platform::isProgram(settings_.program);
   const std::lock_guard lock(mutex_);
   return wouldTakeLocked(program_runs);
 }
 
 Result<void> ProcessInspector::inspect(Upload upload, std::function<void()> began,
                                        std::function<void(Inspection)> done) {
-  const bool program_runs = runs(settings_.program);
+  const bool program_runs = platform::isProgram(settings_.program);
   Job job{std::move(upload), std::move(began), std::move(done), outOfMemoryProblem()};
   try {
     const std::lock_guard lock(mutex_);
@@ -254,40 +251,45 @@ void ProcessInspector::count(const Inspection& said, double seconds) {
 }
 
 Inspection ProcessInspector::judge(const Upload& upload) const {
-  ChildSettings child;
-  child.arguments = {"inspect", "--kind=" + std::string(nameOf(upload.kind))};
+  std::vector<std::string> arguments{"inspect", "--kind=" + std::string(nameOf(upload.kind))};
   // Joined with '=', because the command line would treat an empty value as missing, and use the next argument instead.
-  if (!upload.name.empty()) child.arguments.push_back("--name=" + upload.name);
+  if (!upload.name.empty()) arguments.push_back("--name=" + upload.name);
   for (const auto& [name, value] : upload.options)
-    if (!value.empty()) child.arguments.push_back("--" + name + "=" + value);
-  const Result<Descriptor> file = reopenedForReading(upload.file());
-  if (!file) return problemOf(500, "validator_crashed", "the upload cannot be read: " + file.error().message);
-  child.input = file->number();
-  return answerOf(std::move(child), Answer::report);
+    if (!value.empty()) arguments.push_back("--" + name + "=" + value);
+  const platform::File file(platform::openAgain(upload.file()));
+  if (!file) return problemOf(500, "validator_crashed", "the upload cannot be read: " + systemMessage(errno));
+  return answerTo(std::move(arguments), {platform::Stream::file, file.number()}, {}, Answer::report);
 }
 
 Inspection ProcessInspector::judgeMasters(const MastersJob& job) const {
   if (job.writes && settings_.masters.empty())
     return problemOf(409, "read_only",
                      "the built-in reference histograms cannot be replaced: name a database with --masters FILE");
-  ChildSettings child;
-  child.arguments = {"inspect", job.writes ? "--store-masters" : "--list-masters"};
-  child.text = job.json;
-  return answerOf(std::move(child), Answer::masters);
+  return answerTo({"inspect", job.writes ? "--store-masters" : "--list-masters"}, {platform::Stream::pipe}, job.json,
+                  Answer::masters);
 }
 
-Inspection ProcessInspector::answerOf(ChildSettings child, Answer wanted) const {
-  child.program = settings_.program;
-  child.environment = environment_;
-  child.arguments.push_back("--memory=" + std::to_string(settings_.memory >> 20));
-  child.arguments.push_back("--seconds=" + std::to_string(settings_.time.count()));
-  if (!settings_.masters.empty()) child.arguments.push_back("--masters=" + settings_.masters);
-  child.time = settings_.time;
-  child.most_output = kMostAnswer;
-  child.cancel = stop_.from.number();
-  Result<ChildOutcome> outcome = runChild(child);
-  if (!outcome) return problemOf(500, "validator_crashed", outcome.error().message);
-  return inspectionOf(std::move(*outcome), settings_.time, wanted);
+Inspection ProcessInspector::answerTo(std::vector<std::string> arguments, platform::Stream input, std::string_view text,
+                                      Answer wanted) const {
+  platform::ProcessSettings settings;
+  settings.program = settings_.program;
+  settings.arguments = std::move(arguments);
+  settings.arguments.push_back("--memory=" + std::to_string(settings_.memory >> 20));
+  settings.arguments.push_back("--seconds=" + std::to_string(settings_.time.count()));
+  if (!settings_.masters.empty()) settings.arguments.push_back("--masters=" + settings_.masters);
+  settings.environment = environment_;
+  settings.inherits_environment = false;
+  settings.input = input;
+  settings.output = settings.error = {platform::Stream::pipe};
+  settings.isolated = true;
+  platform::RunSettings run;
+  run.input = text;
+  run.time = settings_.time;
+  run.most_output = kMostAnswer;
+  run.cancellation = &stop_;
+  const Result<platform::ProcessOutput> said = platform::runProcess(settings, run);
+  if (!said) return problemOf(500, "validator_crashed", said.error().message);
+  return inspectionOf(*said, settings_.time, wanted);
 }
 
 }  // namespace
@@ -300,7 +302,7 @@ Result<std::unique_ptr<Inspector>> Inspector::create(const InspectorSettings& se
     return Error{Code::invalid_argument,
                  "an inspector must have 1 to 64 jobs and at most 4096 waiting uploads, and its processes at least 64 "
                  "MB of memory and 1 to 86400 s"};
-  Result<Pipe> stop = Pipe::create();
+  Result<platform::Cancellation> stop = platform::Cancellation::create();
   if (!stop) return stop.error();
   auto made = std::make_unique<ProcessInspector>(settings, std::move(*stop));
   if (const Result<void> started = made->start(); !started) return started.error();

@@ -1,7 +1,6 @@
 #include "tools/service/judge/inspector_answer.h"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <new>
@@ -141,31 +140,41 @@ Inspection outOfMemoryProblem() noexcept {
   return said;
 }
 
-Inspection inspectionOf(ChildOutcome outcome, std::chrono::seconds time, Answer wanted) {
+Inspection inspectionOf(const platform::ProcessOutput& said, std::chrono::seconds time, Answer wanted) {
+  using Stop = platform::ProcessOutput::Stop;
+  using Kind = platform::ProcessExit::Kind;
   const std::string seconds = std::to_string(time.count());
-  switch (outcome.end) {
-    case ChildEnd::cancelled:
+  switch (said.stop) {
+    case Stop::cancelled:
       return stoppedProblem();
-    case ChildEnd::late:
+    case Stop::time_limit:
       return limitReached("the validation takes more than " + seconds +
                           " s, the time limit of the service: send a smaller file");
-    case ChildEnd::talkative:
+    case Stop::output_limit:
       return tooMuchSaid(kMostAnswer);
-    case ChildEnd::signalled:
-      if (outcome.signal == SIGXCPU)
-        return limitReached("the validation takes more than " + seconds +
-                            " s of processor time, the limit of the service: send a smaller file");
-      return crashed("was ended by signal " + std::to_string(outcome.signal) +
-                     (outcome.signal == SIGKILL ? ": the machine may be out of memory"
-                                                : ": this is a bug in sgm, please send us the file"));
-    case ChildEnd::exited:
+    case Stop::none:
       break;
   }
-  if (outcome.status.value_or(0) != 0)
-    return crashed("ended with status " + std::to_string(*outcome.status) + firstLine(outcome.complaint));
-  if (std::optional<Inspection> said = soundAnswer(outcome.output, wanted)) return std::move(*said);
-  return crashed((outcome.output.empty() ? "ended without an answer" : "returned something other than a report") +
-                 firstLine(outcome.complaint));
+  switch (said.exit.kind) {
+    case Kind::out_of_time:
+      return limitReached("the validation takes more than " + seconds +
+                          " s of processor time, the limit of the service: send a smaller file");
+    case Kind::crashed:
+    case Kind::killed:
+    case Kind::ended:
+      return crashed("was ended by signal " + std::to_string(said.exit.number) +
+                     (said.exit.kind == Kind::killed ? ": the machine may be out of memory"
+                                                     : ": this is a bug in sgm, please send us the file"));
+    case Kind::exited:
+      if (said.exit.number != 0)
+        return crashed("ended with status " + std::to_string(said.exit.number) + firstLine(said.error));
+      break;
+    case Kind::unknown:
+      break;
+  }
+  if (std::optional<Inspection> answer = soundAnswer(said.output, wanted)) return std::move(*answer);
+  return crashed((said.output.empty() ? "ended without an answer" : "returned something other than a report") +
+                 firstLine(said.error));
 }
 
 }  // namespace sgm::service

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/service/judge/child_process.h"
+#include "base/platform/process.h"
 #include "tools/service/judge/inspector.h"
 
 namespace sgm::service {
@@ -20,7 +20,7 @@ inline constexpr size_t kMostReportText = size_t{2} << 20;
 enum class Answer { report, masters };
 
 /// If the output is not valid, returns a problem of status 500 that tells how the process ended.
-Inspection inspectionOf(ChildOutcome outcome, std::chrono::seconds time, Answer wanted);
+Inspection inspectionOf(const platform::ProcessOutput& said, std::chrono::seconds time, Answer wanted);
 
 /// RFC 9457. code: for programs. detail: for users, with the remedy; invalid UTF-8 in it is replaced.
 Inspection problemOf(int status, std::string_view code, std::string_view detail);

@@ -1,9 +1,13 @@
 #pragma once
 // Functions that declare a command, and return the function to run if it is given.
 
+#include <concepts>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "tools/support/console.h"
 
@@ -13,7 +17,23 @@ class App;
 
 namespace sgm::cli {
 
-using Command = std::function<Exit()>;
+/// The command line, without the program's name.
+using Words = std::vector<std::string>;
+
+/// The function that runs a command; it may take the words that were given.
+class Command {
+ public:
+  template <std::invocable Run>
+  Command(Run run) : run_([run = std::move(run)](const Words&) { return run(); }) {}
+  template <std::invocable<const Words&> Run>
+  Command(Run run) : run_(std::move(run)) {}
+
+  Exit operator()(const Words& words) const { return run_(words); }
+
+ private:
+  std::function<Exit(const Words&)> run_;
+};
+
 using AddCommand = Command (*)(CLI::App& root);
 
 /// The commands of this build, in the order of help: those of all_commands.cpp or of core_commands.cpp.

@@ -24,7 +24,8 @@ Command addClassify(CLI::App& root) {
                   "corrected, which need reference histograms of the same density")
       ->check(CLI::IsMember({"printed", "corrected", "curvature"}))
       ->capture_default_str();
-  addProcessLimits(*app, *options);
+  addSandboxed(*app, options->sandbox);
+  addSandboxLimits(*app, options->sandbox);
   addDerivationOptions(*app, *options);
   addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
@@ -38,7 +39,10 @@ Command addClassify(CLI::App& root) {
       "--mode printed and corrected need. --seed to --sharp are for grammars. The exit status is 0 for `unknown`,\n"
       "too.\n"
       "Example:\n  sgm classify cave.glb --json\n  sgm classify samples/grammars/storeys.sgm");
-  return [options] { return classifyMesh(*options); };
+  return [options](const Words& words) {
+    options->sandbox.words = words;
+    return classifyMesh(*options);
+  };
 }
 
 Command addMasters(CLI::App& root) {

@@ -70,7 +70,7 @@ Exit runCommandLine(int argc, char** argv) {
   }
   const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
   for (size_t i = 0; i < all.size(); ++i) {
-    if (all[i]->parsed()) return commands[i]();
+    if (all[i]->parsed()) return commands[i](Words(argv + 1, argv + argc));
   }
   return Exit::usage;
 }

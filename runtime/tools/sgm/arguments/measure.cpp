@@ -36,6 +36,7 @@ Command addMeasure(CLI::App& root) {
   const auto options = std::make_shared<MeasureOptions>();
   app->add_option("FILE", options->file, "A .glb, .gltf, .obj, .ply or .stl file, or a .sgm grammar")->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
+  addSandboxed(*app, options->sandbox);
   const std::vector<CLI::Option*> of_all = optionsBeside(*app, {});
   app->add_flag("--strict", options->strict,
                 "Exit with status 1 if it is not the closed surface of a solid, if not all of it was tested, or if it "
@@ -89,7 +90,7 @@ Command addMeasure(CLI::App& root) {
       ->type_name("N")
       ->check(CLI::Range(1, kMaxLevel));
   const std::vector<CLI::Option*> before_limits = optionsBeside(*app, {});
-  addProcessLimits(*app, *options);
+  addSandboxLimits(*app, options->sandbox);
   const std::vector<CLI::Option*> of_files = optionsBeside(*app, before_limits), shared = optionsBeside(*app, {});
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
@@ -128,7 +129,8 @@ Command addMeasure(CLI::App& root) {
       if (option->count() > 0 && !option->check_lname("threads")) names.push_back(option->get_name());
     return names;
   };
-  return [options, of_grammars, of_files, given] {
+  return [options, of_grammars, of_files, given](const Words& words) {
+    options->sandbox.words = words;
     options->of_grammars = given(of_grammars);
     options->of_files = given(of_files);
     return measureMesh(*options);

@@ -159,6 +159,21 @@ std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Op
   return options;
 }
 
+void addSandboxLimits(CLI::App& app, SandboxOptions& options) {
+  app.add_option("--memory", options.memory,
+                 "Limit of the memory to read and measure a mesh file, in megabytes (2^20 bytes)")
+      ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds,
+                 "Limit of the time for that in seconds, both elapsed and summed over all threads")
+      ->check(numberIn(0.1, 1e6))
+      ->capture_default_str();
+}
+
+void addSandboxed(CLI::App& app, SandboxOptions& options) {
+  app.add_flag("--sandboxed", options.sandboxed, "Answer the process that has started this one")->group("");
+}
+
 void addSharpOption(CLI::App& app, WorldOptions& options) {
   app.add_flag(
       "--sharp", options.sharp,

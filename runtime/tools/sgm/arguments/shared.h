@@ -7,6 +7,7 @@
 
 #include "tools/sgm/arguments/add_commands.h"
 #include "tools/support/options.h"
+#include "tools/support/sandbox.h"
 
 namespace sgm::cli {
 
@@ -48,17 +49,9 @@ inline constexpr const char* kLightFooter =
 /// All options except `others`.
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others);
 
-/// Limits of a process that reads a mesh file.
-template <class Options>
-void addProcessLimits(CLI::App& app, Options& options) {
-  app.add_option("--memory", options.memory,
-                 "Limit of the memory to read and measure a mesh file, in megabytes (2^20 bytes)")
-      ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
-      ->capture_default_str();
-  app.add_option("--seconds", options.seconds,
-                 "Limit of the time for that in seconds, both elapsed and summed over all threads")
-      ->check(numberIn(0.1, 1e6))
-      ->capture_default_str();
-}
+/// Limits of the process that reads a mesh file.
+void addSandboxLimits(CLI::App& app, SandboxOptions& options);
+/// --sandboxed, not listed in help: askSandbox() gives it to that process.
+void addSandboxed(CLI::App& app, SandboxOptions& options);
 
 }  // namespace sgm::cli

@@ -1,0 +1,57 @@
+#pragma once
+// Pipes of POSIX systems, for process_posix.cpp and process_exchange_posix.cpp alone.
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <string>
+#include <utility>
+
+#include "base/plain_text.h"
+#include "base/platform/file.h"
+#include "base/result.h"
+
+namespace sgm::platform {
+
+/// Both ends are closed when a program starts.
+struct Pipe {
+  File from, to;
+};
+
+inline Error ioError(const char* what) { return {Code::io, std::string(what) + ": " + systemMessage(errno)}; }
+
+/// If this process has closed its standard streams, new descriptors get their numbers: moves one away from the numbers
+/// that a child's streams will have. Error: io, if the descriptor is none.
+inline Result<File> clearOfStreams(File file) {
+  constexpr int kFirstFree = 3;
+  if (file.number() >= kFirstFree) return file;
+  File moved(file ? fcntl(file.number(), F_DUPFD_CLOEXEC, kFirstFree) : -1);
+  if (!moved) return ioError("cannot open a descriptor");
+  return moved;
+}
+
+inline Result<Pipe> clearOfStreams(const std::array<int, 2>& ends) {
+  File first(ends[0]), second(ends[1]);
+  Result<File> from = clearOfStreams(std::move(first)), to = clearOfStreams(std::move(second));
+  if (!from) return from.error();
+  if (!to) return to.error();
+  return Pipe{std::move(*from), std::move(*to)};
+}
+
+inline Result<Pipe> openPipe() {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) return ioError("cannot open a pipe");
+  return clearOfStreams(ends);
+}
+
+/// Writing to it when nobody reads is an error instead of a signal (MSG_NOSIGNAL).
+inline Result<Pipe> openSocket() {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return ioError("cannot open a socket");
+  return clearOfStreams(ends);
+}
+
+}  // namespace sgm::platform
