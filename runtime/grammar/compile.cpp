@@ -4,11 +4,14 @@
 
 #include "base/hash.h"
 #include "grammar/check/check.h"
+#include "grammar/check/layer_contents.h"
+#include "grammar/check/recursion.h"
 #include "grammar/check/warnings.h"
 #include "grammar/check_file.h"
 #include "grammar/parse/imports.h"
 #include "grammar/parse/parse_module.h"
 #include "grammar/print/printer.h"
+#include "grammar/range/argument_ranges.h"
 #include "grammar/reach/reach.h"
 #include "grammar/text/codes.h"
 
@@ -82,11 +85,10 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   }
   // The parsed part is checked even after errors, so that one run reports all problems.
   if (!sink.full()) {
-    Checker checker(*program, names, syntax, options.limits, sink, check.library);
-    checker.run();
-    const bool understood = sink.errorCount() == unread && !checker.usesWhatIsLost();
+    const CheckFindings found = checkProgram(*program, names, syntax, options.limits, sink, check.library);
+    const bool understood = sink.errorCount() == unread && !found.uses_lost;
     const bool bounded = std::ranges::all_of(syntax, [](const ModuleSyntax& m) { return m.readable && m.bounded; });
-    if (understood) checkRecursion(*program, checker.calls(), options.limits, sink);
+    if (understood) checkRecursion(*program, found.calls, options.limits, sink);
     if (understood) checkRanges(*program, options.limits, sink);
     if (understood && bounded && sink.errorCount() == unread) checkReach(*program, options.limits, sink);
   }

@@ -1,12 +1,12 @@
-// The content of a layer: the levels at which it is visible, that is, those with cells no larger than every `detail`
-// around its content, and whether it has anchors. Layers without content need not be derived.
+// Contents are found bottom-up, so that rules may call each other.
+
+#include "grammar/check/layer_contents.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "grammar/check/check.h"
 #include "grammar/range/reach_values.h"
 
 namespace sgm {

@@ -9,6 +9,7 @@
 
 #include "grammar/range/call_path.h"
 #include "grammar/range/range_value.h"
+#include "grammar/text/limits.h"
 #include "grammar/text/sink.h"
 
 namespace sgm {
@@ -48,5 +49,9 @@ class Misfits {
 
 /// Reports certain misfits as errors, others as warnings: at the argument, or at the library's caller.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
+
+/// Checks every call, derived or not, whose arguments lie outside of the ranges of a rule, let or field, if that does
+/// not depend on the frame. checkReach() checks the rest, where the frame is known.
+void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
 }  // namespace sgm

@@ -1,7 +1,8 @@
+#include "grammar/check/recursion.h"
+
 #include <algorithm>
 
 #include "base/math.h"
-#include "grammar/check/check.h"
 #include "grammar/range/extent.h"
 #include "grammar/range/reach_values.h"
 #include "grammar/text/codes.h"

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
-#include "grammar/check/check.h"
+#include "grammar/check/overrides.h"
 #include "grammar/text/codes.h"
 
 namespace sgm {
@@ -55,9 +54,26 @@ uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
     case StmtKind::comp:
     case StmtKind::treemap:
       return uses;
-    default:
+    case StmtKind::call:
+    case StmtKind::repeat:
+    case StmtKind::for_each:
+    case StmtKind::scatter:
+    case StmtKind::let:
+    case StmtKind::field:
+    case StmtKind::mat:
+    case StmtKind::tag:
+    case StmtKind::anchor:
+    case StmtKind::link:
+    case StmtKind::footprint:
+    case StmtKind::extrude:
+    case StmtKind::roof:
+    case StmtKind::inner:
+    case StmtKind::fit:
+    case StmtKind::wfc:
+    case StmtKind::border:
       return uses > 0 ? kAnyNumber : 0;
   }
+  return kAnyNumber;
 }
 
 /// The most uses of a rule that one run of a statement derives directly.
@@ -92,24 +108,24 @@ uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
 
 }  // namespace
 
-void Checker::usesThatNeverCome() {
+void warnOfIdleOverrides(const Program& program, DiagnosticSink& sink) {
   const auto copied = [&](uint32_t rule) {
-    const auto& edits = program_.rules[rule].overrides;
-    return std::any_of(edits.begin(), edits.end(), [&](uint32_t o) { return copies(program_, program_.overrides[o]); });
+    const auto& edits = program.rules[rule].overrides;
+    return std::any_of(edits.begin(), edits.end(), [&](uint32_t o) { return copies(program, program.overrides[o]); });
   };
-  for (const Override& edit : program_.overrides) {
+  for (const Override& edit : program.overrides) {
     for (uint32_t i = 1; i < edit.steps.count; ++i) {
-      const PathStep& step = program_.path_steps[edit.steps.first + i];
-      const uint32_t parent = program_.path_steps[edit.steps.first + i - 1].rule;
+      const PathStep& step = program.path_steps[edit.steps.first + i];
+      const uint32_t parent = program.path_steps[edit.steps.first + i - 1].rule;
       if (step.index == kNoId || copied(parent)) continue;
-      const uint32_t most = usesBelow(program_, program_.rules[parent], step.rule);
+      const uint32_t most = usesBelow(program, program.rules[parent], step.rule);
       if (most == 0 || step.index < most) continue;
-      const std::string_view name = text(program_.rules[step.rule].name);
-      sink_.warning(edit.address_span, codes::kIdleOverride,
-                    join({"`", text(program_.rules[parent].name), "` derives `", name, "` ",
-                          most == 1 ? "once" : std::to_string(most) + " times", " at most: `", name, "[",
-                          std::to_string(step.index), "]` is never derived"}),
-                    join({"the last is `", name, "[", std::to_string(most - 1), "]`"}));
+      const std::string_view name = program.text(program.rules[step.rule].name);
+      sink.warning(edit.address_span, codes::kIdleOverride,
+                   join({"`", program.text(program.rules[parent].name), "` derives `", name, "` ",
+                         most == 1 ? "once" : std::to_string(most) + " times", " at most: `", name, "[",
+                         std::to_string(step.index), "]` is never derived"}),
+                   join({"the last is `", name, "[", std::to_string(most - 1), "]`"}));
       break;
     }
   }

@@ -1,9 +1,8 @@
-// Members after a dot that are not calls: parts of vectors, cells, faces and segments.
+// Members after a dot that are not calls: parts of vectors, cells, faces and segments. Queries of layers.
 
-#include <algorithm>
 #include <array>
 
-#include "grammar/check/check.h"
+#include "grammar/check/types.h"
 #include "grammar/text/codes.h"
 
 namespace sgm {
@@ -56,19 +55,50 @@ std::string memberHint(std::string_view word, ValueKind of) {
 
 }  // namespace
 
-Type Checker::member(ExprId id) {
-  ExprNode& n = node(id);
-  const ExprId of = child(n, 0);
-  const std::string_view word = text(n.name);
-  if (node(of).kind == ExprKind::name) {
+uint32_t Types::askLayer(NameId name, const Span& span, std::string_view verb) {
+  const uint32_t layer = symbols_.findLayer(name, span);
+  if (layer != kNoId) scope_.asked->push_back({kNoId, layer, span, verb});
+  return layer;
+}
+
+Type Types::query(ExprId id) {
+  const ExprNode n = check_.node(id);
+  const Type answer{ValueKind::boolean, kRatio, false, false};
+  if (n.children.count > 0) {
+    const ExprId radius = check_.child(n, 0);
+    demand(radius, ValueKind::number, kLength, "the radius of a query");
+    if (const auto metres = fold(radius); metres && *metres < 0)
+      check_.sink.error(check_.node(radius).span, codes::kValueRange, "the radius of a query is 0m or more",
+                        "such as `query clear 2m of`");
+  }
+  if (scope_.field) {
+    check_.sink.error(n.span, codes::kStage,
+                      "a query is answered once, when shapes are derived, and a field is evaluated at every point",
+                      "ask in the rule, `let open = query ...;`, and pass that to the field as an argument");
+    return answer;
+  }
+  if (!scope_.inRule()) {
+    check_.sink.error(n.span, codes::kWrongUse, "a query is known inside rules only: it asks about the scope's place",
+                      "ask in a rule, and pass the answer to a let as an argument");
+    return answer;
+  }
+  const uint32_t layer = askLayer(n.name, n.span, "queries");
+  check_.node(id).ref = Ref::layer;
+  check_.node(id).id = layer;
+  return answer;
+}
+
+Type Types::member(ExprId id) {
+  ExprNode& n = check_.node(id);
+  const ExprId of = check_.child(n, 0);
+  const std::string_view word = check_.text(n.name);
+  if (check_.node(of).kind == ExprKind::name) {
     // module.name of a let or field without arguments
-    const NameId receiver = node(of).name;
-    const auto found = symbols_[scope_.module].find(receiver);
-    const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
-                                    [&](const Local& local) { return local.name == receiver; });
-    if (!hidden && found != symbols_[scope_.module].end() && (found->second.import || found->second.asset)) {
+    const NameId receiver = check_.node(of).name;
+    const Symbol* const found = symbols_.find(scope_.module, receiver);
+    if (!scope_.hides(receiver) && found != nullptr && (found->import || found->asset)) {
       n.kind = ExprKind::name;
-      resolveCallee(id, false);
+      symbols_.resolveCallee(id, scope_, false);
       return n.ref == Ref::none ? kUnknownType : name(id);
     }
   }
@@ -84,8 +114,8 @@ Type Checker::member(ExprId id) {
   if (n.member == Member::none) {
     const bool method = (type.kind == ValueKind::cell && word == "links") ||
                         ((type.kind == ValueKind::cell || type.kind == ValueKind::face) && word == "point");
-    sink_.error(n.span, codes::kUnknownMember, join({withArticle(typeName(type)), " has no `", word, "`"}),
-                method ? join({"write `", word, "()` with its arguments"}) : memberHint(word, type.kind));
+    check_.sink.error(n.span, codes::kUnknownMember, join({withArticle(typeName(type)), " has no `", word, "`"}),
+                      method ? join({"write `", word, "()` with its arguments"}) : memberHint(word, type.kind));
   }
   out.sample = type.sample;
   return out;

@@ -1,0 +1,139 @@
+#include "grammar/check/check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grammar/check/arguments.h"
+#include "grammar/check/declared_constants.h"
+#include "grammar/check/idle_cuts.h"
+#include "grammar/check/layer_level.h"
+#include "grammar/check/layers.h"
+#include "grammar/check/overrides.h"
+#include "grammar/text/codes.h"
+
+namespace sgm {
+
+namespace {
+
+/// Callers give the same values to all heads, so one range applies to them.
+void checkHeadRanges(CheckContext& check, const Rule& rule, const Alternative& head) {
+  for (uint32_t i = 0; i < head.formals.count; ++i) {
+    const FormalNode& first = check.program.ast.formals[rule.alternatives[0].formals.first + i];
+    const FormalNode& here = check.program.ast.formals[head.formals.first + i];
+    if (!here.ranged || (first.ranged && first.low == here.low && first.high == here.high && first.dim == here.dim))
+      continue;
+    const std::string what = join({"`", check.text(here.name), "` of `", check.text(rule.name), "`"});
+    check.sink
+        .error(here.span, codes::kParamRange,
+               first.ranged ? join({"the range of ", what, " differs from that in the first head"})
+                            : join({what, " has a range here and none in the first head"}),
+               "the range in the first head holds for all heads")
+        .notes.push_back(join({"the first head is at ", check.sink.place(rule.alternatives[0].span)}));
+  }
+}
+
+/// Requires that the heads of a rule agree with each other.
+void checkHeads(CheckContext& check) {
+  for (const Rule& rule : check.program.rules) {
+    bool when = false, otherwise = false;
+    for (const Alternative& a : rule.alternatives) {
+      when = when || a.guard == Guard::when;
+      otherwise = otherwise || a.guard == Guard::otherwise;
+      if (a.formals.count != rule.alternatives[0].formals.count)
+        check.sink
+            .error(a.span, codes::kArgumentCount,
+                   join({"`", check.text(rule.name), "` has ", std::to_string(rule.alternatives[0].formals.count),
+                         rule.alternatives[0].formals.count == 1 ? " parameter" : " parameters",
+                         " in its first head and ", std::to_string(a.formals.count), " in this one"}),
+                   "the heads of a rule have the same parameters")
+            .notes.push_back(join({"the first is at ", check.sink.place(rule.alternatives[0].span)}));
+      else
+        checkHeadRanges(check, rule, a);
+    }
+    const bool lod = std::any_of(rule.alternatives.begin(), rule.alternatives.end(),
+                                 [](const Alternative& a) { return a.lod != kNoId; });
+    if (otherwise && !when && !lod && !check.syntax[rule.module].mayDeclare(rule.name))
+      check.sink.error(rule.span, codes::kGuards, join({"`", check.text(rule.name), "` has an `else` and no `when`"}),
+                       "add a head with `when`, or leave `else` out");
+  }
+}
+
+/// Checks the rules that nothing derives.
+void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
+  // The calls of a statement with an error are unknown.
+  const bool calls_known = check.sink.errorCount() == 0;
+  for (uint32_t r = 0; r < check.program.rules.size() && !check.sink.full(); ++r) {
+    if (rules.isReached(r)) continue;
+    const Rule& rule = check.program.rules[r];
+    if (rule.module == 0 && calls_known && symbols.areLayersKnown() && !check.program.layers.empty())
+      check.sink.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", check.text(rule.name), "`"}),
+                         "call it in a rule, or remove it");
+    rules.assume(r, typesOf(check.program, rule.alternatives[0].formals));
+    statements.checkRule(r);
+  }
+}
+
+void warnOfCuts(const CheckContext& check, const Overrides& overrides) {
+  const Program& program = check.program;
+  for (const Rule& rule : program.rules)
+    for (const Alternative& head : rule.alternatives) warnOfIdleCuts(program, head.body, false, check.sink);
+  for (uint32_t o = 0; o < program.overrides.size(); ++o)
+    warnOfIdleCuts(program, program.overrides[o].body, overrides.mayBeInRoom(o), check.sink);
+}
+
+/// Checks rules and overrides, and returns their uses of rules and layers.
+RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
+  RuleUses uses;
+  const uint32_t before = check.sink.errorCount();
+  checkHeads(check);
+  if (check.sink.errorCount() > before) return uses;
+  RuleTypes rules(check.program.rules.size());
+  Statements statements(check, symbols, types, rules, uses);
+  // Starts first, then their callees, in order of the first call: types flow from callers to callees.
+  if (check.syntax[0].start != kNoId) statements.start(check.syntax[0].start);
+  for (const LayerDecl& layer : check.syntax[0].layers) statements.start(layer.start);
+  statements.checkWaiting();
+  Overrides overrides(check, symbols, rules, statements, uses);
+  overrides.run();
+  checkUnreached(check, symbols, rules, statements);
+  types.unusedValues();
+  LayerLevel(check).mark();
+  if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);  // cannot be judged after errors
+  return uses;
+}
+
+/// Stores which rule may derive which, for searches of the uses of a rule.
+void keepCalls(Program& program, const std::vector<RuleCall>& calls) {
+  for (const RuleCall& call : calls) program.rules[call.from].calls.push_back(call.to);
+  for (Rule& rule : program.rules) {
+    std::sort(rule.calls.begin(), rule.calls.end());
+    rule.calls.erase(std::unique(rule.calls.begin(), rule.calls.end()), rule.calls.end());
+  }
+}
+
+}  // namespace
+
+CheckFindings checkProgram(Program& program, NameTable& names, const std::vector<ModuleSyntax>& syntax,
+                           const CompileLimits& limits, DiagnosticSink& sink, bool library) {
+  const uint32_t before = sink.errorCount();
+  CheckContext check{program, names, syntax, limits, sink, library, before > 0};
+  Symbols symbols(check);
+  Types types(check, symbols);
+  checkFormalLiterals(check);
+  symbols.collect();
+  numberAssetMaterials(check);
+  if (sink.errorCount() > before) return {{}, symbols.usesWhatIsLost()};
+  checkFormalRanges(check, types);
+  checkParams(check, types);
+  checkSeed(check, types);
+  checkDomain(check, types);
+  checkLayers(check, symbols, types);
+  if (sink.full()) return {{}, symbols.usesWhatIsLost()};
+  RuleUses uses = checkRules(check, symbols, types);
+  keepCalls(program, uses.calls);
+  checkAskedLayers(check, uses);
+  checkExpectations(check, symbols, types);
+  return {std::move(uses.calls), symbols.usesWhatIsLost()};
+}
+
+}  // namespace sgm
