@@ -22,12 +22,12 @@ void offerBuiltins(Suggestion& suggestion, bool calls) {
 
 }  // namespace
 
-void Symbols::assetMisused(const Span& span, NameId name) {
+void Symbols::reportMisusedAsset(const Span& span, NameId name) {
   check_.sink.error(span, codes::kWrongUse, join({"`", check_.text(name), "` is an asset"}),
                     join({"put it into a scope: `fit ", check_.text(name), ";`"}));
 }
 
-void Symbols::unknownName(const Span& span, NameId name, const Scope& scope, bool call, bool shape) {
+void Symbols::reportUnknownName(const Span& span, NameId name, const Scope& scope, bool call, bool shape) {
   if (mayBeLost(scope.module, name)) return;
   const std::string_view word = check_.text(name);
   Suggestion suggestion(word);
@@ -45,7 +45,7 @@ void Symbols::unknownName(const Span& span, NameId name, const Scope& scope, boo
 }
 
 /// Reports an error if the receiver is a missing import, and returns whether it is.
-bool Symbols::notImported(const ExprNode& receiver, const Scope& scope, bool shape) {
+bool Symbols::reportMissingImport(const ExprNode& receiver, const Scope& scope, bool shape) {
   const std::string_view word = check_.text(receiver.name);
   if (isValueWord(word)) return false;
   if (mayBeLost(scope.module, receiver.name)) return true;
@@ -87,17 +87,17 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     const Symbol* const import = find(scope.module, receiver.name);
     const bool hidden = scope.hides(receiver.name);
     if (!hidden && import != nullptr && import->asset) {
-      assetMisused(receiver.span, receiver.name);
+      reportMisusedAsset(receiver.span, receiver.name);
       return true;
     }
-    if (!hidden && import == nullptr && notImported(receiver, scope, shape)) return true;
+    if (!hidden && import == nullptr && reportMissingImport(receiver, scope, shape)) return true;
     if (hidden || import == nullptr || !import->import) return false;
     if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // a file that could not be read
     module = import->id;
   }
   const Symbol* const found = find(module, n.name);
   if (found != nullptr && found->asset) {
-    assetMisused(n.span, n.name);
+    reportMisusedAsset(n.span, n.name);
     return true;
   }
   if (found != nullptr && !found->import) {
@@ -133,7 +133,7 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     check_.sink.error(span, codes::kWrongUse, join({"`", check_.text(n.name), "` is an import"}),
                       join({"name something of it: ", check_.text(n.name), ".name"}));
   } else {
-    unknownName(span, n.name, scope, n.kind == ExprKind::call, shape);
+    reportUnknownName(span, n.name, scope, n.kind == ExprKind::call, shape);
   }
   return true;
 }

@@ -8,11 +8,11 @@
 
 namespace sgm {
 
-void Types::looseArguments(const ExprNode& call) {
-  for (uint32_t i = 0; i < call.args.count; ++i) expression(check_.program.ast.args[call.args.first + i].value);
+void Types::checkLooseArguments(const ExprNode& call) {
+  for (uint32_t i = 0; i < call.args.count; ++i) checkExpression(check_.program.ast.args[call.args.first + i].value);
 }
 
-Type Types::callValue(ExprId id) {
+Type Types::checkCall(ExprId id) {
   ExprNode& n = check_.node(id);
   // A local field hides an outer declaration of the same name.
   for (auto local = scope_.locals.rbegin(); n.children.count == 0 && local != scope_.locals.rend(); ++local) {
@@ -21,21 +21,21 @@ Type Types::callValue(ExprId id) {
     n.ref = Ref::field;
     n.id = local->field;
     const Local copy = *local;
-    return localFieldUse(id, copy);
+    return useLocalField(id, copy);
   }
   if (n.ref == Ref::field && check_.program.fields[n.id].local) {
     for (auto local = scope_.locals.rbegin(); local != scope_.locals.rend(); ++local)
       if (local->field == n.id) {
         const Local copy = *local;
-        return localFieldUse(id, copy);
+        return useLocalField(id, copy);
       }
     return kUnknownType;
   }
-  if (n.children.count > 0 && !symbols_.resolveCallee(id, scope_, false)) return method(id);
+  if (n.children.count > 0 && !symbols_.resolveCallee(id, scope_, false)) return checkMethod(id);
   if (!symbols_.resolveCallee(id, scope_, false)) return kUnknownType;
   switch (n.ref) {
     case Ref::builtin:
-      return n.children.count > 0 ? method(id) : builtinCall(id);
+      return n.children.count > 0 ? checkMethod(id) : checkBuiltin(id);
     case Ref::let:
     case Ref::field: {
       const IdRange formals =
@@ -43,15 +43,15 @@ Type Types::callValue(ExprId id) {
       const auto bound =
           bindArguments(check_, symbols_, scope_, id, {check_.text(n.name), viewOf(check_.program, formals)});
       if (!bound) {
-        looseArguments(n);
+        checkLooseArguments(n);
         return {ValueKind::unknown, kRatio, n.ref == Ref::field, false};
       }
       if (n.bound.count == 0) n.bound = check_.store(*bound);
-      std::vector<Type> types = expressions(*bound);
-      demandRanged(formals, *bound, types, check_.text(n.name));
+      std::vector<Type> types = checkExpressions(*bound);
+      requireFormalRanges(formals, *bound, types, check_.text(n.name));
       if (n.ref == Ref::let)
-        for (const uint32_t b : *bound) deriveOnly(b, join({"an argument of `", check_.text(n.name), "`"}));
-      return letOrField(id, n.ref, n.id, types);
+        for (const uint32_t b : *bound) requireDerived(b, join({"an argument of `", check_.text(n.name), "`"}));
+      return useValue(id, n.ref, n.id, types);
     }
     case Ref::rule:
     case Ref::primitive:
@@ -64,31 +64,31 @@ Type Types::callValue(ExprId id) {
                         join({"write `", check_.text(n.name), "`"}));
       return kUnknownType;
     default:
-      looseArguments(n);
+      checkLooseArguments(n);
       return kUnknownType;
   }
 }
 
-std::optional<Dim> Types::arguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
-                                    std::string_view callee) {
+std::optional<Dim> Types::checkArguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
+                                         std::string_view callee) {
   auto paramOf = [&](size_t i) -> const BuiltinParam& { return params[std::min(i, params.size() - 1)]; };
   std::vector<Type> types;
   std::optional<Dim> dim;
   for (size_t i = 0; i < bound.size(); ++i) {
-    types.push_back(bound[i] == kNoId ? kUnknownType : expression(bound[i]));
+    types.push_back(bound[i] == kNoId ? kUnknownType : checkExpression(bound[i]));
     const Type& type = types.back();
     if (!dim && paramOf(i).any_dim && type.kind == ValueKind::number && !type.any_dim) dim = type.dim;
   }
   for (size_t i = 0; i < bound.size(); ++i) {
     if (bound[i] == kNoId) continue;
     const BuiltinParam& param = paramOf(i);
-    demandType(bound[i], types[i], param.kind, param.any_dim ? dim.value_or(kRatio) : param.dim,
-               join({"`", param.name, "` of `", callee, "`"}), !param.derive_only);
+    requireType(bound[i], types[i], param.kind, param.any_dim ? dim.value_or(kRatio) : param.dim,
+                join({"`", param.name, "` of `", callee, "`"}), !param.derive_only);
   }
   return dim;
 }
 
-Type Types::builtinCall(ExprId id) {
+Type Types::checkBuiltin(ExprId id) {
   ExprNode& n = check_.node(id);
   Builtin builtin = static_cast<Builtin>(n.id);
   if (builtin == Builtin::rand && n.args.count == 3) builtin = Builtin::rand_keyed;
@@ -97,12 +97,12 @@ Type Types::builtinCall(ExprId id) {
   const BuiltinInfo& info = builtinTable()[n.id];
   const auto given = bindArguments(check_, symbols_, scope_, id, {info.name, viewOf(info.params)});
   if (!given) {
-    looseArguments(n);
+    checkLooseArguments(n);
     return {ValueKind::unknown, kRatio, builtin == Builtin::fractal, false};
   }
   const std::vector<uint32_t>& bound = *given;
   if (n.bound.count == 0) n.bound = check_.store(bound);
-  const std::optional<Dim> dim = arguments(bound, info.params, info.name);
+  const std::optional<Dim> dim = checkArguments(bound, info.params, info.name);
   bool sample = false;
   const bool any = !dim;
   for (uint32_t b : bound) sample = sample || (b != kNoId && check_.node(b).type.sample);
@@ -168,16 +168,16 @@ Type Types::builtinCall(ExprId id) {
           check_.node(bound[0]).span, codes::kTypeMismatch,
           join({"a key is a cell, a face, a segment or a number, and this is ", withArticle(typeName(key))}),
           "such as cell or 3");
-    deriveOnly(bound[0], "a key");
+    requireDerived(bound[0], "a key");
   }
   if (builtin == Builtin::chance || builtin == Builtin::chance_keyed) return {ValueKind::boolean, kRatio, false, false};
   return out;
 }
 
-Type Types::method(ExprId id) {
+Type Types::checkMethod(ExprId id) {
   ExprNode& n = check_.node(id);
   const ExprId receiver = check_.child(n, 0);
-  const Type type = expression(receiver);
+  const Type type = checkExpression(receiver);
   const std::string_view word = check_.text(n.name);
   const bool cell = type.kind == ValueKind::cell || type.kind == ValueKind::unknown;
   const bool face = type.kind == ValueKind::face;
@@ -206,7 +206,7 @@ Type Types::method(ExprId id) {
   const BuiltinInfo& info = builtinTable()[static_cast<size_t>(builtin)];
   const auto bound = bindArguments(check_, symbols_, scope_, id, {word, viewOf(info.params)});
   if (!bound) return kUnknownType;
-  arguments(*bound, info.params, word);
+  checkArguments(*bound, info.params, word);
   n.ref = Ref::builtin;
   n.id = static_cast<uint32_t>(builtin);
   if (n.bound.count == 0) {
@@ -218,28 +218,28 @@ Type Types::method(ExprId id) {
   return {ValueKind::vector, kLength, false, false};
 }
 
-void Types::primitiveCall(ExprId id) {
+void Types::checkPrimitive(ExprId id) {
   ExprNode& n = check_.node(id);
   const PrimitiveInfo& info = primitiveTable()[n.id];
   const Primitive primitive = info.id;
   const bool box_like = primitive == Primitive::box || primitive == Primitive::ellipsoid;
   if (box_like && n.args.count == 1) {
     const ArgNode& arg = check_.program.ast.args[n.args.first];
-    const Type type = expression(arg.value);
+    const Type type = checkExpression(arg.value);
     const bool edge = primitive == Primitive::box && type.kind != ValueKind::vector;
-    demandType(arg.value, type, edge ? ValueKind::number : ValueKind::vector, kLength,
-               edge ? "the edge of a box" : join({"the size of `", info.name, "`"}));
+    requireType(arg.value, type, edge ? ValueKind::number : ValueKind::vector, kLength,
+                edge ? "the edge of a box" : join({"the size of `", info.name, "`"}));
     if (n.bound.count == 0) n.bound = check_.store({arg.value, kNoId, kNoId});
     return;
   }
   const auto given = bindArguments(check_, symbols_, scope_, id, {info.name, viewOf(info.params), info.variadic});
   if (!given) {
-    looseArguments(n);
+    checkLooseArguments(n);
     return;
   }
   const std::vector<uint32_t>& bound = *given;
   if (n.bound.count == 0) n.bound = check_.store(bound);
-  arguments(bound, info.params, info.name);
+  checkArguments(bound, info.params, info.name);
   if (primitive == Primitive::halfspace && (bound[0] == kNoId) == (bound[1] == kNoId))
     check_.sink.error(n.span, codes::kArgumentCount, "`halfspace` takes either `below` or `above`",
                       "such as halfspace(below 2m)");

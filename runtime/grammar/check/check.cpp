@@ -96,7 +96,7 @@ RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   Overrides overrides(check, symbols, rules, statements, uses);
   overrides.run();
   checkUnreached(check, symbols, rules, statements);
-  types.unusedValues();
+  types.checkUnused();
   LayerLevel(check).mark();
   if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);  // cannot be judged after errors
   return uses;

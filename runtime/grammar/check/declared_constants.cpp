@@ -23,7 +23,7 @@ std::optional<Ends> endsOf(CheckContext& check, Types& types, ExprId low_expr, E
 }
 
 /// Returns false after an error.
-bool defaultLies(CheckContext& check, const Ends& range, ExprId value_expr, double value, Dim dim, NameId name) {
+bool checkDefault(CheckContext& check, const Ends& range, ExprId value_expr, double value, Dim dim, NameId name) {
   if (value >= range.low && value <= range.high) return true;
   const bool percent = dim == kRatio && range.high <= 1 && value / 100 >= range.low && value / 100 <= range.high;
   check.sink.error(
@@ -38,7 +38,7 @@ bool defaultLies(CheckContext& check, const Ends& range, ExprId value_expr, doub
 std::optional<double> checkConstant(CheckContext& check, Types& types, ExprId id, Dim dim, std::string_view what) {
   const uint32_t before = check.sink.errorCount();
   types.enter({});
-  const Type type = types.demand(id, ValueKind::number, dim, what);
+  const Type type = types.require(id, ValueKind::number, dim, what);
   if (check.sink.errorCount() > before || type.kind == ValueKind::unknown) return std::nullopt;
   const auto value = types.fold(id);
   if (!value || !std::isfinite(*value)) {
@@ -78,13 +78,13 @@ void checkFormalRanges(CheckContext& check, Types& types) {
     FormalNode& formal = check.program.ast.formals[i];
     if (formal.low_expr == kNoId || formal.high_expr == kNoId) continue;
     types.enter({});
-    const Type low = types.expression(formal.low_expr), high = types.expression(formal.high_expr);
+    const Type low = types.checkExpression(formal.low_expr), high = types.checkExpression(formal.high_expr);
     formal.dim = low.any_dim ? high.dim : low.dim;
     const auto range = endsOf(check, types, formal.low_expr, formal.high_expr, formal.dim);
     if (!range) continue;
     if (formal.fallback != kNoId) {
       const auto value = checkConstant(check, types, formal.fallback, formal.dim, "the default of a parameter");
-      if (!value || !defaultLies(check, *range, formal.fallback, *value, formal.dim, formal.name)) continue;
+      if (!value || !checkDefault(check, *range, formal.fallback, *value, formal.dim, formal.name)) continue;
     }
     formal.ranged = true;
     formal.low = range->low;
@@ -96,7 +96,7 @@ void checkParams(CheckContext& check, Types& types) {
   for (Param& param : check.program.params) {
     if (param.module != 0) continue;
     types.enter({});
-    const Type type = types.expression(param.value_expr);
+    const Type type = types.checkExpression(param.value_expr);
     if (type.kind == ValueKind::unknown) continue;
     if (type.kind != ValueKind::number) {
       check.sink.error(check.node(param.value_expr).span, codes::kTypeMismatch,
@@ -105,7 +105,7 @@ void checkParams(CheckContext& check, Types& types) {
     }
     param.dim = type.dim;
     if (type.any_dim && param.has_range) {
-      const Type low = types.expression(param.low_expr), high = types.expression(param.high_expr);
+      const Type low = types.checkExpression(param.low_expr), high = types.checkExpression(param.high_expr);
       param.dim = low.any_dim ? high.dim : low.dim;
     }
     const auto value = checkConstant(check, types, param.value_expr, param.dim, "the default of a parameter");
@@ -119,7 +119,7 @@ void checkParams(CheckContext& check, Types& types) {
     }
     if (param.has_range) {
       const auto range = endsOf(check, types, param.low_expr, param.high_expr, param.dim);
-      if (!range || !defaultLies(check, *range, param.value_expr, *value, param.dim, param.name)) continue;
+      if (!range || !checkDefault(check, *range, param.value_expr, *value, param.dim, param.name)) continue;
       param.low = range->low;
       param.high = range->high;
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "grammar/check/arguments.h"
@@ -66,7 +67,7 @@ void Types::declareLocal(NameId name, const Span& span, const Local& local) {
   scope_.slot_count = std::max(scope_.slot_count, scope_.next_slot);
 }
 
-Type Types::expression(ExprId id) {
+Type Types::checkExpression(ExprId id) {
   if (id == kNoId) return kUnknownType;
   // Nested lets add up, but the stack depth must not depend on the text.
   if (depth_ >= kDeepestExpressions) {
@@ -87,10 +88,10 @@ Type Types::expression(ExprId id) {
       type.kind = ValueKind::text;
       break;
     case ExprKind::vector:
-      type = vector(id);
+      type = checkVector(id);
       break;
     case ExprKind::negate:
-      type = expression(check_.child(n, 0));
+      type = checkExpression(check_.child(n, 0));
       if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::unknown) {
         check_.sink.error(n.span, codes::kTypeMismatch,
                           join({"a minus stands before a number, not a ", typeName(type)}),
@@ -99,31 +100,31 @@ Type Types::expression(ExprId id) {
       }
       break;
     case ExprKind::logical_not:
-      type = demand(check_.child(n, 0), ValueKind::boolean, kRatio, "the operand of `not`", true);
+      type = require(check_.child(n, 0), ValueKind::boolean, kRatio, "the operand of `not`", true);
       type.kind = ValueKind::boolean;
       break;
     case ExprKind::binary:
-      type = binary(id);
+      type = checkBinary(id);
       break;
     case ExprKind::conditional:
-      type = conditional(id);
+      type = checkConditional(id);
       break;
     case ExprKind::range:
-      demand(check_.child(n, 0), ValueKind::number, kRatio, "the start of a range");
-      demand(check_.child(n, 1), ValueKind::number, kRatio, "the end of a range");
+      require(check_.child(n, 0), ValueKind::number, kRatio, "the start of a range");
+      require(check_.child(n, 1), ValueKind::number, kRatio, "the end of a range");
       type.kind = ValueKind::range;
       break;
     case ExprKind::name:
-      type = name(id);
+      type = checkName(id);
       break;
     case ExprKind::member:
-      type = member(id);
+      type = checkMember(id);
       break;
     case ExprKind::call:
-      type = callValue(id);
+      type = checkCall(id);
       break;
     case ExprKind::query:
-      type = query(id);
+      type = checkQuery(id);
       break;
   }
   --depth_;
@@ -131,19 +132,19 @@ Type Types::expression(ExprId id) {
   return type;
 }
 
-std::vector<Type> Types::expressions(const std::vector<uint32_t>& ids) {
+std::vector<Type> Types::checkExpressions(const std::vector<uint32_t>& ids) {
   std::vector<Type> types;
-  for (const uint32_t id : ids) types.push_back(expression(id));
+  for (const uint32_t id : ids) types.push_back(checkExpression(id));
   return types;
 }
 
-Type Types::vector(ExprId id) {
+Type Types::checkVector(ExprId id) {
   const ExprNode& n = check_.node(id);
   constexpr Type kVector{ValueKind::vector, kLength, false, false};
   Type type = numberType(kRatio);
   for (uint32_t i = 0; i < n.children.count; ++i) {
     const ExprId part = check_.child(n, i);
-    const Type t = expression(part);
+    const Type t = checkExpression(part);
     if (t.kind != ValueKind::number && t.kind != ValueKind::unknown) {
       check_.sink.error(check_.node(part).span, codes::kTypeMismatch,
                         join({"a vector has numbers, and this is ", withArticle(typeName(t))}),
@@ -168,17 +169,17 @@ Type Types::vector(ExprId id) {
   return type;
 }
 
-Type Types::binary(ExprId id) {
+Type Types::checkBinary(ExprId id) {
   const ExprNode& n = check_.node(id);
   const ExprId left = check_.child(n, 0), right = check_.child(n, 1);
   const BinaryOp op = n.binary;
   if (op == BinaryOp::logical_and || op == BinaryOp::logical_or) {
     const std::string_view what = op == BinaryOp::logical_and ? "each side of `and`" : "each side of `or`";
-    const Type a = demand(left, ValueKind::boolean, kRatio, what, true);
-    const Type b = demand(right, ValueKind::boolean, kRatio, what, true);
+    const Type a = require(left, ValueKind::boolean, kRatio, what, true);
+    const Type b = require(right, ValueKind::boolean, kRatio, what, true);
     return {ValueKind::boolean, kRatio, a.sample || b.sample, false};
   }
-  const Type a = expression(left), b = expression(right);
+  const Type a = checkExpression(left), b = checkExpression(right);
   const bool sample = a.sample || b.sample;
   const bool known = a.kind != ValueKind::unknown && b.kind != ValueKind::unknown;
   const bool comparison = op >= BinaryOp::less && op <= BinaryOp::not_equal;
@@ -233,10 +234,10 @@ Type Types::binary(ExprId id) {
   return comparison ? condition : both.type;
 }
 
-Type Types::conditional(ExprId id) {
+Type Types::checkConditional(ExprId id) {
   const ExprNode& n = check_.node(id);
-  const Type c = demand(check_.child(n, 0), ValueKind::boolean, kRatio, "the condition of `if`", true);
-  const Type a = expression(check_.child(n, 1)), b = expression(check_.child(n, 2));
+  const Type c = require(check_.child(n, 0), ValueKind::boolean, kRatio, "the condition of `if`", true);
+  const Type a = checkExpression(check_.child(n, 1)), b = checkExpression(check_.child(n, 2));
   const Unified both = unify(a, b);
   Type out = both.type;
   if (!both.good)
@@ -248,7 +249,7 @@ Type Types::conditional(ExprId id) {
   return out;
 }
 
-Type Types::name(ExprId id) {
+Type Types::checkName(ExprId id) {
   ExprNode& n = check_.node(id);
   for (auto local = scope_.locals.rbegin(); local != scope_.locals.rend(); ++local) {
     if (local->name != n.name) continue;
@@ -256,7 +257,7 @@ Type Types::name(ExprId id) {
       const Local copy = *local;
       n.ref = Ref::field;
       n.id = copy.field;
-      return localFieldUse(id, copy);
+      return useLocalField(id, copy);
     }
     n.ref = Ref::local;
     n.id = local->slot;
@@ -292,7 +293,7 @@ Type Types::name(ExprId id) {
       const auto bound = bindArguments(check_, symbols_, scope_, id, {word, viewOf(check_.program, formals)});
       if (!bound) return kUnknownType;
       n.bound = check_.store(*bound);
-      return letOrField(id, n.ref, n.id, expressions(*bound));
+      return useValue(id, n.ref, n.id, checkExpressions(*bound));
     }
     case Ref::rule:
     case Ref::primitive:

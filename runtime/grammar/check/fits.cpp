@@ -9,8 +9,8 @@ void checkFit(CheckContext& check, Symbols& symbols, Types& types, const StmtNod
   FitNode& fit = check.program.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
     const FitZoneNode& zone = check.program.ast.fit_zones[fit.zones.first + i];
-    types.demand(zone.from, ValueKind::number, kLength, "the beginning of a zone");
-    types.demand(zone.to, ValueKind::number, kLength, "the end of a zone");
+    types.require(zone.from, ValueKind::number, kLength, "the beginning of a zone");
+    types.require(zone.to, ValueKind::number, kLength, "the end of a zone");
   }
   const uint32_t module = types.scope().module;
   const Symbol* const found = symbols.find(module, s.name);

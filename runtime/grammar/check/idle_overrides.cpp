@@ -1,9 +1,10 @@
 // Counts how often a rule can derive another, to report overrides of uses that never occur.
 
+#include "grammar/check/idle_overrides.h"
+
 #include <algorithm>
 #include <limits>
 
-#include "grammar/check/overrides.h"
 #include "grammar/text/codes.h"
 
 namespace sgm {

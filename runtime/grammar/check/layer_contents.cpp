@@ -101,16 +101,48 @@ class RuleContents {
     if (steps_ == 0) return {std::numeric_limits<int32_t>::max(), true, true};
     --steps_;
     const StmtNode& s = program_.stmt(id);
-    if (s.kind == StmtKind::call) return ofCall(s.expr);
-    if (s.kind == StmtKind::anchor) return {0, false, true};
     Contents all = ofStatement(s.body);
-    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap ||
-        s.kind == StmtKind::fit)
-      all.add(Contents::shape());
     for (uint32_t i = 0; i < s.children.count; ++i) all.add(ofStatement(program_.idAt(s.children, i)));
-    if (s.kind == StmtKind::detail) {
-      all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
-      all.by_level = true;
+    switch (s.kind) {
+      case StmtKind::call:
+        return ofCall(s.expr);
+      case StmtKind::anchor:
+        return {0, false, true};
+      case StmtKind::extrude:
+      case StmtKind::roof:
+      case StmtKind::treemap:
+      case StmtKind::fit:
+        all.add(Contents::shape());
+        break;
+      case StmtKind::detail:
+        all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
+        all.by_level = true;
+        break;
+      case StmtKind::block:
+      case StmtKind::unite:
+      case StmtKind::cut:
+      case StmtKind::meet:
+      case StmtKind::sum:
+      case StmtKind::morph:
+      case StmtKind::displace:
+      case StmtKind::warp:
+      case StmtKind::transform:
+      case StmtKind::repeat:
+      case StmtKind::for_each:
+      case StmtKind::scatter:
+      case StmtKind::let:
+      case StmtKind::field:
+      case StmtKind::mat:
+      case StmtKind::tag:
+      case StmtKind::split:
+      case StmtKind::snap:
+      case StmtKind::comp:
+      case StmtKind::link:
+      case StmtKind::footprint:
+      case StmtKind::inner:
+      case StmtKind::wfc:
+      case StmtKind::border:
+        break;
     }
     return all;
   }

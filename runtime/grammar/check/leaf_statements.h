@@ -28,7 +28,4 @@ void checkRooms(CheckContext& check, Symbols& symbols, Types& types, const StmtN
 /// Checks the tiles of a wfc: their sizes and weights, and whether every side has a match.
 void checkTiles(CheckContext& check, Types& types, const StmtNode& s);
 
-/// Reports statements that a sum cannot have, and returns whether there are none.
-bool checkSumLeaves(CheckContext& check, StmtId id);
-
 }  // namespace sgm

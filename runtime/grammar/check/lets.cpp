@@ -23,7 +23,7 @@ std::vector<std::tuple<int, int, int, bool, bool>> keyOf(const std::vector<Type>
 }  // namespace
 
 /// Returns false, after an error, if uses of lets and fields are nested too deep.
-bool Types::fitsDeeper(ExprId id) {
+bool Types::canNestDeeper(ExprId id) {
   if (open_.size() < kDeepestCalls) return true;
   check_.sink.error(check_.node(id).span, codes::kTooDeep,
                     join({"lets and fields use each other more than ", std::to_string(kDeepestCalls), " deep"}),
@@ -31,7 +31,7 @@ bool Types::fitsDeeper(ExprId id) {
   return false;
 }
 
-Type Types::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args) {
+Type Types::useValue(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args) {
   const bool is_let = ref == Ref::let;
   const NameId name = is_let ? check_.program.lets[index].name : check_.program.fields[index].name;
   const bool sample = !is_let || std::ranges::any_of(args, [](const Type& t) { return t.sample; });
@@ -50,7 +50,7 @@ Type Types::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Typ
                       "write fewer of them, or call them with arguments of fewer kinds");
     return {ValueKind::unknown, kRatio, sample, false};
   }
-  if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, sample, false};
+  if (!canNestDeeper(id)) return {ValueKind::unknown, kRatio, sample, false};
   open_.emplace_back(ref, index);
   Scope outer = std::exchange(scope_, {});
   uint32_t draws = 0;
@@ -61,9 +61,9 @@ Type Types::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Typ
   scope_.field = !is_let;
   for (uint32_t i = 0; i < formals.count && i < args.size(); ++i)
     scope_.locals.push_back({check_.program.ast.formals[formals.first + i].name, i, args[i], kNoId, 0});
-  Type type = expression(body);
+  Type type = checkExpression(body);
   if (is_let) {
-    deriveOnly(body, "a let");
+    requireDerived(body, "a let");
     type.sample = false;
   } else {
     type.sample = true;
@@ -79,18 +79,18 @@ Type Types::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Typ
   return type;
 }
 
-Type Types::localFieldUse(ExprId id, const Local& local) {
+Type Types::useLocalField(ExprId id, const Local& local) {
   Field& field = check_.program.fields[local.field];
   const auto bound =
       bindArguments(check_, symbols_, scope_, id, {check_.text(field.name), viewOf(check_.program, field.formals)});
   if (!bound) return {ValueKind::unknown, kRatio, true, false};
   if (check_.node(id).bound.count == 0) check_.node(id).bound = check_.store(*bound);
-  std::vector<Type> args = expressions(*bound);
-  demandRanged(field.formals, *bound, args, check_.text(field.name));
+  std::vector<Type> args = checkExpressions(*bound);
+  requireFormalRanges(field.formals, *bound, args, check_.text(field.name));
   Key key{Ref::field, local.field, keyOf(args)};
   const auto known = known_local_.find(key);
   if (known != known_local_.end()) return known->second;
-  if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, true, false};
+  if (!canNestDeeper(id)) return {ValueKind::unknown, kRatio, true, false};
   open_.emplace_back(Ref::field, local.field);
   // The body sees the locals before the field, and the field's own parameters.
   std::vector<Local> outer = scope_.locals;
@@ -100,7 +100,7 @@ Type Types::localFieldUse(ExprId id, const Local& local) {
     scope_.locals.push_back({formal.name, formal.slot, args[i], kNoId, 0});
   }
   const bool in_field = std::exchange(scope_.field, true);
-  Type type = expression(field.body);
+  Type type = checkExpression(field.body);
   type.sample = true;
   scope_.field = in_field;
   scope_.locals = std::move(outer);
@@ -109,13 +109,13 @@ Type Types::localFieldUse(ExprId id, const Local& local) {
   return type;
 }
 
-void Types::unusedValues() {
+void Types::checkUnused() {
   std::set<std::pair<Ref, uint32_t>> used;
   for (const auto& [key, type] : known_) used.emplace(std::get<0>(key), std::get<1>(key));
   enter({});
   auto check = [&](Ref ref, uint32_t index, IdRange formals, ExprId body) {
     if (used.count({ref, index}) == 0 && !check_.sink.full())
-      letOrField(body, ref, index, typesOf(check_.program, formals));
+      useValue(body, ref, index, typesOf(check_.program, formals));
   };
   for (uint32_t i = 0; i < check_.program.lets.size(); ++i)
     check(Ref::let, i, check_.program.lets[i].formals, check_.program.lets[i].body);

@@ -61,12 +61,12 @@ uint32_t Types::askLayer(NameId name, const Span& span, std::string_view verb) {
   return layer;
 }
 
-Type Types::query(ExprId id) {
+Type Types::checkQuery(ExprId id) {
   const ExprNode n = check_.node(id);
   const Type answer{ValueKind::boolean, kRatio, false, false};
   if (n.children.count > 0) {
     const ExprId radius = check_.child(n, 0);
-    demand(radius, ValueKind::number, kLength, "the radius of a query");
+    require(radius, ValueKind::number, kLength, "the radius of a query");
     if (const auto metres = fold(radius); metres && *metres < 0)
       check_.sink.error(check_.node(radius).span, codes::kValueRange, "the radius of a query is 0m or more",
                         "such as `query clear 2m of`");
@@ -88,7 +88,7 @@ Type Types::query(ExprId id) {
   return answer;
 }
 
-Type Types::member(ExprId id) {
+Type Types::checkMember(ExprId id) {
   ExprNode& n = check_.node(id);
   const ExprId of = check_.child(n, 0);
   const std::string_view word = check_.text(n.name);
@@ -99,10 +99,10 @@ Type Types::member(ExprId id) {
     if (!scope_.hides(receiver) && found != nullptr && (found->import || found->asset)) {
       n.kind = ExprKind::name;
       symbols_.resolveCallee(id, scope_, false);
-      return n.ref == Ref::none ? kUnknownType : name(id);
+      return n.ref == Ref::none ? kUnknownType : checkName(id);
     }
   }
-  const Type type = expression(of);
+  const Type type = checkExpression(of);
   n.member = Member::none;
   Type out = kUnknownType;
   for (const MemberInfo& m : kMembers) {

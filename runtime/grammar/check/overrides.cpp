@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "grammar/check/idle_overrides.h"
 #include "grammar/check/override_paths.h"
 #include "grammar/check/statement_walk.h"
 #include "grammar/text/codes.h"

@@ -40,8 +40,4 @@ class Overrides {
   std::set<uint32_t> in_rooms_;
 };
 
-/// Warns of overrides of a use that the rule before it in the path never derives. Precondition: Rule::overrides is
-/// complete.
-void warnOfIdleOverrides(const Program& program, DiagnosticSink& sink);
-
 }  // namespace sgm

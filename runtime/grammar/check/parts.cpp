@@ -34,28 +34,28 @@ bool isFlat(const StmtNode& s, const PartNode& part) {
 
 }  // namespace
 
-void Statements::split(const StmtNode& s) {
-  types_.demandRange(s.amount, kLength, "the snap reach of a split", kSnapReachRange);
+void Statements::checkSplit(const StmtNode& s) {
+  types_.requireRange(s.amount, kLength, "the snap reach of a split", kSnapReachRange);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = check_.program.ast.parts[s.parts.first + i];
     const ExprId size = part.size;
-    const Type type = types_.expression(size);
+    const Type type = types_.checkExpression(size);
     part.relative = !part.flexible && type.kind == ValueKind::number && !type.any_dim && type.dim == kRatio;
-    types_.demandType(size, type, ValueKind::number, part.relative ? kRatio : kLength,
-                      part.flexible ? "a flexible size" : "the size of a part");
+    types_.requireType(size, type, ValueKind::number, part.relative ? kRatio : kLength,
+                       part.flexible ? "a flexible size" : "the size of a part");
     // Probably a length without its unit.
     if (part.relative && check_.node(size).kind == ExprKind::number && check_.node(size).value > 1)
       check_.sink.error(check_.node(size).span, codes::kValueRange, "a part cannot be more than 100% of the scope",
                         "write a length, such as 2m, or a share, such as 25%");
   }
-  parts(s);
+  checkParts(s);
 }
 
-void Statements::parts(const StmtNode& s) {
+void Statements::checkParts(const StmtNode& s) {
   for (uint32_t i = 0; i < s.children.count; ++i) {
     const size_t locals = types_.scope().locals.size();
     const StmtId child = check_.program.idAt(s.children, i);
-    statement(child, true);
+    checkStatement(child, true);
     types_.scope().closeTo(locals);
     if (i >= s.parts.count || !isFlat(s, check_.program.ast.parts[s.parts.first + i])) continue;
     if (const ExprId box = boxOfScope(check_.program, child); box != kNoId)

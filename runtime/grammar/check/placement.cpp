@@ -16,20 +16,20 @@ void checkArea(CheckContext& check, Types& types, ScatterNode& scatter, const Sp
       break;
     case ScatterArea::shell:
       good = bindWords(check, scatter.args, span, "shell", {"r", "up"}, 1, out);
-      if (good) types.demand(out[0], ValueKind::number, kLength, "the radius of a shell");
-      if (good) types.demand(out[1], ValueKind::number, kRatio, "the upper share of a shell");
+      if (good) types.require(out[0], ValueKind::number, kLength, "the radius of a shell");
+      if (good) types.require(out[1], ValueKind::number, kRatio, "the upper share of a shell");
       break;
     case ScatterArea::disc:
       good = bindWords(check, scatter.args, span, "disc", {"r"}, 1, out);
-      if (good) types.demand(out[0], ValueKind::number, kLength, "the radius of a disc");
+      if (good) types.require(out[0], ValueKind::number, kLength, "the radius of a disc");
       break;
     case ScatterArea::box:
       good = bindWords(check, scatter.args, span, "box", {"x", "y", "z"}, scatter.args.count == 1 ? 1 : 3, out);
       if (!good) break;
       if (out[1] == kNoId && out[2] == kNoId) {
-        types.demand(out[0], ValueKind::vector, kLength, "the size of a box");
+        types.require(out[0], ValueKind::vector, kLength, "the size of a box");
       } else {
-        for (ExprId edge : out) types.demand(edge, ValueKind::number, kLength, "an edge of a box");
+        for (ExprId edge : out) types.require(edge, ValueKind::number, kLength, "an edge of a box");
       }
       break;
   }
@@ -41,11 +41,11 @@ void checkArea(CheckContext& check, Types& types, ScatterNode& scatter, const Sp
 }  // namespace
 
 /// Coarse cells skip a detail, so a name declared in it would have no value after it.
-void Statements::detail(const StmtNode& s, bool shrunk) {
-  types_.demand(s.expr, ValueKind::number, kLength, "the size of a detail");
+void Statements::checkDetail(const StmtNode& s, bool shrunk) {
+  types_.require(s.expr, ValueKind::number, kLength, "the size of a detail");
   const size_t known = types_.scope().locals.size();
   const uint32_t before = check_.sink.errorCount();
-  statement(s.body, shrunk);
+  checkStatement(s.body, shrunk);
   if (types_.scope().locals.size() > known && check_.sink.errorCount() == before)
     check_.sink.error(s.span, codes::kWrongUse,
                       join({"`", check_.text(types_.scope().locals[known].name),
@@ -53,8 +53,8 @@ void Statements::detail(const StmtNode& s, bool shrunk) {
                       "declare it before the detail, or within a block of the detail, with what uses it");
 }
 
-void Statements::forEach(StmtId id, const StmtNode& s, bool shrunk) {
-  const Type source = types_.expression(s.expr);
+void Statements::checkLoop(StmtId id, const StmtNode& s, bool shrunk) {
+  const Type source = types_.checkExpression(s.expr);
   Type type;
   if (source.kind == ValueKind::range) {
     type = {ValueKind::number, kRatio, false, false};
@@ -67,35 +67,35 @@ void Statements::forEach(StmtId id, const StmtNode& s, bool shrunk) {
                       join({"`for` goes through a range, faces or segments, and this is a ", typeName(source)}),
                       "such as 0..4, cell.links(tree 3) or branch(12, step 6m, turn 25deg)");
   }
-  types_.deriveOnly(s.expr, "the source of `for`");
+  types_.requireDerived(s.expr, "the source of `for`");
   const uint32_t slot = types_.scope().next_slot++;
   check_.program.ast.stmts[id].slot = slot;
   const size_t locals = types_.scope().locals.size();
   types_.declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
-  statement(s.body, shrunk);
+  checkStatement(s.body, shrunk);
   types_.scope().closeTo(locals);
 }
 
-void Statements::scatter(const StmtNode& s, bool shrunk) {
+void Statements::checkScatter(const StmtNode& s, bool shrunk) {
   ScatterNode& points = check_.program.ast.scatters[s.extra];
   if (points.poisson)
-    types_.demand(points.count, ValueKind::number, kLength, "the least distance of points");
+    types_.require(points.count, ValueKind::number, kLength, "the least distance of points");
   else
-    types_.demand(points.count, ValueKind::number, kRatio, "a count");
+    types_.require(points.count, ValueKind::number, kRatio, "a count");
   checkArea(check_, types_, points, s.span);
   if (points.probe != 0) {
-    types_.demand(points.distance, ValueKind::number, kLength, "the length of a probe");
+    types_.require(points.distance, ValueKind::number, kLength, "the length of a probe");
     points.layer = types_.askLayer(points.layer_name, points.span, "probes");
   }
-  if (points.within != kNoId) types_.demand(points.within, ValueKind::number, kLength, "the limit of a gap");
+  if (points.within != kNoId) types_.require(points.within, ValueKind::number, kLength, "the limit of a gap");
   const size_t locals = types_.scope().locals.size();
   if (points.gap != kNoId) {
     const uint32_t slot = types_.scope().next_slot++;
     check_.program.ast.scatters[s.extra].slot = slot;
     types_.declareLocal(points.gap, s.span, {points.gap, slot, {ValueKind::number, kLength, false, false}, kNoId, 0});
   }
-  if (points.when != kNoId) types_.demand(points.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
-  statement(s.body, shrunk);
+  if (points.when != kNoId) types_.require(points.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
+  checkStatement(s.body, shrunk);
   types_.scope().closeTo(locals);
 }
 

@@ -10,7 +10,7 @@ namespace sgm {
 namespace {
 
 /// Reports an error if the plan's name is undeclared, and returns whether it is.
-bool planUnknown(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId id, StmtId body) {
+bool reportUnknownPlan(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId id, StmtId body) {
   const ExprNode& plan = check.node(id);
   if (scope.hides(plan.name) || symbols.find(scope.module, plan.name) != nullptr) return false;
   if (symbols.mayBeLost(scope.module, plan.name)) return true;
@@ -40,23 +40,23 @@ bool planUnknown(CheckContext& check, Symbols& symbols, const Scope& scope, Expr
 
 void checkFootprint(CheckContext& check, Types& types, StmtId id, const StmtNode& s) {
   FootprintNode& plan = check.program.ast.footprints[s.extra];
-  types.demandRange(plan.count, kRatio, "the number of pieces", kMergeRange);
+  types.requireRange(plan.count, kRatio, "the number of pieces", kMergeRange);
   ExprId out[2] = {kNoId, kNoId};
   switch (plan.outline) {
     case Outline::rect:
       if (!bindWords(check, plan.args, plan.span, "rect", {"x", "z"}, 2, out)) break;
-      for (ExprId edge : out) types.demand(edge, ValueKind::number, kLength, "an edge of a footprint");
+      for (ExprId edge : out) types.require(edge, ValueKind::number, kLength, "an edge of a footprint");
       break;
     case Outline::regular:
       if (!bindWords(check, plan.args, plan.span, "regular", {"n", "r"}, 2, out)) break;
-      types.demandRange(out[0], kRatio, "the number of corners", kCornerRange);
-      types.demand(out[1], ValueKind::number, kLength, "the radius of a footprint");
+      types.requireRange(out[0], kRatio, "the number of corners", kCornerRange);
+      types.require(out[1], ValueKind::number, kLength, "the radius of a footprint");
       break;
     case Outline::polygon: {
       std::vector<uint32_t> corners;
       for (uint32_t i = 0; i < plan.args.count; ++i) {
         const ArgNode& arg = check.program.ast.args[plan.args.first + i];
-        types.demand(arg.value, ValueKind::pair, kLength, "a corner of a footprint");
+        types.require(arg.value, ValueKind::pair, kLength, "a corner of a footprint");
         corners.push_back(arg.value);
         if (arg.name != kNoId)
           check.sink.error(arg.span, codes::kArgumentName, "the corners of a polygon have no names",
@@ -79,8 +79,8 @@ void checkFootprint(CheckContext& check, Types& types, StmtId id, const StmtNode
 }
 
 void checkPlan(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s, StmtId body) {
-  if (s.plan == kNoId || planUnknown(check, symbols, types.scope(), s.plan, body)) return;
-  const Type type = types.expression(s.plan);
+  if (s.plan == kNoId || reportUnknownPlan(check, symbols, types.scope(), s.plan, body)) return;
+  const Type type = types.checkExpression(s.plan);
   if (type.kind != ValueKind::plan && type.kind != ValueKind::unknown)
     check.sink.error(check.node(s.plan).span, codes::kTypeMismatch,
                      join({"`of` names a plan, and this is ", withArticle(typeName(type))}),
@@ -94,10 +94,10 @@ void checkRoof(CheckContext& check, Symbols& symbols, Types& types, const StmtNo
   const std::string_view word = flat ? "flat" : roof.form == RoofForm::gable ? "gable" : "hip";
   if (bindWords(check, roof.args, s.span, word, {flat ? "h" : "pitch", "overhang"}, 1, out)) {
     if (flat)
-      types.demand(out[0], ValueKind::number, kLength, "the height of a flat roof");
+      types.require(out[0], ValueKind::number, kLength, "the height of a flat roof");
     else
-      types.demandRange(out[0], kAngle, "the pitch of a roof", kPitchRange);
-    types.demandRange(out[1], kLength, "the overhang of a roof", kOverhangRange);
+      types.requireRange(out[0], kAngle, "the pitch of a roof", kPitchRange);
+    types.requireRange(out[1], kLength, "the overhang of a roof", kOverhangRange);
     roof.measure = out[0];
     roof.overhang = out[1];
   }

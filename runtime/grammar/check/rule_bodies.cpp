@@ -131,7 +131,7 @@ void Statements::checkAlternative(uint32_t rule, uint32_t alternative) {
   }
   types_.scope().next_slot = types_.scope().slot_count = head.formals.count;
   checkHead(head);
-  statement(head.body, false);
+  checkStatement(head.body, false);
   head.slot_count = types_.scope().slot_count;
   for (AskedLayer& asked : uses_.asked) asked.rule = rule;
   std::move(uses_.calls.begin(), uses_.calls.end(), std::back_inserter(rule_uses_.calls));
@@ -140,23 +140,23 @@ void Statements::checkAlternative(uint32_t rule, uint32_t alternative) {
 
 /// Checks the conditions of a head, and the calls that replace its body.
 void Statements::checkHead(const Alternative& head) {
-  if (head.when != kNoId) types_.demand(head.when, ValueKind::boolean, kRatio, "a guard");
+  if (head.when != kNoId) types_.require(head.when, ValueKind::boolean, kRatio, "a guard");
   if (head.weight != kNoId) {
-    types_.demand(head.weight, ValueKind::number, kRatio, "a weight");
+    types_.require(head.weight, ValueKind::number, kRatio, "a weight");
     if (const std::optional<double> weight = types_.fold(head.weight); weight && *weight < 0)
       check_.sink.error(check_.node(head.weight).span, codes::kValueRange,
                         join({"a weight is 0 or more, and this is ", numberText(*weight)}), kWeightHint);
   }
-  if (head.depth != kNoId) types_.demand(head.depth, ValueKind::number, kRatio, "a depth");
+  if (head.depth != kNoId) types_.require(head.depth, ValueKind::number, kRatio, "a depth");
   constexpr double kDeepest = 64;  // DeriveLimits::depth
   if (head.depth != kNoId && check_.node(head.depth).kind == ExprKind::number &&
       check_.node(head.depth).value > kDeepest)
     check_.sink.warning(check_.node(head.depth).span, codes::kValueRange, "rules may be nested at most 64 deep",
                         "a cell that goes deeper is not derived at all");
   if (head.depth_call != kNoId) callRule(head.depth_call, true, false);
-  if (head.minsize != kNoId) types_.demand(head.minsize, ValueKind::number, kLength, "a least size");
+  if (head.minsize != kNoId) types_.require(head.minsize, ValueKind::number, kLength, "a least size");
   if (head.minsize_call != kNoId) callRule(head.minsize_call, true, false);
-  if (head.lod != kNoId) types_.demand(head.lod, ValueKind::number, kLength, "a level of detail");
+  if (head.lod != kNoId) types_.require(head.lod, ValueKind::number, kLength, "a level of detail");
 }
 
 RuleUses Statements::checkOverride(uint32_t index) {
@@ -175,7 +175,7 @@ RuleUses Statements::checkOverride(uint32_t index) {
     }
     types_.scope().next_slot = types_.scope().slot_count = formals.count;
   }
-  statement(edit.body, false);
+  checkStatement(edit.body, false);
   edit.slot_count = types_.scope().slot_count;
   return std::exchange(uses_, {});
 }
@@ -187,13 +187,13 @@ void Statements::callRule(ExprId call, bool escape, bool shrunk) {
     return;
   }
   symbols_.resolveCallee(call, types_.scope(), true);
-  if (n.ref == Ref::primitive) return types_.primitiveCall(call);
+  if (n.ref == Ref::primitive) return types_.checkPrimitive(call);
   if (n.ref != Ref::rule) {
     if (n.ref != Ref::none)
       check_.sink.error(n.span, codes::kWrongUse,
                         join({"`", check_.text(n.name), "` gives a value and is not a shape"}),
                         std::string(shapeHint(n)));
-    types_.looseArguments(n);
+    types_.checkLooseArguments(n);
     return;
   }
   const uint32_t rule = n.id;
@@ -202,11 +202,11 @@ void Statements::callRule(ExprId call, bool escape, bool shrunk) {
       bindArguments(check_, symbols_, types_.scope(), call, {check_.text(n.name), viewOf(check_.program, formals)});
   if (!bound) return;
   if (n.bound.count == 0) n.bound = check_.store(*bound);
-  std::vector<Type> types = types_.expressions(*bound);
-  if (!areArguments(n, *bound, types)) return;
+  std::vector<Type> types = types_.checkExpressions(*bound);
+  if (!checkPassed(n, *bound, types)) return;
   uses_.calls.push_back({rule_, alternative_, rule, call, escape, shrunk, scales_});
   if (!rules_.isReached(rule)) {
-    types_.demandRanged(formals, *bound, types, check_.text(n.name));
+    types_.requireFormalRanges(formals, *bound, types, check_.text(n.name));
     return rules_.reach(rule, std::move(types));
   }
   for (size_t i = 0; i < types.size(); ++i) {
@@ -215,18 +215,19 @@ void Statements::callRule(ExprId call, bool escape, bool shrunk) {
     if (known.kind == ValueKind::unknown || (known.any_dim && !types[i].any_dim && known.kind == types[i].kind))
       rules_.refine(rule, i, types[i]);
     else
-      types_.demandType((*bound)[i], types[i], known.kind, known.dim,
-                        join({"`", check_.text(check_.program.ast.formals[formals.first + i].name), "` of `",
-                              check_.text(n.name), "`"}));
+      types_.requireType((*bound)[i], types[i], known.kind, known.dim,
+                         join({"`", check_.text(check_.program.ast.formals[formals.first + i].name), "` of `",
+                               check_.text(n.name), "`"}));
   }
 }
 
-/// Whether a rule takes arguments of these types. They are known when shapes are derived, or an error says otherwise.
-bool Statements::areArguments(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types) {
+/// Requires that a rule takes arguments of these types, and that they are known when shapes are derived. Returns false
+/// after an error of type.
+bool Statements::checkPassed(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types) {
   bool good = true;
   const std::string what = join({"an argument of `", check_.text(call.name), "`"});
   for (size_t i = 0; i < bound.size(); ++i) {
-    types_.deriveOnly(bound[i], what);
+    types_.requireDerived(bound[i], what);
     types[i].sample = false;
     if (isPassed(types[i].kind)) continue;
     good = false;

@@ -1,5 +1,6 @@
 #include "grammar/check/statements.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "grammar/check/leaf_statements.h"
@@ -10,176 +11,12 @@ namespace sgm {
 
 namespace {
 
-bool roundOrBox(Primitive p) {
+bool isRoundOrBox(Primitive p) {
   return p == Primitive::sphere || p == Primitive::blob || p == Primitive::ellipsoid || p == Primitive::box ||
          p == Primitive::superq;
 }
 
-}  // namespace
-
-void Statements::statement(StmtId id, bool shrunk) {
-  if (id == kNoId || check_.sink.full()) return;
-  StmtNode& s = check_.program.ast.stmts[id];
-  s.ordinal = ordinal_++;
-  const StmtNode copy = s;
-  switch (copy.kind) {
-    case StmtKind::block:
-      return block(id, copy, shrunk);
-    case StmtKind::call:
-      return callRule(copy.expr, false, shrunk);
-    case StmtKind::sum:
-      if (!checkSumLeaves(check_, copy.body)) return;
-      [[fallthrough]];
-    case StmtKind::unite:
-    case StmtKind::cut:
-    case StmtKind::meet:
-      types_.demand(copy.amount, ValueKind::number, kLength, "the width of a smooth join");
-      return statement(copy.body, shrunk);
-    case StmtKind::morph:
-      return morph(copy, shrunk);
-    case StmtKind::displace:
-      types_.demand(copy.expr, ValueKind::number, kLength, "a displacement", true);
-      types_.demand(copy.amount, ValueKind::number, kLength, "the bound of a displacement");
-      return statement(copy.body, shrunk);
-    case StmtKind::warp:
-      types_.demand(copy.expr, ValueKind::vector, kLength, "a warp", true);
-      types_.demand(copy.amount, ValueKind::number, kLength, "the bound of a warp");
-      return statement(copy.body, shrunk);
-    case StmtKind::transform:
-      return transform(copy, shrunk);
-    case StmtKind::repeat:
-      types_.demand(copy.expr, ValueKind::number, kRatio, "a count");
-      return transform(copy, shrunk);
-    case StmtKind::for_each:
-      return forEach(id, copy, shrunk);
-    case StmtKind::scatter:
-      return scatter(copy, shrunk);
-    case StmtKind::split:
-      return split(copy);
-    case StmtKind::snap:
-      types_.demandRange(copy.expr, kLength, "the distance of snap planes", kSnapRange);
-      types_.demand(copy.amount, ValueKind::number, kLength, "the place of the first snap plane");
-      return statement(copy.body, shrunk);
-    case StmtKind::comp:
-      return parts(copy);
-    case StmtKind::treemap:
-      checkRooms(check_, symbols_, types_, copy);
-      return parts(copy);
-    case StmtKind::wfc:
-      checkTiles(check_, types_, copy);
-      return parts(copy);
-    case StmtKind::let:
-      return localLet(id, copy);
-    case StmtKind::field:
-      return localField(copy);
-    case StmtKind::mat:
-      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.materials, copy.name, copy.span);
-      return;
-    case StmtKind::tag:
-      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.tags, copy.name, copy.span);
-      return;
-    case StmtKind::anchor:
-      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.names, copy.name, copy.span);
-      check_.program.ast.stmts[id].extra2 =
-          copy.name2 == kNoId ? 0 : check_.tableIndex(check_.program.names, copy.name2, copy.span);
-      return;
-    case StmtKind::detail:
-      return detail(copy, shrunk);
-    case StmtKind::footprint:
-      return checkFootprint(check_, types_, id, copy);
-    case StmtKind::extrude:
-      types_.demand(copy.expr, ValueKind::number, kLength, "the height of an extrusion");
-      checkPlan(check_, symbols_, types_, copy, body_);
-      return statement(copy.body, shrunk);
-    case StmtKind::roof:
-      return checkRoof(check_, symbols_, types_, copy, body_);
-    case StmtKind::fit:
-      return checkFit(check_, symbols_, types_, copy);
-    case StmtKind::inner:
-    case StmtKind::link:    // checked by its treemap
-    case StmtKind::border:  // by its wfc
-      return;
-  }
-}
-
-/// transform and repeat. The scopes of copies are not known to shrink.
-void Statements::transform(const StmtNode& s, bool shrunk) {
-  const size_t outside = scales_.size();
-  const bool copied = s.kind == StmtKind::repeat;
-  const TransformEffect effect = checkTransforms(check_, symbols_, types_, s.xforms);
-  for (const ExprId factor : effect.factors) scales_.push_back({factor, copied});
-  statement(s.body, shrunk || (effect.shrinks && !copied));
-  scales_.resize(outside);
-}
-
-void Statements::block(StmtId id, const StmtNode& s, bool shrunk) {
-  const size_t locals = types_.scope().locals.size();
-  for (uint32_t i = 0; i < s.children.count; ++i) statement(check_.program.idAt(s.children, i), shrunk);
-  types_.scope().closeTo(locals);
-  uint16_t material = 0, tag = 0;
-  for (uint32_t i = 0; i < s.children.count; ++i) {
-    const StmtNode& child = check_.program.stmt(check_.program.idAt(s.children, i));
-    const bool is_material = child.kind == StmtKind::mat;
-    if (!is_material && child.kind != StmtKind::tag) continue;
-    uint16_t& word = is_material ? material : tag;
-    if (word != 0)
-      check_.sink.error(child.span, codes::kDuplicate,
-                        is_material ? "this block has a second `mat`" : "this block has a second `tag`",
-                        "it holds for the whole block; open another block for the other");
-    word = static_cast<uint16_t>(child.extra);
-  }
-  check_.program.ast.stmts[id].material = material;
-  check_.program.ast.stmts[id].tag = tag;
-}
-
-void Statements::localLet(StmtId id, const StmtNode& s) {
-  Type type = types_.expression(s.expr);
-  types_.deriveOnly(s.expr, "a let");
-  type.sample = false;
-  const uint32_t slot = types_.scope().next_slot++;
-  check_.program.ast.stmts[id].slot = slot;
-  types_.declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
-}
-
-void Statements::localField(const StmtNode& s) {
-  Field& field = check_.program.fields[s.extra];
-  for (uint32_t i = 0; i < field.formals.count; ++i)
-    check_.program.ast.formals[field.formals.first + i].slot = types_.scope().next_slot++;
-  const Local local{field.name, 0, {}, s.extra, types_.scope().locals.size()};
-  types_.declareLocal(field.name, field.span, local);
-  types_.scope().slot_count = std::max(types_.scope().slot_count, types_.scope().next_slot);
-  field.slot_count = types_.scope().slot_count;
-  if (field.formals.count > 0) return;
-  // Without parameters it can be checked here, used or not.
-  const size_t locals = types_.scope().locals.size();
-  types_.scope().locals.resize(local.depth);
-  const bool in_field = std::exchange(types_.scope().field, true);
-  Type type = types_.expression(field.body);
-  types_.scope().field = in_field;
-  if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::boolean &&
-      type.kind != ValueKind::unknown)
-    check_.sink.error(check_.node(field.body).span, codes::kTypeMismatch,
-                      join({"a field gives a number or a vector, not a ", typeName(type)}),
-                      "name it with `let` instead");
-  if (locals > local.depth) types_.scope().locals.push_back(local);
-}
-
-void Statements::morph(const StmtNode& s, bool shrunk) {
-  types_.demand(s.expr, ValueKind::number, kRatio, "the t of a morph", true);
-  for (uint32_t i = 0; i < 2; ++i) {
-    const StmtId operand = check_.program.idAt(s.children, i);
-    statement(operand, shrunk);
-    if (!s.power) continue;
-    const StmtNode& shape = check_.program.stmt(operand);
-    const bool good = shape.kind == StmtKind::call && check_.node(shape.expr).ref == Ref::primitive &&
-                      roundOrBox(static_cast<Primitive>(check_.node(shape.expr).id));
-    const bool understood = shape.kind != StmtKind::call || check_.node(shape.expr).ref != Ref::none;
-    if (!good && understood)
-      check_.sink.error(shape.span, codes::kWrongUse, "`power` morphs spheres, ellipsoids, superquadrics and boxes",
-                        "leave `power` out for a linear morph");
-  }
-}
-
+/// Reports the first statement that a sum cannot have, and returns whether there is none.
 bool checkSumLeaves(CheckContext& check, StmtId id) {
   const StmtNode& s = check.program.stmt(id);
   switch (s.kind) {
@@ -224,6 +61,171 @@ bool checkSumLeaves(CheckContext& check, StmtId id) {
       return true;
   }
   return true;
+}
+
+}  // namespace
+
+void Statements::checkStatement(StmtId id, bool shrunk) {
+  if (id == kNoId || check_.sink.full()) return;
+  StmtNode& s = check_.program.ast.stmts[id];
+  s.ordinal = ordinal_++;
+  const StmtNode copy = s;
+  switch (copy.kind) {
+    case StmtKind::block:
+      return checkBlock(id, copy, shrunk);
+    case StmtKind::call:
+      return callRule(copy.expr, false, shrunk);
+    case StmtKind::sum:
+      if (!checkSumLeaves(check_, copy.body)) return;
+      [[fallthrough]];
+    case StmtKind::unite:
+    case StmtKind::cut:
+    case StmtKind::meet:
+      types_.require(copy.amount, ValueKind::number, kLength, "the width of a smooth join");
+      return checkStatement(copy.body, shrunk);
+    case StmtKind::morph:
+      return checkMorph(copy, shrunk);
+    case StmtKind::displace:
+      types_.require(copy.expr, ValueKind::number, kLength, "a displacement", true);
+      types_.require(copy.amount, ValueKind::number, kLength, "the bound of a displacement");
+      return checkStatement(copy.body, shrunk);
+    case StmtKind::warp:
+      types_.require(copy.expr, ValueKind::vector, kLength, "a warp", true);
+      types_.require(copy.amount, ValueKind::number, kLength, "the bound of a warp");
+      return checkStatement(copy.body, shrunk);
+    case StmtKind::transform:
+      return checkTransform(copy, shrunk);
+    case StmtKind::repeat:
+      types_.require(copy.expr, ValueKind::number, kRatio, "a count");
+      return checkTransform(copy, shrunk);
+    case StmtKind::for_each:
+      return checkLoop(id, copy, shrunk);
+    case StmtKind::scatter:
+      return checkScatter(copy, shrunk);
+    case StmtKind::split:
+      return checkSplit(copy);
+    case StmtKind::snap:
+      types_.requireRange(copy.expr, kLength, "the distance of snap planes", kSnapRange);
+      types_.require(copy.amount, ValueKind::number, kLength, "the place of the first snap plane");
+      return checkStatement(copy.body, shrunk);
+    case StmtKind::comp:
+      return checkParts(copy);
+    case StmtKind::treemap:
+      checkRooms(check_, symbols_, types_, copy);
+      return checkParts(copy);
+    case StmtKind::wfc:
+      checkTiles(check_, types_, copy);
+      return checkParts(copy);
+    case StmtKind::let:
+      return checkLet(id, copy);
+    case StmtKind::field:
+      return checkField(copy);
+    case StmtKind::mat:
+      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.materials, copy.name, copy.span);
+      return;
+    case StmtKind::tag:
+      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.tags, copy.name, copy.span);
+      return;
+    case StmtKind::anchor:
+      check_.program.ast.stmts[id].extra = check_.tableIndex(check_.program.names, copy.name, copy.span);
+      check_.program.ast.stmts[id].extra2 =
+          copy.name2 == kNoId ? 0 : check_.tableIndex(check_.program.names, copy.name2, copy.span);
+      return;
+    case StmtKind::detail:
+      return checkDetail(copy, shrunk);
+    case StmtKind::footprint:
+      return checkFootprint(check_, types_, id, copy);
+    case StmtKind::extrude:
+      types_.require(copy.expr, ValueKind::number, kLength, "the height of an extrusion");
+      checkPlan(check_, symbols_, types_, copy, body_);
+      return checkStatement(copy.body, shrunk);
+    case StmtKind::roof:
+      return checkRoof(check_, symbols_, types_, copy, body_);
+    case StmtKind::fit:
+      return checkFit(check_, symbols_, types_, copy);
+    case StmtKind::inner:
+    case StmtKind::link:    // checked by its treemap
+    case StmtKind::border:  // by its wfc
+      return;
+  }
+}
+
+/// transform and repeat. The scopes of copies are not known to shrink.
+void Statements::checkTransform(const StmtNode& s, bool shrunk) {
+  const size_t outside = scales_.size();
+  const bool copied = s.kind == StmtKind::repeat;
+  const TransformEffect effect = checkTransforms(check_, symbols_, types_, s.xforms);
+  for (const ExprId factor : effect.factors) scales_.push_back({factor, copied});
+  checkStatement(s.body, shrunk || (effect.shrinks && !copied));
+  scales_.resize(outside);
+}
+
+void Statements::checkBlock(StmtId id, const StmtNode& s, bool shrunk) {
+  const size_t locals = types_.scope().locals.size();
+  for (uint32_t i = 0; i < s.children.count; ++i) checkStatement(check_.program.idAt(s.children, i), shrunk);
+  types_.scope().closeTo(locals);
+  uint16_t material = 0, tag = 0;
+  for (uint32_t i = 0; i < s.children.count; ++i) {
+    const StmtNode& child = check_.program.stmt(check_.program.idAt(s.children, i));
+    const bool is_material = child.kind == StmtKind::mat;
+    if (!is_material && child.kind != StmtKind::tag) continue;
+    uint16_t& word = is_material ? material : tag;
+    if (word != 0)
+      check_.sink.error(child.span, codes::kDuplicate,
+                        is_material ? "this block has a second `mat`" : "this block has a second `tag`",
+                        "it holds for the whole block; open another block for the other");
+    word = static_cast<uint16_t>(child.extra);
+  }
+  check_.program.ast.stmts[id].material = material;
+  check_.program.ast.stmts[id].tag = tag;
+}
+
+void Statements::checkLet(StmtId id, const StmtNode& s) {
+  Type type = types_.checkExpression(s.expr);
+  types_.requireDerived(s.expr, "a let");
+  type.sample = false;
+  const uint32_t slot = types_.scope().next_slot++;
+  check_.program.ast.stmts[id].slot = slot;
+  types_.declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
+}
+
+void Statements::checkField(const StmtNode& s) {
+  Field& field = check_.program.fields[s.extra];
+  for (uint32_t i = 0; i < field.formals.count; ++i)
+    check_.program.ast.formals[field.formals.first + i].slot = types_.scope().next_slot++;
+  const Local local{field.name, 0, {}, s.extra, types_.scope().locals.size()};
+  types_.declareLocal(field.name, field.span, local);
+  types_.scope().slot_count = std::max(types_.scope().slot_count, types_.scope().next_slot);
+  field.slot_count = types_.scope().slot_count;
+  if (field.formals.count > 0) return;
+  // Without parameters it can be checked here, used or not.
+  const size_t locals = types_.scope().locals.size();
+  types_.scope().locals.resize(local.depth);
+  const bool in_field = std::exchange(types_.scope().field, true);
+  Type type = types_.checkExpression(field.body);
+  types_.scope().field = in_field;
+  if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::boolean &&
+      type.kind != ValueKind::unknown)
+    check_.sink.error(check_.node(field.body).span, codes::kTypeMismatch,
+                      join({"a field gives a number or a vector, not a ", typeName(type)}),
+                      "name it with `let` instead");
+  if (locals > local.depth) types_.scope().locals.push_back(local);
+}
+
+void Statements::checkMorph(const StmtNode& s, bool shrunk) {
+  types_.require(s.expr, ValueKind::number, kRatio, "the t of a morph", true);
+  for (uint32_t i = 0; i < 2; ++i) {
+    const StmtId operand = check_.program.idAt(s.children, i);
+    checkStatement(operand, shrunk);
+    if (!s.power) continue;
+    const StmtNode& shape = check_.program.stmt(operand);
+    const bool good = shape.kind == StmtKind::call && check_.node(shape.expr).ref == Ref::primitive &&
+                      isRoundOrBox(static_cast<Primitive>(check_.node(shape.expr).id));
+    const bool understood = shape.kind != StmtKind::call || check_.node(shape.expr).ref != Ref::none;
+    if (!good && understood)
+      check_.sink.error(shape.span, codes::kWrongUse, "`power` morphs spheres, ellipsoids, superquadrics and boxes",
+                        "leave `power` out for a linear morph");
+  }
 }
 
 }  // namespace sgm

@@ -20,6 +20,8 @@ class Statements {
   /// uses: receives the calls of rules, and the layers that they ask.
   Statements(CheckContext& check, Symbols& symbols, Types& types, RuleTypes& rules, RuleUses& uses)
       : check_(check), symbols_(symbols), types_(types), rules_(rules), rule_uses_(uses) {}
+  Statements(const Statements&) = delete;  // the scope points into it
+  Statements& operator=(const Statements&) = delete;
 
   /// Checks the call with which a layer starts.
   void start(ExprId call);
@@ -35,20 +37,20 @@ class Statements {
   void checkHead(const Alternative& head);
   void enterBody(StmtId body, uint32_t module);
   void callRule(ExprId call, bool escape, bool shrunk);
-  bool areArguments(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types);
+  bool checkPassed(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types);
 
   /// shrunk: the statement is inside of a scope that a split, a part or `size` makes smaller.
-  void statement(StmtId id, bool shrunk);
-  void block(StmtId id, const StmtNode& s, bool shrunk);
-  void localLet(StmtId id, const StmtNode& s);
-  void localField(const StmtNode& s);
-  void transform(const StmtNode& s, bool shrunk);
-  void morph(const StmtNode& s, bool shrunk);
-  void detail(const StmtNode& s, bool shrunk);
-  void forEach(StmtId id, const StmtNode& s, bool shrunk);
-  void scatter(const StmtNode& s, bool shrunk);
-  void split(const StmtNode& s);
-  void parts(const StmtNode& s);
+  void checkStatement(StmtId id, bool shrunk);
+  void checkBlock(StmtId id, const StmtNode& s, bool shrunk);
+  void checkLet(StmtId id, const StmtNode& s);
+  void checkField(const StmtNode& s);
+  void checkTransform(const StmtNode& s, bool shrunk);
+  void checkMorph(const StmtNode& s, bool shrunk);
+  void checkDetail(const StmtNode& s, bool shrunk);
+  void checkLoop(StmtId id, const StmtNode& s, bool shrunk);
+  void checkScatter(const StmtNode& s, bool shrunk);
+  void checkSplit(const StmtNode& s);
+  void checkParts(const StmtNode& s);
 
   CheckContext& check_;
   Symbols& symbols_;
@@ -59,9 +61,9 @@ class Statements {
   uint32_t rule_ = kNoId;  ///< kNoId: the block of an override, or a start
   uint32_t alternative_ = 0;
   StmtId body_ = kNoId;
-  uint32_t ordinal_ = 0, draws_ = 0;
-  std::vector<ScaleAround> scales_;
-  RuleUses uses_;  ///< of this body
+  uint32_t ordinal_ = 0, draws_ = 0;  ///< counted through all heads of a rule
+  std::vector<ScaleAround> scales_;   ///< around the current statement, from the outside in
+  RuleUses uses_;                     ///< of this body
 };
 
 }  // namespace sgm

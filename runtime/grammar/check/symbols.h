@@ -55,10 +55,10 @@ class Symbols {
 
  private:
   void declare(const ModuleSyntax& module, NameId name, const Symbol& symbol);
-  bool notImported(const ExprNode& receiver, const Scope& scope, bool shape);
+  bool reportMissingImport(const ExprNode& receiver, const Scope& scope, bool shape);
   void reportAbsent(const ExprNode& call, NameId receiver, uint32_t module);
-  void unknownName(const Span& span, NameId name, const Scope& scope, bool call, bool shape);
-  void assetMisused(const Span& span, NameId name);
+  void reportUnknownName(const Span& span, NameId name, const Scope& scope, bool call, bool shape);
+  void reportMisusedAsset(const Span& span, NameId name);
 
   CheckContext& check_;
   std::vector<Table> tables_;  ///< by module

@@ -24,7 +24,7 @@ uint8_t axisOf(const CheckContext& check, const Scope& scope, XformKind kind, Ex
 }
 
 /// Reports an error if the axis name is undeclared, and returns whether it is.
-bool unknownAxis(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId axis) {
+bool reportUnknownAxis(CheckContext& check, Symbols& symbols, const Scope& scope, ExprId axis) {
   const NameId name = check.node(axis).name;
   if (isValueWord(check.text(name)) || symbols.find(scope.module, name) != nullptr || scope.hides(name) ||
       symbols.mayBeLost(scope.module, name))
@@ -50,10 +50,10 @@ TransformEffect checkTransforms(CheckContext& check, Symbols& symbols, Types& ty
         if (!bindWords(check, x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
         const bool alone = x.args.count == 1 && check.program.ast.args[x.args.first].name == kNoId;
         if (alone) {
-          types.demand(out[0], ValueKind::vector, kLength, at ? "the vector of `at`" : "the vector of `size`");
+          types.require(out[0], ValueKind::vector, kLength, at ? "the vector of `at`" : "the vector of `size`");
         } else {
           for (ExprId part : out)
-            types.demand(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
+            types.require(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
         }
         break;
       }
@@ -61,14 +61,15 @@ TransformEffect checkTransforms(CheckContext& check, Symbols& symbols, Types& ty
         if (!bindWords(check, x.args, x.span, "rot", {"axis", "angle"}, 2, out)) break;
         x.axis = axisOf(check, types.scope(), x.kind, out[0]);
         if (x.axis == 3) {
-          if (check.node(out[0]).kind == ExprKind::name && unknownAxis(check, symbols, types.scope(), out[0])) break;
-          const Type axis = types.expression(out[0]);
+          if (check.node(out[0]).kind == ExprKind::name && reportUnknownAxis(check, symbols, types.scope(), out[0]))
+            break;
+          const Type axis = types.checkExpression(out[0]);
           if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
             check.sink.error(check.node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector",
                              "such as rot(y, 30deg)");
-          types.deriveOnly(out[0], "an axis");
+          types.requireDerived(out[0], "an axis");
         }
-        types.demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
+        types.require(out[1], ValueKind::number, kAngle, "the angle of `rot`");
         break;
       case XformKind::scale:
         if (x.args.count > 1) {
@@ -77,7 +78,7 @@ TransformEffect checkTransforms(CheckContext& check, Symbols& symbols, Types& ty
           break;
         }
         if (bindWords(check, x.args, x.span, "scale", {"factor"}, 1, out))
-          types.demand(out[0], ValueKind::number, kRatio, "the factor of `scale`");
+          types.require(out[0], ValueKind::number, kRatio, "the factor of `scale`");
         if (out[0] != kNoId) effect.factors.push_back(out[0]);
         break;
       case XformKind::mirror:

@@ -31,8 +31,8 @@ bool checkDoor(CheckContext& check, Symbols& symbols, Types& types, const StmtNo
   if (!two) check.sink.error(s.span, codes::kWrongUse, "a door leads from one room to another", "name two rooms");
   ExprId out[2] = {kNoId, kNoId};
   if (!bindWords(check, link.args, s.span, "door", {"width", "height"}, 0, out)) return two;
-  types.demandRange(out[0], kLength, "the width of a door", kDoorRange);
-  types.demandRange(out[1], kLength, "the height of a door", kDoorHeightRange);
+  types.requireRange(out[0], kLength, "the width of a door", kDoorRange);
+  types.requireRange(out[1], kLength, "the height of a door", kDoorHeightRange);
   link.width = out[0];
   link.height = out[1];
   return two;
@@ -44,10 +44,10 @@ void checkRooms(CheckContext& check, Symbols& symbols, Types& types, const StmtN
   ExprId out[4] = {kNoId, kNoId, kNoId, kNoId};
   TreemapNode& treemap = check.program.ast.treemaps[s.extra];
   if (bindWords(check, treemap.args, s.span, "treemap", {"wall", "door", "height", "corridor"}, 0, out)) {
-    types.demandRange(out[0], kLength, "the thickness of walls", kWallRange);
-    types.demandRange(out[1], kLength, "the width of doors", kDoorRange);
-    types.demandRange(out[2], kLength, "the height of doors", kDoorHeightRange);
-    types.demandRange(out[3], kLength, "the width of a corridor", kCorridorRange);
+    types.requireRange(out[0], kLength, "the thickness of walls", kWallRange);
+    types.requireRange(out[1], kLength, "the width of doors", kDoorRange);
+    types.requireRange(out[2], kLength, "the height of doors", kDoorHeightRange);
+    types.requireRange(out[3], kLength, "the width of a corridor", kCorridorRange);
     treemap.wall = out[0];
     treemap.door = out[1];
     treemap.height = out[2];
@@ -58,7 +58,7 @@ void checkRooms(CheckContext& check, Symbols& symbols, Types& types, const StmtN
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = check.program.ast.parts[s.parts.first + i];
     if (part.floor == FloorPart::room) {
-      types.demandRange(part.size, kRatio, "the area of a room", kRoomAreaRange);
+      types.requireRange(part.size, kRatio, "the area of a room", kRoomAreaRange);
       part.tag = check.tableIndex(check.program.tags, part.label, part.span);
       if (std::find(rooms.begin(), rooms.end(), part.label) != rooms.end())
         check.sink.error(part.span, codes::kDuplicate,

@@ -1,6 +1,7 @@
 // Lattices of tiles: labels, and whether every side has a match.
 
 #include <algorithm>
+#include <array>
 
 #include "grammar/check/leaf_statements.h"
 #include "grammar/check/type_rules.h"
@@ -23,9 +24,9 @@ bool saysSide(const SocketNode& socket, size_t side) {
 }
 
 void checkTileSize(CheckContext& check, Types& types, ExprId size) {
-  const Type type = types.expression(size);
+  const Type type = types.checkExpression(size);
   const bool vector = type.kind == ValueKind::vector;
-  types.demandType(size, type, vector ? ValueKind::vector : ValueKind::number, kLength, "the size of a tile");
+  types.requireType(size, type, vector ? ValueKind::vector : ValueKind::number, kLength, "the size of a tile");
   if (!agrees(type, ValueKind::number, kLength) && !agrees(type, ValueKind::vector, kLength)) return;
   const IdRange parts = check.node(size).kind == ExprKind::vector ? check.node(size).children : IdRange{};
   for (uint32_t i = 0; i < std::max(1u, parts.count); ++i) {
@@ -168,7 +169,7 @@ void checkTiles(CheckContext& check, Types& types, const StmtNode& s) {
                          "put its sides into the first one, with a `,` between them");
       continue;
     }
-    types.demandRange(part.size, kRatio, "the weight of a tile", kTileWeightRange);
+    types.requireRange(part.size, kRatio, "the weight of a tile", kTileWeightRange);
     if (std::find(tiles.begin(), tiles.end(), part.label) != tiles.end())
       check.sink.error(part.span, codes::kDuplicate,
                        join({"this wfc has a second tile `", check.text(part.label), "`"}),

@@ -6,14 +6,14 @@
 
 namespace sgm {
 
-Type Types::demand(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample) {
+Type Types::require(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample) {
   if (id == kNoId) return kUnknownType;
-  const Type type = expression(id);
-  demandType(id, type, kind, dim, what, sample);
+  const Type type = checkExpression(id);
+  requireType(id, type, kind, dim, what, sample);
   return type;
 }
 
-void Types::demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, std::string_view what, bool sample) {
+void Types::requireType(ExprId id, const Type& type, ValueKind kind, Dim dim, std::string_view what, bool sample) {
   if (!agrees(type, kind, dim)) {
     const Type wanted{kind, dim, false, false};
     Type found = type;
@@ -24,10 +24,10 @@ void Types::demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, std
         orElse(kind == ValueKind::number ? unitHint(check_.program, id, type, dim) : "", exampleOf(wanted)));
     return;
   }
-  if (!sample) deriveOnly(id, what);
+  if (!sample) requireDerived(id, what);
 }
 
-void Types::deriveOnly(ExprId id, std::string_view what) {
+void Types::requireDerived(ExprId id, std::string_view what) {
   if (id == kNoId || !check_.node(id).type.sample) return;
   const ExprNode& n = check_.node(sampledPart(check_.program, id));
   std::string_view kind = "known at sample time only";
@@ -38,9 +38,9 @@ void Types::deriveOnly(ExprId id, std::string_view what) {
                     "fields serve displace, warp and the t of morph");
 }
 
-void Types::demandRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range) {
+void Types::requireRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range) {
   if (id == kNoId) return;
-  const Type type = demand(id, ValueKind::number, dim, what);
+  const Type type = require(id, ValueKind::number, dim, what);
   if (!agrees(type, ValueKind::number, dim)) return;
   judgeRange(id, range);
 }
@@ -51,14 +51,14 @@ void Types::judgeRange(ExprId id, const ValueRange& range) {
     check_.sink.error(check_.node(id).span, codes::kValueRange, std::string(range.rule), std::string(range.example));
 }
 
-void Types::demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types,
-                         std::string_view callee) {
+void Types::requireFormalRanges(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types,
+                                std::string_view callee) {
   for (uint32_t i = 0; i < formals.count && i < bound.size(); ++i) {
     const FormalNode formal = check_.program.ast.formals[formals.first + i];
     if (!formal.ranged) continue;
     if (bound[i] != formal.fallback)
-      demandType(bound[i], types[i], ValueKind::number, formal.dim,
-                 join({"`", check_.text(formal.name), "` of `", callee, "`"}), true);
+      requireType(bound[i], types[i], ValueKind::number, formal.dim,
+                  join({"`", check_.text(formal.name), "` of `", callee, "`"}), true);
     types[i] = {ValueKind::number, formal.dim, types[i].sample, false};
   }
 }
