@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "grammar/check/arguments.h"
 #include "grammar/check/declared_constants.h"
@@ -58,18 +59,23 @@ void checkHeads(CheckContext& check) {
   }
 }
 
-/// Checks the rules that nothing derives.
+/// Checks the rules that no start leads to. A rule that only such rules call is one of them.
 void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
   // The calls of a statement with an error are unknown.
-  const bool calls_known = check.sink.errorCount() == 0;
-  for (uint32_t r = 0; r < check.program.rules.size() && !check.sink.full(); ++r) {
-    if (rules.isReached(r)) continue;
+  const bool warns = check.sink.errorCount() == 0 && symbols.areLayersKnown() && !check.program.layers.empty();
+  std::vector<uint32_t> unreached;
+  for (uint32_t r = 0; r < check.program.rules.size(); ++r)
+    if (!rules.isReached(r)) unreached.push_back(r);
+  for (const uint32_t r : unreached) {
+    if (check.sink.full()) return;
     const Rule& rule = check.program.rules[r];
-    if (rule.module == 0 && calls_known && symbols.areLayersKnown() && !check.program.layers.empty())
+    if (rule.module == 0 && warns)
       check.sink.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", check.text(rule.name), "`"}),
                          "call it in a rule, or remove it");
+    if (rules.isReached(r)) continue;  // an earlier one of these calls it
     rules.assume(r, typesOf(check.program, rule.alternatives[0].formals));
     statements.checkRule(r);
+    statements.checkWaiting();
   }
 }
 
