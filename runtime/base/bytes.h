@@ -25,7 +25,8 @@ class ByteWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Does not own the bytes. Reading past the end returns 0, and failed() is true from then on.
+/// Reads numbers in order from bytes, which it does not own. Reading past the end returns 0, and failed() is true from
+/// then on.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// XXH64 with seed 0, the same on every machine. It detects damage, but not malicious changes.
+/// XXH64 with seed 0; every machine computes the same value. It detects accidental damage, but not malicious changes.
 uint64_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace sgm

@@ -22,7 +22,7 @@ Error writeError(const fs::path& target, const std::string& reason) {
 
 Error writeError(const fs::path& target, int code) { return writeError(target, systemMessage(code)); }
 
-/// The path with symbolic links at its end resolved, even if the final target does not exist yet.
+/// The path with symbolic links at its end resolved, even if the file to which the last link points does not exist yet.
 Result<std::string> followed(const fs::path& target) {
   fs::path place = target;
   for (int links = 0; links < kMostLinks; ++links) {
@@ -40,7 +40,7 @@ std::string folderOf(const std::string& place) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// The name of an unfinished file, within the 255 bytes that file systems allow.
+/// The path of unfinished file `number` beside the target. The name has at most the 255 bytes that file systems allow.
 std::string nameBeside(const std::string& place, int number) {
   const fs::path path(place);
   return (path.parent_path() / path.filename().string().substr(0, 200)).string() + ".sgm-part" + std::to_string(number);
@@ -51,14 +51,13 @@ bool isAt(int file, const std::string& name) {
   return platform::statusOf(file, ours) == 0 && platform::statusAt(name, there, false) == 0 && ours.isSameFile(there);
 }
 
-/// Removes the file if no process holds its lock. Only the holder of the lock may remove an unfinished file: its writer
-/// or, after the writer has ended, the first process that gets the lock.
+/// Removes the file if no process holds its lock. Only the holder of the lock may remove an unfinished file: this is
+/// the process that writes it or, after that process has ended, the first process that gets the lock.
 void removeIfLeft(const std::string& name) {
   const platform::File file(platform::openFile(name, platform::kWrite | platform::kNoFollow));
   if (file && platform::lockFile(file.number()) == 0 && isAt(file.number(), name)) platform::removeFile(name);
 }
 
-/// Removes the unfinished files that killed processes left beside the target.
 void removeLeft(const std::string& place) {
   for (int number = 0; number < kMostNames; ++number) {
     const std::string name = nameBeside(place, number);
@@ -95,7 +94,7 @@ Result<FileWriter> FileWriter::create(const fs::path& target, UnfinishedFiles* u
   if (!replaces && errno != ENOENT) return writeError(target, errno);
   if (replaces && there.kind == platform::FileStatus::Kind::folder) return writeError(target, "it is a folder");
   if (replaces && !there.isRegular()) return writeError(target, "it is not a regular file");
-  // A rename ignores write protection, so it is checked here.
+  // The rename at the end would succeed on a write-protected target, so the protection is checked here.
   if (replaces && !platform::isWritable(*place)) return writeError(target, errno);
 
   removeLeft(*place);
@@ -142,7 +141,8 @@ int FileWriter::openNamed() {
     if (file_ < 0 && errno == EEXIST) continue;
     if (file_ < 0) break;
     announce();
-    // Before the lock, another process may have taken the file for a left one and removed it.
+    // Until this process holds the lock, another process may mistake the new file for one of a killed process and
+    // remove it.
     if (platform::lockFile(file_) == 0 ? isAt(file_, temporary_) : errno != EWOULDBLOCK) return 0;
     forgetName();
     close();
@@ -152,7 +152,7 @@ int FileWriter::openNamed() {
   return errno;
 }
 
-/// Gives the nameless file a name beside the target. Returns 0 or an errno.
+/// Gives the nameless file a name beside the target. Returns 0, or the errno of the failure.
 int FileWriter::nameNameless() {
   for (int number = 0; number < kMostNames; ++number) {
     std::string name = nameBeside(place_, number);
@@ -213,7 +213,7 @@ Error FileWriter::errorFrom(int code) const { return writeError(target_, code); 
 Result<void> FileWriter::finish() {
   if (first_error_ == 0 && file_ >= 0) {
     flush();
-    // Some file systems report only here that they are full.
+    // Some file systems report a full disk only when the file is synchronised.
     if (first_error_ == 0 && platform::syncFile(file_) != 0 && errno != EINVAL) first_error_ = errno;
     if (first_error_ == 0 && temporary_.empty()) first_error_ = nameNameless();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Writes output files that appear complete or not at all.
+// Writes output files that appear completely or not at all.
 
 #include <array>
 #include <atomic>
@@ -12,10 +12,10 @@
 
 namespace sgm {
 
-/// The names of unfinished files, so that a signal handler can remove them. The handler may run between any two
+/// The names of unfinished files, so that a signal handler can remove the files. The handler may run between any two
 /// instructions of the writers: names are therefore never freed, and a name is valid only once it is fully copied.
-/// There are 8 slots; the file of a further writer is not registered, but written all the same. Must outlive the
-/// writers that use it. Thread-safe.
+/// There are 8 slots; if all are in use, a further file is written, but not registered. Must outlive the writers that
+/// use it. Thread-safe.
 class UnfinishedFiles {
  public:
   /// Removes all registered files. Neither locks nor allocates.
@@ -66,13 +66,13 @@ class FileWriter {
     write(&value, sizeof value);
   }
 
-  /// Flushes everything to the disk, into a file of its own name beside the target. Error: Code::io, for instance if
-  /// the disk is full.
+  /// Flushes everything to the disk, into a file beside the target with a name of its own. Error: Code::io, for
+  /// instance if the disk is full.
   Result<void> finish();
   /// Calls finish, then renames the file to the target.
   Result<void> commit();
-  /// The same as commit, but keeps the replaced file until the destructor, so that undo can restore it if the file
-  /// system can exchange two names. For files that belong together.
+  /// Does the same as commit, but keeps the replaced file until the destructor runs, so that undo can restore it if the
+  /// file system can exchange two names. Used if several files must be replaced together or not at all.
   Result<void> commitReversibly();
   void undo();
 
@@ -95,10 +95,10 @@ class FileWriter {
 
   std::filesystem::path target_;  // as given by the caller
   std::string place_;             // the target with symbolic links resolved
-  std::string temporary_;         // the path beside it; empty while the file has no name
+  std::string temporary_;         // the path of the unfinished file beside the target; empty while it has no name
   int file_ = -1;
   UnfinishedFiles* unfinished_;
-  int slot_ = -1;  // in unfinished_
+  int slot_ = -1;  // index of this file's slot in unfinished_; -1 if the file is not registered
   std::vector<char> buffer_;
   uint64_t bytes_ = 0;
   int first_error_ = 0;  // errno of the first failure

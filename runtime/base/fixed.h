@@ -1,5 +1,5 @@
 #pragma once
-// World positions: int32 in units of 1/1024 m on each axis, about +-2,097 km (arithmetic contract, rule 1).
+// World positions: int32 in units of 1/1024 m on each axis, about +-2,097 km (arithmetic contract, runtime/README.md).
 
 #include <algorithm>
 #include <compare>
@@ -34,7 +34,7 @@ inline Int3 saturatingSub(Int3 a, Int3 b) {
   return {saturate(int64_t{a.x} - b.x), saturate(int64_t{a.y} - b.y), saturate(int64_t{a.z} - b.z)};
 }
 
-/// A closed box of world positions: lo and hi belong to it. Empty if lo > hi on an axis.
+/// A closed box of world positions: lo and hi belong to the box. Empty if lo > hi on an axis.
 struct IntBox {
   Int3 lo{1, 1, 1};
   Int3 hi{0, 0, 0};
@@ -57,7 +57,7 @@ struct IntBox {
     if (empty()) return *this;
     return {saturatingSub(lo, {margin, margin, margin}), saturatingAdd(hi, {margin, margin, margin})};
   }
-  /// The smallest box that contains both.
+  /// The smallest box that contains both boxes.
   IntBox joined(const IntBox& b) const {
     if (empty()) return b;
     if (b.empty()) return *this;

@@ -1,13 +1,13 @@
 #pragma once
-// Counter-based randomness (arithmetic contract, rule 6): every random number is a pure function of a key and an
-// ordinal; a key is a hash of the derivation path. No generator has a state.
+// Counter-based randomness, so that all machines and threads draw the same numbers: every random number is a pure
+// function of a key and an ordinal; a key is a hash of the derivation path. No generator has a state.
 
 #include <cstdint>
 #include <string_view>
 
 namespace sgm {
 
-/// The finaliser of splitmix64: a bijection of 64 bits with full avalanche.
+/// The finaliser of splitmix64 (Stafford's Mix13): a bijection of 64 bits with full avalanche.
 constexpr uint64_t mix64(uint64_t x) {
   x ^= x >> 30;
   x *= 0xBF58476D1CE4E5B9u;
@@ -19,21 +19,22 @@ constexpr uint64_t mix64(uint64_t x) {
 
 constexpr uint64_t hashCombine(uint64_t a, uint64_t b) { return mix64(a * 0x9E3779B97F4A7C15u + mix64(b)); }
 
-/// FNV-1a, mixed: for names and grammar text, equal on every machine.
+/// FNV-1a followed by mix64, for names and grammar text. Equal on every machine.
 constexpr uint64_t hashText(std::string_view text) {
   uint64_t h = 0xCBF29CE484222325u;
   for (char c : text) h = (h ^ static_cast<uint8_t>(c)) * 0x100000001B3u;
   return mix64(h ^ text.size());
 }
 
-/// Key of a derivation path. child() descends by rule name and child ordinal; unit() draws.
+/// The hash of a derivation path. child() returns the key of a child by its rule name and ordinal; unit() draws a
+/// number.
 struct PathKey {
   uint64_t value = 0;
 
   constexpr PathKey child(uint64_t name, uint64_t ordinal) const {
     return {hashCombine(hashCombine(value, name), ordinal)};
   }
-  /// The ordinal-th draw of this key, uniform in [0, 1) with 53 bits.
+  /// The draw number `ordinal` of this key, uniform in [0, 1) with 53 bits.
   constexpr double unit(uint64_t ordinal) const {
     return static_cast<double>(hashCombine(value, ordinal) >> 11) * 0x1p-53;
   }

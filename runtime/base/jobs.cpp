@@ -104,8 +104,8 @@ class ThreadPool final : public JobSystem {
   std::vector<std::thread> threads_;
 };
 
-// Shared by the caller and the jobs that it has submitted. A job may run long after the call has returned; it then
-// finds no work left.
+// The state of one loop, shared by the caller and the jobs that it has submitted. A job may run long after the call of
+// parallelFor has returned; it then finds no iterations left.
 struct ForState {
   const std::function<void(size_t)>* body;
   size_t count;
@@ -160,10 +160,11 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
       share.release();
     }
   } catch (const std::bad_alloc&) {
-    // Fewer threads work then. The jobs already submitted still read the body, so this call must continue.
+    // A job could not be submitted: fewer threads share the loop. The jobs already submitted still read the body, so
+    // this call must not throw before they end.
   }
   state->run();
-  // All bodies have started; those on other threads must end before the body is destroyed.
+  // All iterations have started; those on other threads must end before the caller destroys the body.
   std::unique_lock lock(state->mutex);
   helpUntil(jobs, lock, state->done, [&state] { return state->active.load() == 0; });
   if (state->error) std::rethrow_exception(state->error);

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the JSON of --json. This is a small writer of our own, because the command mostly writes JSON, and a large
-// library would take longer to compile than the rest of the command.
+// Writes JSON for the commands' option --json. This is a small writer of our own, because the command only writes JSON,
+// and a large library would take longer to compile than the rest of the command.
 
 #include <concepts>
 #include <cstdint>
@@ -52,7 +52,7 @@ class Json {
   /// The text on several lines, indented by two spaces. It is always UTF-8: U+FFFD replaces invalid bytes. NaN and
   /// infinity become null.
   std::string text() const;
-  /// The same on one line, without spaces.
+  /// The text on one line, without spaces; otherwise as text().
   std::string line() const;
 
  private:

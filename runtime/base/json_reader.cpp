@@ -56,7 +56,7 @@ class JsonParser {
     JsonValue value;
     skip();
     if (++values_ > most_values_) {
-      failed_ = true;  // run() reports the reason
+      failed_ = true;  // run() returns the error
     } else if (depth > kDeepest) {
       fail("values nested too deeply");
     } else if (at_ >= text_.size()) {

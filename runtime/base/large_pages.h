@@ -15,9 +15,9 @@ namespace sgm {
 
 inline constexpr size_t kLargePage = size_t{1} << 21;
 
-/// Allocates from a resource, which must outlive it, and requests pages of 2 MB: the first access to small pages takes
-/// longer than most measured work, and ten times as long on a virtual machine. If the system has no large pages, it
-/// acts as std::pmr::polymorphic_allocator, except that a moved container keeps its memory.
+/// Allocates from a memory resource, which must outlive it, and requests pages of 2 MB: the first access to small pages
+/// takes longer than most measured work, and ten times as long on a virtual machine. If the system has no large pages,
+/// it acts as std::pmr::polymorphic_allocator, except that a moved container keeps its memory.
 template <class T>
 class LargePages {
  public:
@@ -34,7 +34,8 @@ class LargePages {
     const size_t bytes = count * sizeof(T);
     void* const memory = memory_->allocate(bytes, alignmentOf(bytes));
 #ifdef MADV_HUGEPAGE
-    // The end keeps small pages: a large page there would waste memory. The request may fail without harm.
+    // The last part, less than a large page, keeps small pages: a large page there would waste memory. If the system
+    // rejects the request, the memory simply has small pages.
     if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-// Every step below is one correctly rounded IEEE double operation, so the bits follow from the source alone.
+// Every step below is one correctly rounded IEEE double operation, so the source alone determines the bits.
 // Coefficients are rounded Taylor coefficients: the reduced arguments are small enough that a minimax fit would save
 // one or two terms only.
 
@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// pi/2 and ln 2 in parts whose leading 33 (32) bits make the product with a reduction count exact.
+// pi/2 and ln 2 as sums of parts (Cody and Waite's reduction). The leading 33 (pi/2) or 32 (ln 2) bits are short enough
+// that their product with the whole number that the reduction subtracts is exact.
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
 constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
@@ -61,7 +62,7 @@ Reduced reduceAngle(double x) {
   const double high = x - n * kHalfPi1;
   const double middle = n * kHalfPi2;
   const double value = high - middle;
-  // The rounding error of the subtraction, minus the last part of pi/2.
+  // The rounding error of the subtraction above, minus the product of n and the last part of pi/2.
   const double tail = ((high - value) - middle) - n * kHalfPi3;
   return {static_cast<int64_t>(n), value, tail};
 }
@@ -105,7 +106,7 @@ constexpr std::array<double, 9> kAtanEighths{0.0,
                                              0.64350110879328438680,
                                              0.71882999962162450542,
                                              0.78539816339744830962};
-// The rounding errors of those constants.
+// The rounding errors of the constants in kAtanEighths.
 constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 -3.1253241424539383e-18,
                                                 1.0698755618734451e-17,
@@ -117,8 +118,8 @@ constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 3.061616997868383e-17};
 constexpr std::array<double, 7> kAtanTerms{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-/// Requires 0 <= numerator <= denominator and denominator > 0. Small quotients use the series alone, because the two
-/// parts would cancel.
+/// atan(numerator / denominator). Requires 0 <= numerator <= denominator and denominator > 0. Small quotients use the
+/// series alone, because the tabulated value and the series would cancel.
 double atanUnit(double numerator, double denominator) {
   const double quotient = numerator / denominator;
   const int index = static_cast<int>(quotient * 8.0 + 0.5);
@@ -146,7 +147,8 @@ double expWithTail(double x, double tail) {
   const double r = high - low;
   const double lost = (high - r) - low;
   const double value = 1.0 + (r + (lost + r * r * polynomial(kExpTerms, r)));
-  // Two factors, so that neither overflows unless the product does, and a subnormal is rounded only once.
+  // The power of two is applied as two factors, so that neither overflows unless the result does, and a subnormal
+  // result is rounded only once.
   const int64_t k = static_cast<int64_t>(n), half = k / 2;
   return value * powerOfTwo(half) * powerOfTwo(k - half);
 }
@@ -174,7 +176,7 @@ Split splitFloat(double x) {
   return {m - 1.0, static_cast<double>(exponent)};
 }
 
-// 2/3, 2/5, ...: log((1 + s) / (1 - s)) = 2s + s (2/3 s^2 + 2/5 s^4 + ...)
+// 2/3, 2/5, ...: the coefficients of log((1 + s) / (1 - s)) = 2s + s (2/3 s^2 + 2/5 s^4 + ...)
 constexpr std::array<double, 11> kLogTerms{2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11, 2.0 / 13,
                                            2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23};
 
@@ -193,7 +195,7 @@ DoubleDouble twoSum(double a, double b) {
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// Dekker's exact product, by splitting at 27 bits: no fused multiply-add is used anywhere.
+/// Dekker's exact product, which splits both factors at 27 bits, because fused multiply-add is forbidden here.
 DoubleDouble twoProduct(double a, double b) {
   const double product = a * b;
   const double split_a = 134217729.0 * a, split_b = 134217729.0 * b;
@@ -202,7 +204,8 @@ DoubleDouble twoProduct(double a, double b) {
   return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// log x with about 12 bits more than a double has, because a power multiplies the error by its exponent.
+/// log x with about 12 bits more than a double has: detPow multiplies the logarithm, and with it its error, by the
+/// exponent.
 DoubleDouble logExtended(double x) {
   const Split split = splitFloat(x);
   const DoubleDouble denominator = fastTwoSum(2.0, split.f);

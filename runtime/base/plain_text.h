@@ -1,5 +1,5 @@
 #pragma once
-// Texts that do not depend on the locale of the host program, unlike those of the C library.
+// Texts that do not depend on the locale of the host program, unlike the texts of the C library's functions.
 
 #include <charconv>
 #include <cstdint>
@@ -17,20 +17,21 @@ inline std::string systemMessage(int code) {
   return std::strerror(code);
 }
 
-/// The same for a code of <system_error>; other categories than the system's give their own message.
+/// The message of a <system_error> code: in English for system and generic codes, otherwise the category's own message.
 inline std::string systemMessage(const std::error_code& code) {
   const bool system = code.category() == std::system_category() || code.category() == std::generic_category();
   return system ? systemMessage(code.value()) : code.message();
 }
 
-/// A number with the given significant digits, as by "%g" with a decimal point.
+/// A number with the given number of significant digits, as printf's "%g" writes it, always with a decimal point, never
+/// a comma.
 inline std::string generalText(double value, int digits = 6) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
   return std::string(text, end.ptr);
 }
 
-/// A number with the given digits after the decimal point. Precondition: |value| < 1e300.
+/// A number with the given number of digits after the decimal point. Precondition: |value| < 1e300.
 inline std::string fixedText(double value, int digits) {
   char text[400];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);

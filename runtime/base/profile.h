@@ -1,5 +1,6 @@
 #pragma once
-// Reports zones of time, nested on each thread, to the caller's profiler. Without a profiler, a zone costs a branch.
+// Reports nested time intervals ("zones") of each thread to the caller's profiler. Without a profiler, a zone costs a
+// branch.
 
 #include <cstdint>
 
@@ -8,8 +9,8 @@ namespace sgm {
 /// The caller's functions, copied to every place that does work; owns nothing. They must not throw exceptions or call
 /// the library. The names of zones and plots are listed below.
 struct Profiler {
-  uint64_t (*begin)(void* user, const char* zone) = nullptr;           ///< null: there is no profiler
-  void (*end)(void* user, uint64_t begun) = nullptr;                   ///< takes begin's result, on the same thread
+  uint64_t (*begin)(void* user, const char* zone) = nullptr;  ///< null: there is no profiler
+  void (*end)(void* user, uint64_t begun) = nullptr;  ///< receives the value that begin returned, on the same thread
   void (*thread)(void* user, const char* name) = nullptr;              ///< may be null
   void (*plot)(void* user, const char* name, double value) = nullptr;  ///< may be null
   void* user = nullptr;

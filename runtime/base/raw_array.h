@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// An array in large pages whose elements are not cleared first, because meshes are large.
+/// An array in large pages (large_pages.h). New elements are uninitialized, because clearing large meshes takes time.
 template <class T>
 class RawArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -37,12 +37,12 @@ class RawArray {
     data_ = pages_.allocate(size);
     size_ = room_ = size;
   }
-  /// Makes room for at least `size` elements and keeps the first `used`. The size at least doubles, so that many calls
-  /// copy little. Throws std::bad_alloc and then leaves the array unchanged.
+  /// Enlarges the array to at least `size` elements and keeps the first `used` elements. The size at least doubles, so
+  /// that many calls copy little. Throws std::bad_alloc and then leaves the array unchanged.
   void grow(size_t used, size_t size) {
     if (size > size_) resize(used, std::max(size, 2 * size_));
   }
-  /// Moves the array to new memory of exactly `size` elements and keeps the first `used`, at most `size`. Throws
+  /// Moves the array to new memory of exactly `size` elements and keeps the first `used` elements; used <= size. Throws
   /// std::bad_alloc and then leaves the array unchanged.
   void resize(size_t used, size_t size) {
     RawArray other(pages_.resource());
@@ -61,7 +61,7 @@ class RawArray {
  private:
   LargePages<T> pages_;
   T* data_ = nullptr;
-  size_t size_ = 0, room_ = 0;  ///< number of elements, and capacity
+  size_t size_ = 0, room_ = 0;  ///< number of elements, and capacity in elements
 };
 
 }  // namespace sgm

@@ -1,5 +1,6 @@
 #pragma once
-// Vectors whose new elements are not cleared: one resize() allocates them, and then they are filled in order.
+// Vectors whose new elements are not cleared: resize() allocates the elements, and the caller then writes them in
+// order.
 
 #include <memory_resource>
 #include <type_traits>
@@ -21,7 +22,7 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   struct rebind {
     using other = RawAllocator<Other>;
   };
-  /// The same as in the base class: the memory of a copy comes from the default resource.
+  /// As std::pmr::polymorphic_allocator does: the memory of a copied container comes from the default resource.
   RawAllocator select_on_container_copy_construction() const { return {}; }
 
   template <class... Arguments>

@@ -30,7 +30,8 @@ struct Error {
   int column = 0;
 };
 
-/// Either a value or an Error. Reading the absent one is a bug in the caller and aborts.
+/// Either a value or an Error. Reading the value of an error, or the error of a value, is a bug in the caller and
+/// aborts.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -26,7 +26,7 @@ inline size_t utf8Size(std::string_view text) {
   return size;
 }
 
-/// Appends the character of a code point, which must be at most U+10FFFF and not a surrogate.
+/// Appends a code point in UTF-8. The code point must be at most U+10FFFF and not a surrogate.
 inline void appendUtf8(std::string& out, uint32_t code) {
   const auto put = [&](uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
   if (code < 0x80) {

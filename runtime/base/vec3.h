@@ -1,6 +1,6 @@
 #pragma once
-// Points and directions in double precision, by components, for meshes and queries. They use + - * / alone, so the bits
-// are the same everywhere.
+// Points and directions in double precision, by components, for meshes and queries. These functions use + - * / alone,
+// so that all machines compute the same bits.
 
 #include <array>
 
