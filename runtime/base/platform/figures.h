@@ -7,15 +7,15 @@
 
 namespace sgm::platform {
 
-/// Unreadable figures are nullopt.
+/// A figure that the system does not provide is nullopt.
 struct ProcessFigures {
   std::optional<uint64_t> resident_bytes;
-  std::optional<double> cpu_seconds;    ///< of all threads since the start, user and system time
-  std::optional<double> start_seconds;  ///< seconds since 1970
+  std::optional<double> cpu_seconds;    ///< user and system time of all threads since the process started
+  std::optional<double> start_seconds;  ///< time of the process's start, seconds since 1970
   std::optional<uint64_t> open_files;
 };
 
-/// Takes some ten microseconds. Throws std::bad_alloc.
+/// Reads the current figures. Takes some ten microseconds. Throws std::bad_alloc.
 ProcessFigures processFigures();
 
 }  // namespace sgm::platform

@@ -11,42 +11,46 @@
 
 namespace sgm::masters {
 
-/// The keys of the reference histograms: curvature at any density, and the paper's two modes at one and two cells per
-/// metre, for which there are models of every class.
+/// The keys for which reference histograms are built: curvature, which does not depend on the density, and the paper's
+/// two modes at one and two cells per metre. For these densities there are models of every class.
 std::vector<measure::MasterKey> masterKeys();
 
-/// The default of `sgm classify`: curvature by 65 bins, L = 1 m.
+/// The key that `sgm classify` uses by default: curvature with 65 bins, L = 1 m.
 measure::MasterKey defaultKey();
 
-/// Maximum of reference histograms for a grammar and key. Of models with other seeds, curvature classifies 95 %
-/// correctly with 1 for each density, 97.8 % with 4 a grammar, 98.3 % with 6 and 98.7 % with 8. As many as 6 a grammar,
-/// but from clusters of a whole class, classify fewer, since frequent kinds displace rare ones. The paper's modes have
-/// fewer.
+/// Maximum number of reference histograms for one grammar and key. With the mode curvature, models with other seeds are
+/// classified correctly in 95 % of the cases with 1 histogram for each density, 97.8 % with 4 for each grammar, 98.3 %
+/// with 6 and 98.7 % with 8. If 6 a grammar are instead clustered over the whole class, fewer are classified correctly,
+/// since frequent kinds displace rare ones. The paper's modes have fewer histograms.
 size_t mastersAGrammar(measure::HistogramMode mode);
 
-/// A measured model.
+/// A model with its histograms.
 struct Specimen {
   const Family* family = nullptr;
   uint64_t seed = 0;
-  std::vector<std::vector<double>> shares;  ///< by masterKeys(); empty for another density than the family's
+  /// histogram of each key of masterKeys(); empty if the key is for another density than the family's
+  std::vector<std::vector<double>> shares;
 };
 
-/// Called after every model; false cancels the work.
+/// Called after every model with the number of finished models; returns false to cancel the work.
 using BuildProgress = std::function<bool(uint64_t done, uint64_t total)>;
 
-/// The first `models` models of each family for a seed. Different seeds share neither models nor parameters. Errors:
-/// those of ModelMaker; cancelled.
+/// Measures the first `models` models of each family for a seed. Different seeds share neither models nor parameters.
+/// Errors: those of ModelMaker; cancelled.
 Result<std::vector<Specimen>> specimensOf(std::span<const Family> families, uint64_t models, uint64_t seed,
                                           Backend& backend, JobSystem& jobs, const BuildProgress& progress = {});
 
-/// The means of mastersAGrammar() clusters for each key and grammar. The limits also come from the specimens, without
-/// noise: histograms built from one half are compared with the other half, and vice versa; a limit is kLimitSlack times
-/// the 99th percentile of these distances. Contract: the specimens have models of every class for each key.
+/// Builds the reference histograms: for each key and grammar, the means of mastersAGrammar() clusters. The limits also
+/// come from the specimens, without noise: histograms built from one half of them are compared with the other half, and
+/// vice versa; a limit is kLimitSlack times the 99th percentile of these distances. Contract: the specimens have models
+/// of every class for each key.
 MasterSet mastersOf(std::span<const Specimen> specimens);
-/// Fewer than 1 % of models with other seeds exceed 1.25 times that distance; noise classes catch nearer histograms.
+/// Ratio of a limit to that percentile. Fewer than 1 % of models with other seeds exceed 1.25 times the percentile; the
+/// noise classes reject histograms that lie nearer.
 inline constexpr double kLimitSlack = 2;
 
-/// The set in the form of built_in_masters.inc; command: the command that made it.
+/// The C++ source of the set in the form of built_in_masters.inc. command: the command that made the set, for its
+/// comment.
 std::string sourceOf(const MasterSet& set, const std::string& command);
 
 }  // namespace sgm::masters

@@ -1,7 +1,7 @@
 #pragma once
-// Reference models of known class: reference histograms are built from them, and classification is tested with them.
-// They come from the current samples, and from simple grammars in tests/bench/grammars, which do not change. A model
-// depends only on its family, its seed, and the standard library.
+// Models of known class: reference histograms are built from them, and classification is tested with them. The models
+// are generated from the current samples, and from simple grammars in tests/bench/grammars, which do not change. A
+// model depends only on its family, its seed, and the standard library.
 
 #include <memory>
 #include <span>
@@ -15,32 +15,33 @@
 
 namespace sgm::masters {
 
-/// The models of one grammar, at one density; or noise: a plane grid of quadrangles whose points are moved randomly, by
-/// at most 0.4 to 2 edges, or randomly solid voxels.
+/// The models of one grammar at one density; or a kind of noise: a plane grid of quadrangles whose points are moved
+/// randomly by at most 0.4 to 2 edge lengths, or voxels that are solid at random.
 struct Family {
   std::string_view class_name;
-  std::string_view file;  ///< in samples/grammars, bench/... in tests/bench/grammars, or a description
-  std::string_view text;  ///< empty: the grid
-  double cell = 0;        ///< metres; of the grid, the quadrangles' edge
-  double edge = 0;        ///< of the examined cube, metres; 0: the whole world, which is finite
-  double middle = 0;      ///< width of the middle of a finite world that contains the cubes, metres; 0: all
+  std::string_view file;  ///< path in samples/grammars, bench/... for tests/bench/grammars, or a description for noise
+  std::string_view text;  ///< text of the grammar; empty for noise
+  double cell = 0;        ///< edge of a grid cell, metres; for noise, the edge of a quadrangle
+  double edge = 0;        ///< edge of the examined cube, metres; 0: the whole world is examined, which is finite
+  /// width along x and z, metres, of the middle of a finite world from which cubes are taken; 0: the whole world
+  double middle = 0;
 };
 std::span<const Family> families();
 
-/// All classes but noise, in the order of families().
+/// The names of all classes except noise, in the order of families().
 std::vector<std::string_view> classNames();
 
 using ModelMesh = asset::TriangleMesh;
 
-/// A family's grammar, compiled.
+/// Makes models of one family; holds its compiled grammar.
 class ModelMaker {
  public:
   static Result<ModelMaker> create(const Family& family);
 
-  /// Each seed draws new parameters from their whole ranges, and is the world's seed. If the world is larger than the
-  /// cube, the model is the part around a steep point of its surface, also chosen by the seed. If the model is nearly
-  /// empty (a sky without a cloud), the seed's next draw is tried. Errors: those of meshing; limit if ten draws are
-  /// empty.
+  /// Makes the model of a seed. The seed draws the grammar's parameters from their whole ranges, and is the world's
+  /// seed. If the world is larger than the cube, the model is the part around a steep point of its surface, which the
+  /// seed also chooses. If the model is nearly empty (a sky without a cloud), the seed's next draw is tried. Errors:
+  /// those of meshing; limit if ten draws are empty.
   Result<ModelMesh> make(uint64_t seed, Backend& backend, JobSystem& jobs) const;
 
   const Family& family() const { return *family_; }

@@ -9,20 +9,22 @@
 
 namespace sgm::masters {
 
-/// In addition to these, keys have the limits of binsOf() and checkHistogram().
+/// Limits of the text's bytes, the keys, and the histograms. Each key also has the limits of binsOf() and
+/// checkHistogram().
 inline constexpr size_t kMostSetBytes = size_t{4} << 20, kMostSetKeys = 256, kMostSetMasters = 10'000;
 
 struct ReadSet {
   std::optional<MasterSet> set;  ///< set if there is no problem
   bool malformed = false;        ///< the text is not JSON
-  std::string what;              ///< the first problem, in one line; for well-formed JSON without the place
-  std::string pointer;           ///< the place (RFC 6901); "" also means the whole text
+  std::string what;     ///< the first problem, in one line; without its position in the text if the JSON is well-formed
+  std::string pointer;  ///< JSON pointer to the wrong value (RFC 6901); "" if the text as a whole is wrong
 };
 
-/// {"masters": [{"class", "name", "models", "key", "shares"}, ...], "limits": [{"key", "mse", "emd"}, ...]}, each key
-/// {"mode", "bins", "length", "density", "version"}. Further members of `sgm inspect --list-masters` are ignored; any
-/// others are errors. Every key needs limits exactly once, and at least one reference histogram; names are short, and
-/// unique in their class and key; shares must be valid for a histogram of that key. Linear in the text's size.
+/// Parses {"masters": [{"class", "name", "models", "key", "shares"}, ...], "limits": [{"key", "mse", "emd"}, ...]},
+/// where each key is {"mode", "bins", "length", "density", "version"}. Other members that `sgm inspect --list-masters`
+/// writes are ignored; any further members are errors. Every key needs limits exactly once, and at least one reference
+/// histogram; names must be short, and unique in their class and key; shares must be valid for a histogram of that key.
+/// Takes time linear in the text's size.
 ReadSet readSet(std::string_view json);
 
 }  // namespace sgm::masters

@@ -1,5 +1,5 @@
 #pragma once
-// SQLite's C interface, with RAII and our errors.
+// SQLite's C interface with RAII and sgm::Error.
 
 #include <sqlite3.h>
 
@@ -18,7 +18,7 @@ struct CloseDatabase {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 
-/// A statement, run row by row. After a failed step, code() is the reason, and further steps do nothing.
+/// An SQL statement, executed row by row. After a failed step, code() is the reason, and further steps do nothing.
 class Statement {
  public:
   Statement(const Database& database, const char* text);
@@ -30,9 +30,9 @@ class Statement {
   Statement& bind(double value);
   Statement& bind(std::string_view text);
   Statement& bind(std::span<const std::byte> blob);
-  /// Whether there is a row.
+  /// Executes the statement up to its next row; returns whether there is one.
   bool step();
-  /// As step, then resets the statement and its bindings.
+  /// Executes the statement as step() does, then resets it and its bindings for the next execution.
   void run();
 
   int64_t whole(int column) const { return sqlite3_column_int64(statement_, column); }
@@ -45,10 +45,10 @@ class Statement {
  private:
   sqlite3_stmt* statement_ = nullptr;
   int bound_ = 0;
-  int code_ = SQLITE_OK;  // the first failure
+  int code_ = SQLITE_OK;  // SQLite's code of the first failure
 };
 
-/// Runs statements without results. Returns SQLite's code.
+/// Runs SQL statements that return no rows. Returns SQLite's code.
 int execute(const Database& database, const char* text);
 
 }  // namespace sgm::masters

@@ -1,5 +1,6 @@
 #pragma once
-// Decides whether the sun or a lamp lights what a camera sees, by rays cast over the field itself, drawn or not.
+// Decides whether the sun or a lamp lights the places that a camera sees, by rays cast through the field itself. Chunks
+// need not be meshed for this.
 
 #include <functional>
 #include <optional>
@@ -14,32 +15,33 @@
 
 namespace sgm::cli {
 
-/// The first solid on a ray.
+/// The first solid surface on a ray.
 struct RayEnd {
   double distance = 0;  ///< metres
-  Metres3 normal{0};    ///< out of the solid
+  Metres3 normal{0};    ///< points out of the solid
   uint32_t material = 0;
-  bool inside = false;  ///< the ray starts in the solid
+  bool inside = false;  ///< true if the ray starts in the solid
 };
 
-/// Casts a ray of `metres` length; nullopt if it hits nothing.
+/// Casts a ray of `metres` length. Returns nullopt if the ray hits nothing.
 using CastRay =
     std::function<Result<std::optional<RayEnd>>(const Metres3& from, const Metres3& direction, double metres)>;
 
-/// A world for computing light.
+/// The properties of a world from which its light is computed.
 struct LitWorld {
   CastRay cast;
-  bool roofless = true;                 ///< false: endless rock lies above everything
-  double sky_metres = 256;              ///< a ray upwards that hits nothing within this distance has reached the sky
-  std::vector<bool> translucent;        ///< by material: transmits light, as glass and clouds do
-  double clearance_metres = 1.0 / 256;  ///< offset from a surface, so that a ray does not hit the surface where it
-                                        ///< starts
+  bool roofless = true;           ///< false if endless rock lies above everything
+  double sky_metres = 256;        ///< a ray upwards that hits nothing within this distance counts as reaching the sky
+  std::vector<bool> translucent;  ///< by material index: whether the material transmits light, as glass and clouds do
+  /// distance by which a ray starts off its surface, so that it does not hit that surface
+  double clearance_metres = 1.0 / 256;
 
-  /// By the domain's kind. endless_height: cells are stacked without end.
+  /// The properties for a kind of domain. solid: the domain is solid outside its hollows. endless_height: its cells are
+  /// stacked without end.
   static LitWorld of(bool solid, bool endless_height);
 };
 
-/// Whether a material of that name transmits light.
+/// Whether the material with this name transmits light.
 bool isTranslucent(std::string_view material);
 
 /// Position and view of a camera in the world, metres.
@@ -50,37 +52,38 @@ struct CameraPlace {
   double aspect = 16.0 / 9;     ///< the picture's width by its height
 };
 
-/// The data that decide on a camera's light.
+/// The quantities that decide on the light of a camera's picture.
 struct Outlook {
-  /// The share, 0..1, of the sky that is visible from what the camera sees: for rays spread evenly over the picture,
-  /// the mean share of five upward directions that are open at the ray's end.
+  /// Share of the sky, 0..1, that is visible from the surfaces in the picture: for rays spread evenly over the picture,
+  /// the mean share of five upward directions that are unobstructed at the ray's end.
   double daylight = 0;
-  bool buried = false;  ///< the camera is in the solid: then nothing else is known
-  double depth = 1;     ///< typical distance in metres to what is seen, at most 256
+  bool buried = false;  ///< the camera is in the solid; the other members are then not set
+  double depth = 1;     ///< typical distance in metres to the visible surfaces, at most 256
 };
 
-/// Errors: those of the rays.
+/// Computes the outlook of a camera. Errors: those of casting rays.
 Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera);
 
-/// "sun", "lamp" and "none"; nullopt for other names, such as "auto".
+/// The light named "sun", "lamp" or "none"; nullopt for other names, such as "auto".
 std::optional<Light> lightNamed(std::string_view name);
 const char* lightName(Light light);
 
-/// Share of the sky from which pictures are taken by daylight.
+/// Daylight (Outlook::daylight) from which on pictures are lit by the sun.
 inline constexpr double kEnoughDaylight = 0.03;
-/// Sun for kEnoughDaylight or more, otherwise the lamp.
+/// Light::sun for kEnoughDaylight or more, otherwise Light::lamp.
 Light lightAt(double daylight);
 
-/// The light of successive pictures, without flicker: it changes only if two successive looks clearly call for the
-/// other light.
+/// Chooses the light of successive pictures without flicker: the light changes only if two successive values of
+/// daylight are clearly on the other side of the threshold.
 class SteadyLight {
  public:
-  /// anew: the camera has come from far away, so its earlier looks do not count.
+  /// Returns the light for the next picture. anew: the camera has come from far away, so its previous values do not
+  /// count.
   Light next(double daylight, bool anew);
 
  private:
   std::optional<Light> light_;
-  bool doubted_ = false;  ///< by the previous look
+  bool doubted_ = false;  ///< the previous value of daylight was clearly on the other side of the threshold
 };
 
 }  // namespace sgm::cli

@@ -11,20 +11,20 @@
 
 namespace sgm::cli {
 
-/// Moves each parameter through its range and back in ten seconds, with ten updates a second. One thread at a time.
+/// Moves each parameter through its range and back in ten seconds, with ten updates a second. Not thread-safe.
 class FlightAnimation {
  public:
-  /// Animates the named parameters, or all that the grammar declares animated if there are no names. field: the world's
-  /// current one, with the initial parameters. All arguments must outlive the animation. Errors: invalid_argument if
-  /// there is no parameter to animate, or one has no range.
+  /// Animates the parameters with these names, or all that the grammar declares animated if there are no names. field:
+  /// the world's current field, with the initial parameters. All arguments must outlive the animation. Errors:
+  /// invalid_argument if there is no parameter to animate, or a parameter has no range.
   static Result<FlightAnimation> of(sgm_runtime* runtime, const sgm_field_desc& field, sgm_parameters* parameters,
                                     const std::vector<std::string>& names);
 
-  /// Sets the next field if it is due. Errors: those of the public interface.
+  /// Passes the next field to the world if it is due. Errors: those of the public interface.
   Result<void> show(sgm_world* world, double seconds);
 
   uint64_t fields() const { return fields_; }
-  /// Number of these that were drawn, as seen by show().
+  /// Number of the passed fields that were drawn, as observed by show().
   uint64_t drawn() const { return drawn_; }
 
  private:

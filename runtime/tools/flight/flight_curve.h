@@ -1,5 +1,5 @@
 #pragma once
-// A smooth curve through places, by arc length.
+// A smooth curve through given places, parametrized by arc length.
 
 #include <glm/vec3.hpp>
 #include <optional>
@@ -16,29 +16,30 @@ struct FlightPlace {
   Metres3 direction{0, 0, -1};
 };
 
-/// The Catmull-Rom spline through the controls, parametrized by their distances, as points about `spacing` apart or
-/// nearer, which include the first and last control. It begins in direction `start`, if given and not zero. If closed,
-/// it returns to its first control. Precondition: at least two controls; neighbours differ.
+/// The Catmull-Rom spline through the control points, with their distances as parameter intervals, sampled at points
+/// that are at most about `spacing` apart and include the first and last control point. If `start` is given and not
+/// zero, the curve begins in that direction. If closed, it returns to its first control point. Precondition: at least
+/// two control points; neighbours differ.
 std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spacing, bool closed,
                                   const std::optional<Metres3>& start = {});
 
-/// Evenly spaced places along a curve that can be extended.
+/// A curve of evenly spaced places, to which points can be appended.
 class FlightCurve {
  public:
   explicit FlightCurve(double spacing) : spacing_(spacing) {}
 
-  /// Appends these points; the first must be the curve's end, unless the curve is empty.
+  /// Appends these points. The first point must be the curve's end, unless the curve is empty.
   void extend(std::span<const Metres3> points);
-  /// The upper limit of s in at(): the arc length to the last point, or up to a spacing less.
+  /// The maximum of s in at(): the arc length up to the last point, or up to one spacing less.
   double length() const { return places_.empty() ? 0 : spacing_ * static_cast<double>(places_.size() - 1); }
-  /// Precondition: the curve is not empty. s is clamped to 0..length().
+  /// The place at arc length s, which is clamped to 0..length(). Precondition: the curve is not empty.
   FlightPlace at(double s) const;
 
  private:
   double spacing_;
   std::vector<Metres3> places_;
-  Metres3 end_{0};        ///< last point so far
-  double to_next_ = 0.0;  ///< along the curve from end_ to the next place
+  Metres3 end_{0};        ///< last appended point
+  double to_next_ = 0.0;  ///< arc length from end_ to the next evenly spaced place
 };
 
 }  // namespace sgm::cli

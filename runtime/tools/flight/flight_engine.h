@@ -1,5 +1,5 @@
 #pragma once
-// An engine's side of a streamed world: draws and collides with what the events deliver.
+// An engine's side of a streamed world: keeps the meshes and colliders that the world's events deliver.
 
 #include <sgm/sgm.h>
 
@@ -26,39 +26,41 @@ struct DrawnMesh {
 using DrawnKey = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
 using DrawnMeshes = std::map<DrawnKey, DrawnMesh>;
 
-/// The worst values of all checked frames.
+/// The largest values over all checked frames.
 struct CheckedFrames {
-  FrameReport worst;  ///< the largest counts of any frame
+  FrameReport worst;  ///< the largest value of each count over all frames
   uint64_t whole_checks = 0, whole_failures = 0;
-  uint64_t between_parts = 0;  ///< the largest of all complete checks
+  uint64_t between_parts = 0;  ///< the largest WholeReport::between_parts of all complete checks
 };
 
 struct ColliderReport {
-  uint64_t colliders = 0;  ///< held by the engine
-  uint64_t missing = 0;    ///< nearby drawn chunks without one
-  uint64_t unlike = 0;     ///< differ from the drawn triangles
-  uint64_t stray = 0;      ///< belong to chunks that are not drawn
+  uint64_t colliders = 0;  ///< number of colliders that the engine holds
+  uint64_t missing = 0;    ///< number of nearby drawn chunks without a collider
+  uint64_t unlike = 0;     ///< number of colliders that differ from the drawn triangles
+  uint64_t stray = 0;      ///< number of colliders of chunks that are not drawn
 
   bool fit() const { return missing + unlike + stray == 0; }
 };
 
-/// One thread at a time.
+/// Not thread-safe.
 class FlightEngine {
  public:
   /// check: enables checkFrame().
   explicit FlightEngine(bool check);
 
-  /// Processes all events; returns the bytes of the delivered meshes. Checks are left to checkFrame().
+  /// Processes all events; returns the number of bytes of the received meshes. Does not check the frame: see
+  /// checkFrame().
   Result<uint64_t> poll(sgm_world* world);
-  /// Checks the changes in what is drawn, or all of it; does nothing if the engine does not check.
+  /// Checks the changes in the drawn surface, or, if `whole`, all of it. Does nothing if checks are not enabled.
   Result<void> checkFrame(bool whole, CheckedFrames& checked);
 
-  /// Whether a place of the surface, in units, is drawn at level 0: a chunk of that level with triangles contains it or
-  /// lies within a cell of it.
+  /// Whether a place on the surface, in units, is drawn at level 0: a level-0 chunk with triangles contains the place
+  /// or lies within one grid cell (`cell` units) of it.
   bool finestAt(const int32_t (&place)[3], int32_t cell) const;
   /// Whether every drawn chunk that may have triangles within `distance` metres has a collider, even an outdated one.
   bool collidesNear(const Metres3& place, double distance) const;
-  /// The same with exact comparison of triangles: for an idle world.
+  /// Compares the colliders within `distance` metres with the drawn triangles exactly. Use it only when the world is
+  /// idle.
   ColliderReport checkColliders(const Metres3& place, double distance) const;
 
   const DrawnMeshes& drawn() const { return drawn_; }
@@ -70,7 +72,7 @@ class FlightEngine {
   DrawnMeshes drawn_;
   std::map<DrawnKey, std::shared_ptr<sgm_mesh>> ready_;
   std::map<DrawnKey, std::shared_ptr<sgm_collider>> colliders_;
-  std::vector<DrawnKey> changed_;  ///< since the last checkFrame(), if there is a checker
+  std::vector<DrawnKey> changed_;  ///< chunks that changed since the last checkFrame(), if checks are enabled
   std::optional<FrameChecker> checker_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The path of a flight: along the points of a file, or planned through the void of a field.
+// The path of a flight: through the points of a file, or planned through the void of a field.
 
 #include <optional>
 #include <string>
@@ -9,31 +9,33 @@
 
 namespace sgm::cli {
 
-/// The points of a path file, {"points": [[x, y, z], ...], "loop": true}, in metres. loop may be missing: false.
+/// The contents of a path file, {"points": [[x, y, z], ...], "loop": true}, in metres. If loop is missing, it is false.
 struct PathPoints {
   std::vector<Metres3> points;  ///< two or more; neighbours differ
   bool loop = false;
 };
 
-/// Errors, each one line: bad_input with line and column for wrong JSON, invalid_argument for any other wrong content.
+/// Parses a path file. Errors, each in one line: bad_input with line and column for invalid JSON, invalid_argument for
+/// any other invalid content.
 Result<PathPoints> readPathPoints(std::string_view json);
 
-/// One thread at a time.
+/// Not thread-safe.
 class FlightPath {
  public:
-  /// The smooth curve through the points of a file. Errors: io, those of readPathPoints, after the file's name.
+  /// A smooth curve through the points of a file. Errors: io, those of readPathPoints(); the message begins with the
+  /// file's name.
   static Result<FlightPath> ofFile(const std::string& file);
   static FlightPath through(const PathPoints& path);
-  /// An endless flight that plans its own path. Field and grammar must outlive it. Errors: as FlightPlanner.
+  /// An endless path, planned during the flight. Field and grammar must outlive it. Errors: as FlightPlanner::begin().
   static Result<FlightPath> automatic(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings);
 
-  /// The place at arc length s >= 0, in metres. May plan up to there, which is slow. Beyond its end, a path stays
-  /// there; a loop starts again. Errors: as FlightPlanner::next.
+  /// The place at arc length s >= 0, in metres. Plans the path up to there if necessary, which is slow. Beyond the end
+  /// of a path, the place is its end; a loop starts again. Errors: as FlightPlanner::next().
   Result<FlightPlace> at(double s);
-  /// nullopt for an endless path.
+  /// Length in metres; nullopt for an endless path.
   std::optional<double> length() const;
-  /// Continues from another place (FlightPlanner::teleport), where s restarts at 0. Error: unsupported for a path of a
-  /// file.
+  /// Continues from another place (FlightPlanner::teleport), from which s is then measured. Error: unsupported for a
+  /// path from a file.
   Result<void> teleport(uint64_t number);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of the chunks that a flight has drawn.
+// Pictures of the chunks that are drawn in a flight.
 
 #include <sgm/sgm.h>
 
@@ -12,7 +12,7 @@
 
 namespace sgm::cli {
 
-/// A chunk as it is drawn: its body, and the seams whose bits (1u << sgm_face) are set.
+/// A drawn chunk: its body, and those of its seams whose bits (1u << sgm_face) are set in `seams`.
 struct PicturedChunk {
   sgm_mesh_view mesh = SGM_MESH_VIEW_INIT;
   uint32_t seams = 0;
@@ -23,19 +23,19 @@ struct PictureWish {
   double fov_degrees = 68;  ///< across the picture's height
   int width = 640, height = 360;
   Light light = Light::sun;
-  double depth = 20;  ///< typical distance in metres of visible surfaces: sets the reach of the lamp and the density of
-                      ///< haze
+  /// typical distance in metres of visible surfaces; sets the reach of the lamp and the density of haze
+  double depth = 20;
   /// Draws each level of detail in its own colour, brightly lit; otherwise materials in `light`.
   bool levels = false;
 };
 
-/// Draws the chunks from the camera. Under Light::lamp there is only the camera's own lamp, since others would jump
-/// from picture to picture. Errors: those of Renderer::render.
+/// Draws the chunks as the camera sees them. Under Light::lamp the camera's own lamp is the only one, since other lamps
+/// would change their places from picture to picture. Errors: those of Renderer::render.
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureWish& wish);
 
-/// All images on one sheet, row by row, with margins; each has the space of the largest. Empty without images.
-/// Precondition: columns is positive.
+/// All images on one sheet, row by row, with margins; each place has the size of the largest image. Empty if there are
+/// no images. Precondition: columns > 0.
 Image contactSheet(std::span<const Image> images, int columns);
 
 }  // namespace sgm::cli

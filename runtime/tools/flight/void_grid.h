@@ -1,5 +1,5 @@
 #pragma once
-// Finds room to fly: a grid of places in the void of a field, sampled on demand, and paths through it.
+// Finds room for a flight: samples the void of a field on a grid, on demand, and searches paths through it.
 
 #include <sgm/sgm.h>
 
@@ -21,12 +21,12 @@ struct PlaceHash {
   size_t operator()(const Int3& p) const;
 };
 
-/// Whether points, in units, are in the solid at level 0. Errors: those of sgm_field_sample.
+/// For each point, in units, whether it is in the solid at level 0. Errors: those of sgm_field_sample.
 Result<std::vector<bool>> solidAt(sgm_field* field, std::span<const Int3> points);
 
-/// Node (x, y, z) lies at (x, y, z) times the step plus five eighths of a step: walls and floors often lie on whole
-/// metres, where a node would be in the void on both sides. A node is clear if it and its 26 neighbours are in the
-/// void. The field must outlive the grid. After an error no node is clear.
+/// A grid of nodes. Node (x, y, z) lies at (x, y, z) times the step plus five eighths of a step on each axis: walls and
+/// floors often lie on whole metres, and nodes there would find void on both sides. A node is clear if it and its 26
+/// neighbours are in the void. The field must outlive the grid. After an error no node is clear.
 class VoidGrid {
  public:
   VoidGrid(sgm_field* field, int32_t step) : field_(field), step_(step) {}
@@ -36,16 +36,17 @@ class VoidGrid {
   Int3 nodeAt(Int3 place) const;
 
   bool isClear(Int3 node);
-  /// Marks an obstacle too thin for the grid: the node is not clear until unblock().
+  /// Marks a node as not clear until unblock(), because of an obstacle that is too thin for the grid.
   void block(Int3 node) { blocked_.insert(node); }
   void unblock() { blocked_.clear(); }
-  /// The clear node nearest to this one, at most `radius` steps away on each axis.
+  /// The clear node nearest to this node, at most `radius` steps away on each axis; nullopt if there is none.
   std::optional<Int3> nearestClear(Int3 node, int radius);
 
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  static constexpr int kBlock = 16;  ///< nodes on each axis of a block, which are sampled together
+  /// number of nodes on each axis of a block; the nodes of a block are sampled together
+  static constexpr int kBlock = 16;
   using Block = std::bitset<kBlock * kBlock * kBlock>;
   const Block& blockAt(Int3 at);
 
@@ -58,16 +59,16 @@ class VoidGrid {
   std::optional<Error> error_;
 };
 
-/// The nodes reached from a start node, nearest first.
+/// A search (A*) for the nodes that are reached from a start node, in order of their cost.
 class VoidSearch {
  public:
-  /// `guess` estimates the remaining cost of a node, in tenths of a step; null: 0 everywhere, so that all paths are
+  /// `guess` estimates the remaining cost from a node, in tenths of a step; null: 0 everywhere, so that all paths are
   /// optimal. Steps beside walls cost twice their length. `visit` is called with each node as it is reached, and
   /// returns false to stop. The search ends after `most` nodes.
   VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
              const std::function<bool(Int3 node, int64_t cost)>& visit);
 
-  /// The path to a visited node, including both ends.
+  /// The path from the start to a visited node, including both ends.
   std::vector<Int3> wayTo(Int3 node) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The language server: turns one message into its answers. lsp.cpp does the transport.
+// The language server: turns each incoming message into outgoing messages. lsp.cpp reads and writes them.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,36 +14,36 @@
 namespace sgm::cli {
 
 /// The Language Server Protocol 3.17 for grammars: diagnostics, completion, hover, definition, symbols, formatting. Not
-/// thread-safe. Open documents take precedence over files; imports come from a document's folder.
+/// thread-safe. The texts of open documents take precedence over files; imports are searched in a document's folder.
 class LanguageServer {
  public:
   using Json = nlohmann::json;
 
-  /// Handles any message: a request that cannot be answered gets an error, an unknown notification no answer. May throw
-  /// std::bad_alloc.
+  /// Handles any message and returns the messages to send: an error for a request that cannot be processed, nothing for
+  /// an unknown notification. May throw std::bad_alloc.
   std::vector<Json> handle(const Json& message);
-  /// The protocol's answer to bytes that are not JSON.
+  /// The answer that the protocol requires to bytes that are not JSON.
   static Json answerToGarbage(const std::string& why);
 
   bool ended() const { return state_ == State::ended; }
-  /// Whether the client asked it to shut down first.
+  /// Whether the client sent the request `shutdown` before `exit`, as the protocol requires.
   bool endedWell() const { return asked_to_end_; }
 
  private:
   enum class State { fresh, running, shutdown, ended };
-  /// A document, or the file of a URI.
+  /// A document that is open in the editor, or the file at a URI.
   struct Source {
     std::string uri;
     DocumentText text;
     Declarations declarations;
   };
-  /// The meaning of a place.
+  /// The declared name to which a place in a document refers.
   struct Target {
     Source source;
     DeclaredName name;
   };
 
-  /// A request's error: one of the protocol's numbers, and the reason.
+  /// An error answer to a request: the protocol's error code, and the reason.
   struct Refusal {
     int code;
     std::string why;
@@ -67,13 +67,14 @@ class LanguageServer {
   std::vector<Target> targetsAt(const std::string& uri, uint32_t offset) const;
   std::optional<Source> imported(const std::string& from_uri, const std::string& path) const;
   std::optional<std::string> textOf(const std::string& uri) const;
-  /// Null if it is not open.
+  /// The open document that the parameters name; null if it is not open.
   const DocumentText* document(const Json& params) const;
 
   State state_ = State::fresh;
   bool asked_to_end_ = false;
-  std::map<std::string, DocumentText> documents_;           ///< by URI
-  std::map<std::string, std::set<std::string>> diagnosed_;  ///< for each, the files of its diagnostics
+  std::map<std::string, DocumentText> documents_;  ///< by URI
+  /// for each open document, the URIs of the files for which diagnostics were published
+  std::map<std::string, std::set<std::string>> diagnosed_;
 };
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The scale of a chart's axis: maps values to places, and chooses its marks.
+// The scale of a chart's axis: maps values to positions on the axis, and chooses its tick marks.
 
 #include <optional>
 #include <span>
@@ -11,10 +11,12 @@ namespace sgm::cli {
 struct AxisStyle {
   std::string title;
   bool logarithmic = false;
-  bool from_zero = false;  ///< of a linear axis: include 0
-  /// Fixed ends; otherwise the ends of the values, widened to the next mark on a linear axis.
+  bool from_zero = false;  ///< for a linear axis: includes 0
+  /// Ends of the axis. Without a value, the smallest and largest shown value, widened to the next tick on a linear
+  /// axis.
   std::optional<double> low, high;
-  std::vector<double> marks{};  ///< ascending places of marks, if there is room; empty: round numbers
+  /// values of ticks, ascending, used if there is room for them; empty: round numbers are chosen
+  std::vector<double> marks{};
 };
 
 struct Mark {
@@ -24,14 +26,14 @@ struct Mark {
 
 class Axis {
  public:
-  /// values: to be included, except those that the axis cannot show (not finite, or not above 0 on a logarithmic axis).
-  /// most: maximum of marks, at least 2.
+  /// values: the axis includes them, except those that it cannot show (not finite, or not above 0 on a logarithmic
+  /// axis). most: maximum number of ticks, at least 2.
   Axis(const AxisStyle& style, std::span<const double> values, int most);
 
   bool shows(double value) const;
-  /// 0 at its low end to 1 at its high one, clamped. Contract: shows(value).
+  /// Position of a value: 0 at the low end of the axis to 1 at its high end, clamped. Contract: shows(value).
   double place(double value) const;
-  /// Ascending, inside the axis.
+  /// Ticks in ascending order, inside the axis.
   const std::vector<Mark>& marks() const { return marks_; }
 
  private:
@@ -43,7 +45,7 @@ class Axis {
   std::vector<Mark> marks_;
 };
 
-/// A readable number with that many significant digits, without an exponent from a thousandth to ten million.
+/// A readable number with that many significant digits. It has no exponent between a thousandth and ten million.
 std::string shortNumber(double value, int digits = 4);
 
 }  // namespace sgm::cli

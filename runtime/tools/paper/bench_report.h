@@ -1,5 +1,5 @@
 #pragma once
-// The output of `sgm bench paper`: our figures, the paper's, and the paper's contradictions.
+// The output of `sgm bench paper`: our measured figures, the paper's printed figures, and the paper's contradictions.
 
 #include <span>
 
@@ -9,7 +9,8 @@
 
 namespace sgm::cli {
 
-/// results: one for each stage, in the order of kPaperStages; the first row is sequential and measured.
+/// results: one for each stage, in the order of kPaperStages. In each result the first row is the sequential backend,
+/// which must be measured.
 Json toJson(const BenchOptions& options, std::span<const StageResult> results);
 void print(const BenchOptions& options, std::span<const StageResult> results);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The grammars that measure the paper, and their imported assets. They are embedded at configuration, since the command
-// may run far from its sources.
+// The grammars with which the paper is measured, and their imported assets. CMake embeds them in the program, since the
+// command may run on a machine without the sources.
 
 #include <span>
 #include <string_view>
@@ -10,15 +10,16 @@
 namespace sgm::cli {
 
 struct BundledFile {
-  std::string_view path;  ///< as in samples/grammars or tests/bench/grammars
+  std::string_view path;  ///< path relative to samples/grammars or tests/bench/grammars
   std::string_view bytes;
 };
 std::span<const BundledFile> bundledFiles();
 
-/// Null if there is no such file.
+/// The embedded file with this path; null if there is none.
 const BundledFile* bundled(std::string_view path);
 
-/// Imports come from the file's folder in the bundle. Contract: the file is in the bundle.
+/// Compiles an embedded grammar; its imports are searched in its folder within the bundle. Contract: the file is
+/// embedded.
 CompileResult compileBundled(std::string_view path);
 
 }  // namespace sgm::cli

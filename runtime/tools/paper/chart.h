@@ -1,5 +1,5 @@
 #pragma once
-// Charts as inline SVG, with the colours and fonts of the surrounding page (report_style.h).
+// Charts as inline SVG, in the colours and fonts of the surrounding page (report_style.h).
 
 #include <array>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace sgm::cli {
 
-/// Number of series colours of a page; further series repeat them.
+/// Number of colours for series in the page's style; further series repeat the colours.
 inline constexpr size_t kSeriesColours = 6;
 
 struct Series {
   enum class Style {
-    line,    ///< with a mark at each point
-    dashed,  ///< without marks: a claim, or a law
+    line,    ///< a line with a mark at each point
+    dashed,  ///< a dashed line without marks, for claims and theoretical laws
     steps,   ///< a filled histogram: each value holds until the next point
   };
   std::string name;
@@ -28,7 +28,7 @@ struct LineChart {
   std::string title;  ///< description for readers who cannot see the chart
   AxisStyle x, y;
   std::vector<Series> series;
-  int width = 640, height = 360;  ///< of the view, which the page scales. At least 200 by 150
+  int width = 640, height = 360;  ///< size of the SVG's view box, which the page scales; at least 200 by 150
 };
 Markup drawn(const LineChart& chart);
 
@@ -36,7 +36,7 @@ Markup drawn(const LineChart& chart);
 struct BarChart {
   struct Bars {
     std::string name;
-    std::vector<double> values;  ///< one for each group, at least 0; non-finite ones have no bar
+    std::vector<double> values;  ///< one for each group, at least 0; non-finite values have no bar
   };
   std::string title;
   AxisStyle y;
@@ -46,7 +46,7 @@ struct BarChart {
 };
 Markup drawn(const BarChart& chart);
 
-/// Approximate width of a text in a chart, in units of its view.
+/// Approximate width of a text in a chart, in units of the SVG's view box.
 double textWidth(std::string_view text);
 
 }  // namespace sgm::cli

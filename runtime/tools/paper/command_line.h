@@ -1,5 +1,5 @@
 #pragma once
-// The command that repeats a measurement, to be run in the report's folder.
+// The command line that repeats a measurement when it is run in the report's folder.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// `sgm bench paper` and `sgm paper`.
+// The commands `sgm bench paper` and `sgm paper`.
 
 #include <cstdint>
 #include <optional>
@@ -12,17 +12,17 @@ namespace sgm::cli {
 
 struct BenchOptions {
   uint64_t runs = 10;
-  std::vector<std::string> backends;  ///< empty: all that `auto` might choose
+  std::vector<std::string> backends;  ///< names of backends; empty: all backends that `auto` might choose
   unsigned threads = 0;
-  uint64_t cells = 256;        ///< on the edge of a stage's cube
-  std::optional<double> cell;  ///< metres, in place of `cells`
+  uint64_t cells = 256;        ///< number of grid cells along the edge of a stage's cube
+  std::optional<double> cell;  ///< edge of a grid cell in metres, instead of `cells`
   bool json = false;
 };
 Exit benchPaper(const BenchOptions& options);
 
 struct PaperOptions {
   std::string out;
-  std::vector<std::string> only;  ///< parts of the report; empty: all
+  std::vector<std::string> only;  ///< names of the parts of the report to make; empty: all
   bool quick = false;
   bool no_pictures = false;
   std::string backend = "auto";
@@ -30,7 +30,7 @@ struct PaperOptions {
   uint64_t seed = 1;
   bool json = false;
 };
-/// The values of --only, in the order of the report.
+/// The names that --only accepts, in the order of the report.
 std::vector<std::string> paperParts();
 Exit reproducePaper(const PaperOptions& options);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The backends of this machine that generate the stages of the paper's tables.
+// The backends of this machine that are compared in the stages of the paper's tables.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace sgm::cli {
 
-/// The sequential one first, then one for each named backend, or for all without names. Missing backends are included
-/// with the reason, as are software devices that are not named. threads: 0: one for each processor.
+/// Makes the sequential backend first, then one backend for each name, or all backends if there are no names.
+/// Unavailable backends are included with the reason, as are software devices that are not named. threads: number of
+/// CPU threads; 0: one for each processor.
 Result<std::vector<Contender>> makeContenders(const std::vector<std::string>& backends, unsigned threads);
 
 }  // namespace sgm::cli

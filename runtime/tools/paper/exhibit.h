@@ -1,5 +1,5 @@
 #pragma once
-// A figure or table of the paper in the report: the printed one, and our reproduction.
+// One figure or table of the paper in the report: the printed one, and our reproduction of it.
 
 #include <string>
 #include <vector>
@@ -10,13 +10,13 @@
 namespace sgm::cli {
 
 struct Exhibit {
-  std::string id;                     ///< "figure-7": referred to by contradictions
+  std::string id;                     ///< name such as "figure-7", to which Contradiction::places refers
   std::string title;                  ///< "Figure 7. Clouds"
-  std::vector<std::string> printed;   ///< quoted from its caption and text
-  Markup ours;                        ///< pictures, charts and tables, with explanations
+  std::vector<std::string> printed;   ///< quotations from the figure's caption and the paper's text
+  Markup ours;                        ///< our reproduction: pictures, charts and tables, with explanations
   std::string measured;               ///< the method, in a sentence or two
-  std::vector<std::string> commands;  ///< that repeat only this one
-  Json numbers;                       ///< an object
+  std::vector<std::string> commands;  ///< commands that repeat only this figure or table
+  Json numbers;                       ///< the measured numbers, as a JSON object
 };
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of the report, each of which can be made separately.
+// Functions that make the parts of the report. Each part can be made separately.
 
 #include <vector>
 

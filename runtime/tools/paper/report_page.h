@@ -14,7 +14,7 @@ struct ReportFacts {
   std::vector<std::pair<std::string, std::string>> machine;  ///< name and value of each property of the machine
   bool quick = false;
   bool pictures = true;
-  bool whole = true;  ///< includes all parts
+  bool whole = true;  ///< the report includes all parts
 };
 
 std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibits);

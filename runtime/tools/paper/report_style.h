@@ -1,9 +1,10 @@
 #pragma once
-// The report's style, for light and dark screens, and for paper.
+// The style sheet of the report, for light and dark screens, and for paper.
 
 namespace sgm::cli {
 
-/// Series are s0 to s5, in colours that differ in lightness too; --ink and the like follow the reader's preference.
+/// Charts use the classes s0 to s5 for their series; the colours also differ in lightness. Variables such as --ink
+/// follow the reader's preference for light or dark.
 inline constexpr const char* kReportStyle = R"css(
 :root {
   color-scheme: light dark;

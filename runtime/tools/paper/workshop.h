@@ -1,5 +1,5 @@
 #pragma once
-// Common resources of the report's parts: the bundled grammars, a renderer, and the pictures.
+// Resources that the report's parts share: the embedded grammars, a renderer, and the pictures drawn so far.
 
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ namespace sgm::cli {
 
 class Workshop {
  public:
-  /// renderer: null if no pictures are drawn; outlives the workshop, as do the options.
+  /// renderer: null if no pictures are drawn. The options, jobs and renderer must outlive the workshop.
   Workshop(const PaperOptions& options, JobSystem& jobs, const Renderer* renderer)
       : options_(options), jobs_(jobs), renderer_(renderer) {}
 
@@ -29,11 +29,11 @@ class Workshop {
   T pick(T full, T quick) const {
     return options_.quick ? std::move(quick) : std::move(full);
   }
-  /// Sets the text of the following progress bars.
+  /// Sets the text beside the following progress bars.
   void begin(std::string doing) { doing_ = std::move(doing); }
   const std::string& doing() const { return doing_; }
 
-  /// Options for one of the bundled grammars, with the report's own backend and threads.
+  /// Options for one of the embedded grammars, with the report's own backend and threads.
   template <class Options = WorldOptions>
   Options on(const std::string& grammar) const {
     Options options;
@@ -42,19 +42,21 @@ class Workshop {
     options.threads = options_.threads;
     return options;
   }
-  /// The name of the bundled grammar of options from on().
+  /// The name of the embedded grammar in options that on() has returned.
   static std::string grammarOf(const WorldOptions& options) { return options.file.substr(kGrammars.size()); }
 
-  /// texture: with texture coordinates. Errors: as meshProgram(); bad_input if there is no surface.
+  /// Meshes the region of the options. texture: also computes texture coordinates. Errors: as meshProgram(); bad_input
+  /// if there is no surface.
   Result<Region> mesh(const WorldOptions& options, bool texture = false) const;
-  /// Measures of the sampled region's welded mesh, as in `sgm measure`.
+  /// Measures the welded mesh of a region with point sampling, as `sgm measure` does.
   Result<measure::MeshMeasures> measure(const MeasureOptions& options) const;
 
-  /// Draws a picture and keeps it as pictures/NAME.png. Returns its element with caption and command, which is also
-  /// added to `commands`; empty if no pictures are drawn. alt: description of the picture.
+  /// Draws a picture and stores it as pictures/NAME.png. Returns the HTML element with caption and command line, and
+  /// appends the command line to `commands`. Returns an empty markup if no pictures are drawn. alt: description of the
+  /// picture for readers who cannot see it.
   Result<Markup> picture(RenderOptions options, const std::string& name, const std::string& alt,
                          const std::string& caption, std::vector<std::string>& commands);
-  /// Side by side.
+  /// Places pictures side by side.
   static Markup row(const Markup& pictures) { return element("div", {{"class", "row"}}, pictures) + Markup{"\n"}; }
 
   const std::vector<FolderFile>& pictures() const { return pictures_; }
@@ -69,7 +71,7 @@ class Workshop {
   std::vector<FolderFile> pictures_;
 };
 
-/// The command that makes only this part of the report.
+/// The command line that makes only this part of the report.
 std::string commandOfPart(const PaperOptions& options, const std::string& part);
 
 }  // namespace sgm::cli

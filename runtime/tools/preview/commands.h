@@ -1,12 +1,12 @@
 #pragma once
-// `sgm preview`.
+// The command `sgm preview`.
 
 #include "tools/support/console.h"
 #include "tools/support/render_options.h"
 
 namespace sgm::cli {
 
-/// Shows a window until the user closes it. Uses the options for a single picture.
+/// Shows a window until the user closes it. Takes the same options as a single picture of `sgm render`.
 Exit showPreview(const RenderOptions& options);
 
 }  // namespace sgm::cli

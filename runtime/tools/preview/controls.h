@@ -1,5 +1,5 @@
 #pragma once
-// The panel of a preview: the user's controls, and messages.
+// The panel of the preview window: the user's controls, and messages.
 
 #include <optional>
 #include <string>
@@ -10,21 +10,22 @@
 
 namespace sgm::preview {
 
-/// The values in the panel; the window requests a picture with them.
+/// The values that the user has set in the panel; the window requests a picture with these values.
 class Controls {
  public:
   explicit Controls(const cli::RenderOptions& options);
 
-  /// Adopts a program's declarations. The user's values stay if they still fit.
+  /// Shows controls for a program's parameters. Values that the user has set stay if they are valid for the new
+  /// program.
   void adopt(const std::shared_ptr<const Program>& program);
-  /// To be called in a Dear ImGui frame. Returns whether a value has changed.
+  /// Draws the panel; must be called within a Dear ImGui frame. Returns whether the user has changed a value.
   bool draw(const Painted& last, bool at_work);
 
   uint64_t seed() const { return seed_; }
-  /// The chosen light, as for --light.
+  /// The chosen light, in the form of --light.
   std::string light() const;
-  /// In the form of --set: parameters that differ from their defaults, and settings of the command line for which the
-  /// program has no parameter.
+  /// Assignments in the form of --set: all parameters that differ from their defaults, and the assignments of the
+  /// command line for which the program has no parameter.
   std::vector<std::string> sets() const;
 
  private:
@@ -32,9 +33,9 @@ class Controls {
 
   uint64_t seed_;
   int light_ = 0;
-  std::vector<std::string> given_;  ///< of the command line
+  std::vector<std::string> given_;  ///< assignments of --set on the command line
   std::shared_ptr<const Program> program_;
-  std::vector<double> values_;  ///< by Program::params
+  std::vector<double> values_;  ///< one for each of Program::params
 };
 
 }  // namespace sgm::preview

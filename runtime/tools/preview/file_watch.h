@@ -1,5 +1,5 @@
 #pragma once
-// Tells whether files have been saved.
+// Detects that files have been saved.
 
 #include <array>
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace sgm::preview {
 
-/// The files of one grammar, in the state of the last read. One thread.
+/// Watches the files of one grammar for changes since they were last read. Must be used by one thread.
 class FileWatch {
  public:
-  /// Also watches files that do not exist yet.
+  /// Starts to watch these files, which need not exist yet.
   void watch(std::vector<std::filesystem::path> files);
 
-  /// Whether a file differs from its state at watch() or at the last true result, and has not changed since the
-  /// previous call. So it waits for editors that write in several steps.
+  /// Whether a file differs from its state at watch() or at the last call that returned true, and has not changed since
+  /// the previous call. The second condition waits for editors that write a file in several steps.
   bool changed();
 
  private:
-  /// Of one file: the time of its last change, and its size plus one; zeros if the file does not exist.
+  /// The state of one file: the time of its last change, and its size plus one; zeros if the file does not exist.
   using Stamp = std::array<int64_t, 2>;
 
   std::vector<Stamp> look() const;

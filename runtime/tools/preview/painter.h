@@ -17,40 +17,43 @@
 
 namespace sgm::preview {
 
-/// A window's request. The file is read again if `edition` differs from the previous wish's.
+/// A request for a picture. The grammar file is read again if `edition` differs from the previous request's.
 struct Wish {
-  cli::RenderOptions options;  ///< an empty camera: one is chosen; `out`, `frame`, `seeds`, `volume` are ignored
+  /// if the camera is empty, the painter chooses one; `out`, `frame`, `seeds`, `volume` are ignored
+  cli::RenderOptions options;
   uint64_t edition = 0;
 };
 
-/// The current result of a wish.
+/// The current result of a request.
 struct Painted {
-  uint64_t wish = 0;                         ///< its number from Painter::wish()
-  std::shared_ptr<const Program> program;    ///< of the grammar; while the text is wrong, the last correct one
-  std::vector<std::filesystem::path> files;  ///< of the grammar; empty if it was not read again
+  uint64_t wish = 0;  ///< the request's number, as Painter::wish() returned it
+  /// the compiled grammar; while the text has errors, the last correct program
+  std::shared_ptr<const Program> program;
+  std::vector<std::filesystem::path> files;  ///< files that the grammar consists of; empty if they were not read again
   bool text_is_wrong = false;
-  std::string messages;                       ///< lines of text; empty: no problems
-  std::shared_ptr<const cli::Region> region;  ///< shown in the picture; null: the previous picture stays
-  std::string box;                            ///< of the picture, as for --region, without the draft's coarse chunks
-  double cell = 0;                            ///< of the picture, metres; a draft's are larger
+  std::string messages;  ///< messages for the user, one on each line; empty: no problems
+  /// the meshed region in the picture; null: the previous picture stays valid
+  std::shared_ptr<const cli::Region> region;
+  std::string box;  ///< region in the picture, as for --region, without the margin that a draft's coarse chunks add
+  double cell = 0;  ///< edge of the picture's grid cells, metres; larger in a draft
   Image image;
   View view;
   Light light = Light::sun;
-  bool draft = false;  ///< a better picture of the same wish will follow
-  double seconds = 0;  ///< since the start of work on the wish
+  bool draft = false;  ///< a better picture of the same request will follow
+  double seconds = 0;  ///< since the painter began to work on the request
 };
 
-/// Paints the newest wish: first a draft with coarse cells in plain colours, then the picture as in `sgm render`. A
-/// newer wish cancels the work on an older one. All functions must be called from one thread.
+/// Paints the newest request: first a draft with coarse cells in plain colours, then the same picture as `sgm render`.
+/// A newer request cancels the work on an older one. All functions must be called from one thread.
 class Painter {
  public:
   /// Errors: those of Renderer::create; limit if no thread can be started.
   static Result<std::unique_ptr<Painter>> create();
   ~Painter();
 
-  /// Returns the wish's number, from 1.
+  /// Requests a picture. Returns the request's number, counted from 1.
   uint64_t wish(Wish wish);
-  /// The newest result that has not been taken.
+  /// Returns the newest result that no call has returned yet; nullopt if there is none.
   std::optional<Painted> take();
 
  private:
@@ -61,8 +64,8 @@ class Painter {
   void publish(Painted painted);
   bool isNewest(uint64_t number) const { return wished_ == number && !ending_; }
 
-  std::unique_ptr<Worker> worker_;  ///< the thread's own
-  std::mutex mutex_;                ///< guards wish_ and result_
+  std::unique_ptr<Worker> worker_;  ///< state that only the painting thread uses
+  std::mutex mutex_;                ///< protects wish_ and result_
   std::condition_variable changed_;
   Wish wish_;
   std::optional<Painted> result_;

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the place of a world under a pointer, and the rules that made it.
+// Finds the point of the world under the mouse pointer, and the grammar rules that made the surface there.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -13,13 +13,14 @@ namespace sgm::preview {
 
 struct PointedPlace {
   std::array<double, 3> position{};  ///< metres of the world
-  std::string path;                  ///< of the use of a rule that made it; empty: the domain itself
-  std::string source;                ///< "file:line:column" of its statement; empty if path is
+  std::string path;                  ///< path of the rule use that made the surface; empty: the grammar's domain itself
+  std::string source;                ///< "file:line:column" of the statement that made the surface; empty if `path` is
   std::string material, tag;         ///< empty: none
 };
 
-/// The first surface on a ray from a place in metres, up to the maximal length; nullopt if there is none. direction
-/// must not be 0. file: the grammar's name in messages. Errors: those of rayCast and of explain.
+/// Finds the first surface on a ray. from: metres of the world; direction: must not be 0. Returns nullopt if there is
+/// no surface within the maximal length. file: name of the grammar in messages. Errors: those of rayCast and of
+/// explain.
 Result<std::optional<PointedPlace>> placeOnRay(const WorldField& world, const std::string& file,
                                                const std::array<double, 3>& from, const glm::dvec3& direction);
 

@@ -15,8 +15,8 @@
 
 namespace sgm::preview {
 
-/// Connects file, controls, camera, painter and window. Prints the user's requests by key or click, and with --json a
-/// line for each picture and message, for tools.
+/// Connects file, controls, camera, painter and window. Prints the results that the user requests by key or click, and
+/// with --json a line for each picture and message, so that other programs can follow.
 class Session {
  public:
   Session(const cli::RenderOptions& options, Painter& painter, Window& window);
@@ -45,8 +45,8 @@ class Session {
   FileWatch files_;
   uint64_t edition_ = 1;
   uint64_t wished_ = 0;
-  std::optional<FreeCamera> camera_;  ///< nullopt: the initial view
-  Painted last_;                      ///< its picture is in the window
+  std::optional<FreeCamera> camera_;  ///< nullopt: the picture shows the initial view
+  Painted last_;                      ///< the result whose picture the window shows
   bool at_work_ = false;
   Clock::time_point frame_at_ = Clock::now();
 

@@ -10,41 +10,43 @@
 
 namespace sgm::preview {
 
-/// State of the mouse, and its changes since the previous frame. Places and distances are shares of the picture: 0..1
-/// from its top left corner.
+/// The state of the mouse, and its changes since the previous frame. Positions and distances are shares of the
+/// picture's size: 0..1 from its top left corner.
 struct Mouse {
   double x = 0, y = 0;
-  bool over_picture = false;  ///< but not over a control
+  bool over_picture = false;  ///< the pointer is over the picture, not over a control
   double moved_x = 0, moved_y = 0;
-  bool left = false, right = false;  ///< held, since a press over the picture
-  bool clicked = false;              ///< the left button was released where it was pressed
-  double wheel = 0;                  ///< steps away from the user
+  bool left = false, right = false;  ///< the button is held since it was pressed over the picture
+  bool clicked = false;              ///< the left button was released at the point where it was pressed
+  double wheel = 0;                  ///< steps of the wheel; positive: away from the user
 };
 
-/// One window at a time. All functions must be called in the thread that opened it, the process's first one.
+/// Only one window may exist at a time. All functions must be called in the thread that opened it, the process's main
+/// thread.
 class Window {
  public:
-  /// Error: unsupported if there is no display or no OpenGL, with the remedy.
+  /// Error: unsupported if there is no display or no OpenGL; the message says what to install or set.
   static Result<std::unique_ptr<Window>> open(const std::string& title, int width, int height);
   ~Window();
 
-  /// Whether the user has closed it, by its button or by Escape.
+  /// Whether the user has closed the window by its button or by Escape.
   bool isClosed() const;
-  /// Returns after an event of the window, or after `seconds`.
+  /// Returns after the next event of the window, or after `seconds`.
   void wait(double seconds);
-  /// Replaces the picture, which is scaled to the window without distortion. Error: unsupported, for its size.
+  /// Replaces the picture, which is scaled to the window without distortion. Error: unsupported if the picture is too
+  /// large.
   Result<void> show(const Image& image);
-  /// Draws the picture and the controls of Dear ImGui. Does nothing if nothing has changed.
+  /// Draws the picture and the controls of Dear ImGui. Does nothing if neither has changed.
   void draw(const std::function<void()>& controls);
-  /// Forces the next frames to be drawn, after changes that the window cannot detect.
+  /// Forces the next frames to be drawn. Needed after changes that the window cannot detect.
   void refresh();
 
   Mouse mouse() const;
-  /// Whether a letter's key, in capitals, is held; false while the user types into a control.
+  /// Whether the key of a capital letter is held; false while the user types into a control.
   bool isHeld(char letter) const;
-  /// Whether it was pressed since the previous frame.
+  /// Whether the key was pressed since the previous frame.
   bool isPressed(char letter) const;
-  /// Of the picture's part of the window, pixels.
+  /// Size of the window's area for the picture, in pixels.
   int width() const;
   int height() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// The brightness of visible surfaces, which sets a camera's exposure.
+// Statistics of the brightness of visible surfaces, which determine a camera's exposure.
 
 #include <array>
 #include <cstddef>
@@ -9,17 +9,18 @@ namespace sgm {
 
 class BrightnessTally {
  public:
-  /// A brightness below 0, or NaN, is not counted.
+  /// Counts a brightness; a value below 0 or NaN is ignored.
   void add(float brightness);
   void add(const BrightnessTally& other);
 
-  /// Logarithmic mean; 0 if nothing was added.
+  /// Geometric mean; 0 if nothing was counted.
   float mean() const;
-  /// 95th percentile, to a twelfth of it; 0 if nothing was added.
+  /// 95th percentile, accurate to a twelfth of its value; 0 if nothing was counted.
   float highlight() const;
 
  private:
-  static constexpr int kFinest = 8, kLeast = 12;  ///< bins for each doubling, from 2^-kLeast on
+  /// bins for each doubling of brightness; the first bin begins at 2^-kLeast
+  static constexpr int kFinest = 8, kLeast = 12;
 
   double logarithms_ = 0;
   uint64_t count_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan functions for drawing, besides those for computing.
+// The Vulkan functions that drawing needs in addition to those for computing.
 
 #include "backend/vulkan/tables.h"
 

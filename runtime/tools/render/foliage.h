@@ -1,5 +1,5 @@
 #pragma once
-// Places the blades of lawns and the leaves of crowns on the mesh.
+// Places blades of grass on lawns and leaves on tree crowns of the mesh.
 
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// Push constants, as shaders/render/foliage.glsl reads them.
+/// Push constants with the layout of shaders/render/foliage.glsl.
 struct FoliageConstants {
   glm::mat4 view_projection;
   glm::vec4 eye, offset;
@@ -21,46 +21,49 @@ static_assert(sizeof(FoliageConstants) <= 128, "no device promises more");
 /// The shape of a sprout; shaders/render/sprout.vert uses the same numbers.
 enum class SproutForm : uint32_t { blade, leaf, white_blossom, yellow_blossom, dry_blade };
 
-/// A blade, a leaf or a blossom, laid out as shaders/render/sprout.vert reads it. Lengths in metres.
+/// A blade, a leaf or a blossom, with the layout that shaders/render/sprout.vert reads. Lengths are metres.
 struct Sprout {
-  glm::vec3 root{0};  ///< of a leaf: its centre
+  glm::vec3 root{0};  ///< foot of a blade; centre of a leaf
   float length = 0;
-  glm::vec3 normal{0};  ///< of the surface that it grows on
+  glm::vec3 normal{0};  ///< normal of the surface on which the sprout grows
   float width = 0;
   uint32_t material = 0;
-  uint32_t lot = 0;  ///< random number, which sets its rotation
+  uint32_t lot = 0;  ///< random number that sets the sprout's rotation
   SproutForm form = SproutForm::blade;
-  float bright = 1;  ///< less than 1 deep in a crown
+  float bright = 1;  ///< factor of its brightness, less than 1 deep in a crown
 };
 static_assert(sizeof(Sprout) == 48);
 
-/// Vertices of a sprout's triangle strip.
+/// Number of vertices in a sprout's triangle strip.
 inline constexpr uint32_t kSproutCorners = 7;
 
-/// The foliage of a picture.
+/// The foliage in a picture.
 struct Foliage {
   FoliageConstants constants;
-  /// The ground between blades, as a list of triangles. RenderVertex::texture.x tells which of its materials is a lawn:
-  /// 1 the first, 2 the second, 3 both; y: height of the blades there, 0..1.
+  /// Triangles of the ground between the blades, three vertices each. RenderVertex::texture.x tells which of the
+  /// vertex's two materials is a lawn: 1 the first, 2 the second, 3 both. texture.y: height of the blades there, 0..1.
   std::vector<RenderVertex> ground;
   std::vector<Sprout> sprouts;
 };
 
-/// Blades and leaves in the picture, of surfaces near enough to show them. With distance they become fewer and larger.
-/// scene must be checked, and frame belong to it. May throw std::bad_alloc.
+/// Makes the blades and leaves in the picture, on surfaces near enough to show them. With distance they become fewer
+/// and larger. scene must be checked, and frame belong to it. May throw std::bad_alloc.
 Foliage foliageOf(const RenderScene& scene, const Frame& frame);
 
 /// Whether leaves are drawn for a material.
 bool hasLeaves(const RenderMaterial& material);
 
-/// Whether a triangle with these corners is part of a crown: its leaves are drawn, and its own surface is not.
+/// Whether a triangle with these corners is part of a tree crown, of which only leaves are drawn, not the surface
+/// itself.
 bool isCrown(const RenderScene& scene, const Frame& frame, const std::array<const RenderVertex*, 3>& corners);
 
-/// Whether a place on a crown's surface is a gap between sprigs; facing: cosine of its normal to the eye.
+/// Whether a point on a crown's surface is a gap between sprigs. facing: cosine between the surface normal and the
+/// direction to the eye.
 bool isCrownGap(const Frame& frame, glm::vec3 position, float facing);
 
-/// The triangles of `indices` to draw besides foliage: crowns with leaves are omitted, since only their leaves and what
-/// is behind them are visible. scene must be checked, and frame belong to it. May throw std::bad_alloc.
+/// The triangles of `indices` that are drawn in addition to foliage. Crowns with leaves are omitted, since only their
+/// leaves and the things behind them are visible. scene must be checked, and frame belong to it. May throw
+/// std::bad_alloc.
 std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform data of the shading pass, with the layout (std140, std430) of shaders/render/frame.glsl.
+// Uniform data of the shading pass, in the layout (std140, std430) of shaders/render/frame.glsl.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -34,20 +34,20 @@ static_assert(sizeof(FrameMaterial) == 32);
 
 bool isFinite(const glm::vec3& v);
 
-/// Error: invalid_argument.
+/// Error: invalid_argument if a value of the camera is out of range or position and target coincide.
 Result<void> checkCamera(const RenderCamera& camera);
 
-/// A camera's picture plane: unit axes, and half its sides at distance 1.
+/// A camera's image plane at distance 1: unit axes, and half of the plane's width and height.
 struct CameraAxes {
   glm::vec3 forward, right, up;
   float half_width, half_height;
 };
-/// camera must be checked.
+/// Contract: checkCamera() accepts the camera.
 CameraAxes axesOf(const RenderCamera& camera);
 
-/// scene must be checked. Frame::land is empty until findLand() fills it.
+/// Contract: the scene is checked. Frame::land is empty until findLand() fills it.
 Frame frameOf(const RenderScene& scene);
-/// Fills the frame's land around the world, from the whole mesh. May throw std::bad_alloc.
+/// Sets the frame's land around the world from the whole mesh. May throw std::bad_alloc.
 void findLand(const RenderScene& scene, Frame& frame);
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
 

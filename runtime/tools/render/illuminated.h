@@ -1,5 +1,5 @@
 #pragma once
-// shaders/render/illumination.h for C++.
+// Includes shaders/render/illumination.h as C++.
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>

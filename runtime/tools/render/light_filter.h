@@ -1,5 +1,6 @@
 #pragma once
-// Removes noise from sparsely sampled light, which changes slowly along a surface but not across its edges.
+// Removes noise from sparsely sampled light. Light changes slowly along a surface, so it is smoothed there, but not
+// across the surface's edges.
 
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace sgm {
 
-/// The surface at each element of a plane.
+/// The visible surface at each element of a plane of light.
 struct Guides {
   Guides(uint32_t w, uint32_t h) : width(w), height(h), positions(size_t{w} * h), normals(size_t{w} * h) {}
 
@@ -17,14 +18,16 @@ struct Guides {
   }
 
   uint32_t width, height;
-  std::vector<glm::vec4> positions;  ///< w: distance from the eye, below 0: no surface
+  /// xyz: metres from the scene's origin; w: distance from the eye, or below 0 if there is no surface
+  std::vector<glm::vec4> positions;
   std::vector<glm::vec3> normals;
 };
 
-/// An edge-avoiding filter by normals and planes (Dammertz et al., "Edge-avoiding a-trous wavelet transform for fast
-/// global illumination filtering", 2010). element: angle of one element in radians. May throw std::bad_alloc.
+/// Smooths soft light by an edge-avoiding filter that compares normals and planes (Dammertz et al., "Edge-avoiding
+/// a-trous wavelet transform for fast global illumination filtering", 2010). element: angle that one element covers, in
+/// radians. May throw std::bad_alloc.
 void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float element, JobSystem& jobs);
-/// Softens the edges of shadows over two pixels; mirrors stay sharp. May throw std::bad_alloc.
+/// Softens the edges of shadows over two pixels; reflections stay sharp. May throw std::bad_alloc.
 void filterDirect(std::vector<DirectLight>& light, const Guides& guides, float element, JobSystem& jobs);
 
 }  // namespace sgm

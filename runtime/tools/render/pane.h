@@ -1,5 +1,5 @@
 #pragma once
-// The unevenness of panes and water, and clouds in reflections.
+// The unevenness of window panes and water, and clouds in reflections.
 
 #include <cmath>
 
@@ -8,10 +8,10 @@
 
 namespace sgm {
 
-/// The normal of a pane at a place in the patterns' own metres: panes are uneven and set by hand, so each mirrors
-/// another, slightly bent part of the sky.
+/// The normal of a pane at a point in the metres of the patterns: panes are uneven and set by hand, so each reflects
+/// another, slightly distorted part of the sky.
 inline vec3 paneNormal(vec3 normal, vec3 p) {
-  // Each sash is slightly askew.
+  // Each sash (the pane's frame) is slightly askew, by a random amount.
   const auto lot = [&](float by) {
     const float v = std::sin(by + 12.99f * std::floor(0.9f * (p.x + p.z)) + 78.23f * std::floor(0.42f * p.y)) * 43.76f;
     return v - std::floor(v) - 0.5f;
@@ -22,7 +22,7 @@ inline vec3 paneNormal(vec3 normal, vec3 p) {
   return glm::normalize(normal + 0.016f * wave + 0.045f * askew);
 }
 
-/// The normal of open water at a place in the patterns' own metres: a light wind makes ripples of several wavelengths
+/// The normal of open water at a point in the metres of the patterns: a light wind makes ripples of several wavelengths
 /// and directions, with varying strength.
 inline vec3 rippledNormal(vec3 normal, vec3 p) {
   constexpr int kWaves = 6;
@@ -40,7 +40,7 @@ inline vec3 rippledNormal(vec3 normal, vec3 p) {
   return glm::normalize(normal + 0.022f * gust * vec3(east, 0, south));
 }
 
-/// The share of a fair sky that clouds hide in an upward direction, roughly as in shaders/render/clouds.glsl.
+/// The share of a fair sky that clouds hide in an upward direction; approximates shaders/render/clouds.glsl.
 inline float mirroredClouds(vec3 direction) {
   const vec3 level = 300.0f * direction / (direction.y + 0.12f);
   return 0.8f * smoothstep(0.45f, 0.85f, 1 - puffHollows(vec3(level.x, 0, level.z), 128, 8));

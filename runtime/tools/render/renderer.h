@@ -14,42 +14,43 @@
 
 namespace sgm {
 
-/// Draws scenes on one Vulkan device, which may be a software one. One thread at a time may use it.
+/// Draws scenes on one Vulkan device, which may be a software device. Not thread-safe.
 ///
 /// The CPU traces the light that reaches each pixel's surface. The device draws the mesh into position, normal and
 /// material planes, supersampled; then a compute shader lights each visible sample once, and averages them into pixels.
 /// The same scene gives the same bytes on the same device and driver.
 class Renderer {
  public:
-  /// Error: unsupported, with the package to install.
+  /// Error: unsupported if there is no usable device; the message names the package to install.
   static Result<Renderer> create(const GpuOptions& options = {});
 
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported;
-  /// cancelled, by scene.go_on.
+  /// Draws a mesh. Errors: invalid_argument (a size, an index or a vertex is out of range, or there is no material),
+  /// out_of_memory, unsupported; cancelled if scene.go_on returns false.
   Result<Image> render(const RenderScene& scene) const;
 
-  /// Errors: invalid_argument (a camera, a size or a number out of range), limit, out_of_memory, unsupported.
+  /// Draws fog. Errors: invalid_argument (a camera, a size or a number is out of range), limit, out_of_memory,
+  /// unsupported.
   Result<VolumePicture> render(const VolumeScene& scene) const;
 
   const vulkan::DeviceInfo& info() const { return device_->info(); }
-  /// Messages of the validation layer; see GpuOptions::validation.
+  /// Messages of Vulkan's validation layer; see GpuOptions::validation.
   std::vector<std::string> messages() const { return device_->messages(); }
 
  private:
   struct Kept;
 
-  /// May throw std::bad_alloc.
+  /// Implements render(), but may throw std::bad_alloc.
   Result<Image> draw(const RenderScene& scene) const;
 
   Renderer(std::unique_ptr<VulkanDevice> device, std::unique_ptr<JobSystem> jobs);
 
   std::unique_ptr<VulkanDevice> device_;
   std::unique_ptr<JobSystem> jobs_;
-  std::unique_ptr<Kept> kept_;  ///< kept between pictures
+  std::unique_ptr<Kept> kept_;  ///< pipelines and buffers that are reused for the next picture
 };
 
 }  // namespace sgm

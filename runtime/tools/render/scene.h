@@ -16,14 +16,16 @@
 
 namespace sgm {
 
-/// Positions in metres from the scene's origin; unit normals out of the solid (zero: the triangle's own).
+/// A vertex: position in metres from the scene's origin; unit normal out of the solid, or zero to use the triangle's
+/// own.
 struct RenderVertex {
   glm::vec3 position{0};
   glm::vec3 normal{0};
   uint32_t material = 0;  ///< index into RenderScene::materials, clamped to the last one
-  uint32_t second = 0;    ///< material to blend with; like the first, the same at all corners of a triangle
-  float share = 0;        ///< of the second here, 0..1
-  /// Texture coordinates, drawn as a checkerboard; if equal at all corners of a triangle, there are none.
+  /// index of a second material to blend with; as the first, the same at all corners of a triangle
+  uint32_t second = 0;
+  float share = 0;  ///< share of the second material at this vertex, 0..1
+  /// Texture coordinates, drawn as a checkerboard. If they are equal at all corners of a triangle, it has no texture.
   glm::vec2 texture{0};
 };
 
@@ -34,19 +36,19 @@ struct RenderMaterial {
   float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
 };
 
-/// The look of a grammar's `mat NAME` (findLook). nullopt if the name is unknown.
+/// The appearance of a grammar's `mat NAME` (findLook). nullopt if the name is unknown.
 std::optional<RenderMaterial> findMaterial(std::string_view name);
-/// As findMaterial, but an unknown name gets a look as well (lookOf).
+/// As findMaterial, but an unknown name also gets an appearance (lookOf).
 RenderMaterial materialByName(std::string_view name);
 
-/// A lamp that shines on all sides and falls off with the square of the distance.
+/// A lamp that shines in all directions. Its light decreases with the square of the distance.
 struct RenderLamp {
   glm::vec3 position{0};  ///< metres from the scene's origin
   glm::vec3 colour{1, 0.9f, 0.75f};
   float reach = 10;  ///< distance in metres at which a facing wall is well lit, above 0
 };
 
-/// Looks from position to target, Y up. Positions in metres from the scene's origin.
+/// A camera at `position` that looks at `target`, with Y up. Positions are metres from the scene's origin.
 struct RenderCamera {
   glm::vec3 position{0};
   glm::vec3 target{0, 0, -1};
@@ -61,22 +63,23 @@ inline constexpr size_t kMaxLamps = 7;
 
 struct RenderScene {
   std::span<const RenderVertex> vertices;
-  std::span<const uint32_t> indices;          ///< three a triangle, counter-clockwise seen from outside the solid
+  std::span<const uint32_t> indices;  ///< three for each triangle, counter-clockwise as seen from outside the solid
   std::span<const RenderMaterial> materials;  ///< at least one
-  /// World position of the scene's origin: patterns are fixed to the world, for any origin of a picture.
+  /// World position of the scene's origin, in units: patterns are fixed to the world, wherever a picture has its
+  /// origin.
   Int3 origin;
   RenderCamera camera;
-  /// The lamp on the explorer's helmet, a little above and beside the camera, aimed where it looks.
+  /// The lamp on the explorer's helmet, a little above and beside the camera, which points in the camera's direction.
   /// Its reach is in metres; its position is ignored.
   RenderLamp headlamp;
-  std::vector<RenderLamp> lamps;  ///< in the scene, at most kMaxLamps
-  float ambient = 0.012f;         ///< light from everywhere, 0..1
+  std::vector<RenderLamp> lamps;  ///< lamps at fixed places, at most kMaxLamps
+  float ambient = 0.012f;         ///< light from all directions, 0..1
   Background background = Background::cave;
   glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun; used under a sky
-  float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
+  float fog_distance = 60;  ///< distance in metres over which haze absorbs about two thirds of the light
   float exposure = 0.85f;
   int supersample = 2;  ///< samples on each side of a pixel, 1..3
-  /// Called from any thread during light tracing; false cancels it with Code::cancelled. May be empty.
+  /// Called from any thread while light is traced; false cancels the picture with Code::cancelled. May be empty.
   std::function<bool()> go_on;
 };
 

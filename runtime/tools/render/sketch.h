@@ -1,5 +1,5 @@
 #pragma once
-// A preview picture in a fraction of a second, for the time until the real one is drawn.
+// Draws a preview picture in a fraction of a second, to be shown until the real picture is drawn.
 
 #include <functional>
 
@@ -12,8 +12,8 @@
 namespace sgm {
 
 /// Draws the scene on the CPU alone: every surface in its material's plain colour, with hard shadows of the scene's
-/// lights, and even ambient light. mesh: a tree over the scene's triangles. The same scene gives the same bytes.
-/// Errors: invalid_argument (a camera out of range, too many lamps, no material), out_of_memory.
+/// lights, and even ambient light. mesh: ray caster over the scene's triangles. The same scene gives the same bytes.
+/// Errors: invalid_argument (a camera value is out of range, there are too many lamps, or no material), out_of_memory.
 Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem& jobs);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// A video, encoded picture by picture by the program ffmpeg.
+// Writes a video; the program ffmpeg encodes it picture by picture.
 
 #include <memory>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace sgm::cli {
 
-/// One thread at a time.
+/// Not thread-safe.
 class VideoFile {
  public:
   struct Format {
@@ -27,9 +27,9 @@ class VideoFile {
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
-  /// The picture must have the given format. Error: io if the encoder has ended.
+  /// Adds a picture, which must have the format's size. Error: io if the encoder has ended.
   Result<void> add(const Image& image);
-  /// Waits for the encoder, then gives the file its name. Error: io.
+  /// Waits until the encoder has finished, then renames the file to its target. Error: io.
   Result<void> commit();
 
  private:

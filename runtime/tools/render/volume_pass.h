@@ -1,5 +1,5 @@
 #pragma once
-// The passes of a picture of fog: light through the volume, rays from the eye, and pixels.
+// The passes of a picture of fog: light through the volume, rays from the eye, and conversion to pixels.
 
 #include "tools/render/volume.h"
 #include "tools/render/vulkan_scope.h"
@@ -17,10 +17,10 @@ struct VolumePass {
   VkPipeline light_pipeline = VK_NULL_HANDLE, march = VK_NULL_HANDLE, compose = VK_NULL_HANDLE;
 };
 
-/// scene must be checked.
+/// Contract: the scene is checked.
 Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene);
 
-/// Afterwards, `light` and `pixels` may be read.
+/// Records the passes. When they have run, `light` and `pixels` may be read.
 void recordVolume(const DrawingTable& calls, VkCommandBuffer commands, const VolumePass& pass);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Our own Vulkan instance and device, which runs one batch of commands at a time.
+// A Vulkan instance and device of our own, which runs one batch of commands at a time.
 
 #include <cstdint>
 #include <functional>
@@ -14,27 +14,28 @@
 namespace sgm {
 
 struct GpuOptions {
-  int index = -1;           ///< index into listGpus(); -1: the fastest kind available
-  bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; an error if it is not installed
+  int index = -1;           ///< index into listGpus(); -1: the device of the fastest kind available
+  bool validation = false;  ///< loads VK_LAYER_KHRONOS_validation; its absence is an error
 };
 
-/// All devices of this machine with Vulkan 1.2; not all of them can mesh. Error: unsupported if there is no device,
-/// loader or driver.
+/// All devices of this machine with Vulkan 1.2, including those that cannot mesh. Error: unsupported if there is no
+/// device, loader or driver.
 Result<std::vector<vulkan::DeviceInfo>> listGpus();
 
-/// Owns the instance, the device and one queue that draws and computes. One thread at a time may use it.
+/// Owns the instance, the device and one queue that draws and computes. Not thread-safe, except messages().
 class VulkanDevice {
  public:
-  /// Error: unsupported (no loader, no driver, no such index, no validation layer), with the package to install.
+  /// Error: unsupported (no loader, no driver, no device with that index, no validation layer); the message names the
+  /// package to install.
   static Result<std::unique_ptr<VulkanDevice>> create(const GpuOptions& options);
   ~VulkanDevice();
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
 
-  /// Records commands by `record`, submits them and waits until they are done.
+  /// Calls `record` to record commands, submits them and waits until they are done.
   Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
 
-  /// Warnings and errors of the validation layer so far; empty without it. Any thread.
+  /// Warnings and errors of the validation layer so far; empty if the layer is not loaded. Thread-safe.
   std::vector<std::string> messages() const { return instance_->messages(); }
 
   const vulkan::DeviceInfo& info() const { return info_; }

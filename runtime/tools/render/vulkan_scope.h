@@ -1,5 +1,5 @@
 #pragma once
-// Vulkan objects whose lifetime is that of the scope that made them.
+// Vulkan objects that are destroyed together at the end of a scope.
 
 #include <cstddef>
 #include <functional>
@@ -11,21 +11,21 @@
 
 namespace sgm {
 
-/// Host-visible, coherent and permanently mapped. Each uploaded byte is read about once, so copying to device memory
-/// would cost as much as reading it in place.
+/// A host-visible, coherent and permanently mapped buffer. Each uploaded byte is read about once, so copying it to
+/// device memory would take as long as reading it in place.
 struct VulkanBuffer {
   VkBuffer handle = VK_NULL_HANDLE;
   std::byte* data = nullptr;
   VkDeviceSize size = 0;
 };
 
-/// Device-local, one mip level, with a view of the whole.
+/// A device-local image with one mip level, and a view of the whole image.
 struct VulkanImage {
   VkImage handle = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;
 };
 
-/// Creates objects, and destroys them in reverse order in its destructor. Not thread-safe.
+/// Creates Vulkan objects, and destroys them in reverse order in its destructor. Not thread-safe.
 class VulkanScope {
  public:
   explicit VulkanScope(const VulkanDevice& device) : device_(device) {}
@@ -33,18 +33,18 @@ class VulkanScope {
   VulkanScope(const VulkanScope&) = delete;
   VulkanScope& operator=(const VulkanScope&) = delete;
 
-  /// bytes > 0.
+  /// Precondition: bytes > 0.
   Result<VulkanBuffer> buffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
   Result<VulkanImage> image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect);
-  /// Of three dimensions, in colour.
+  /// A three-dimensional colour image.
   Result<VulkanImage> volume(VkExtent3D extent, VkFormat format, VkImageUsageFlags usage);
-  /// Clamped to the edge.
+  /// A sampler whose coordinates are clamped to the edge.
   Result<VkSampler> sampler(VkFilter filter = VK_FILTER_NEAREST);
   Result<VkShaderModule> shader(std::span<const uint32_t> spirv);
-  /// One set of one descriptor a binding, numbered from 0, all visible to `stages`.
+  /// Layout of a set with one descriptor for each binding, numbered from 0, all visible to `stages`.
   Result<VkDescriptorSetLayout> setLayout(std::span<const VkDescriptorType> types, VkShaderStageFlags stages);
   Result<VkDescriptorSet> descriptorSet(VkDescriptorSetLayout layout, std::span<const VkDescriptorType> types);
-  /// set may be null: no descriptors; push_bytes 0: no push constants.
+  /// set: null for a layout without descriptors. push_bytes: 0 for a layout without push constants.
   Result<VkPipelineLayout> pipelineLayout(VkDescriptorSetLayout set, VkShaderStageFlags stages, uint32_t push_bytes);
   Result<VkPipeline> computePipeline(VkShaderModule shader, VkPipelineLayout layout);
   Result<VkRenderPass> renderPass(const VkRenderPassCreateInfo& info);

@@ -1,5 +1,5 @@
 #pragma once
-// The whole service: two ports, watched worlds, inspected uploads.
+// The whole metrics service: two HTTP ports, watched worlds, inspected uploads.
 
 #include <chrono>
 #include <memory>
@@ -22,18 +22,18 @@ struct ServiceSettings {
   WorkSettings work;
 };
 
-/// Thread-safe, except for its destruction.
+/// Thread-safe, except the destructor.
 class Service {
  public:
   /// Listens from now on. Errors: those of Access, Inspector, WatchedWorlds and Server.
   static Result<std::unique_ptr<Service>> start(const ServiceSettings& settings);
-  /// As stop(0).
+  /// Same as stop(0).
   ~Service();
 
   uint16_t workPort() const;
   uint16_t operationsPort() const;
   WatchedWorlds& worlds();
-  /// Accepts no more requests, answers the current ones within `grace`, and ends. Blocks.
+  /// Accepts no more requests, waits at most `grace` for the answers to current requests, and ends. Blocks.
   void stop(std::chrono::milliseconds grace);
 
  private:

@@ -5,7 +5,7 @@
 
 namespace sgm::cli {
 
-/// Reads the command line and runs its command. Throws std::bad_alloc, and exceptions of the command.
+/// Parses the command line and runs its command. Throws std::bad_alloc, and the exceptions of the command.
 Exit runCommandLine(int argc, char** argv);
 
 }  // namespace sgm::cli

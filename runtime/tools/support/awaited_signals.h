@@ -1,9 +1,10 @@
 #pragma once
-// Lets a command wait for ending signals instead of being ended by them.
+// Lets a command wait for signals that would otherwise end it.
 
 namespace sgm::cli {
 
-/// Blocks SIGINT, SIGTERM and SIGHUP in this thread, and in the threads that it starts, until wait() or pass().
+/// Blocks SIGINT, SIGTERM and SIGHUP in this thread, and in the threads that it starts, until wait() or pass() is
+/// called.
 class AwaitedSignals {
  public:
   AwaitedSignals();
@@ -11,18 +12,19 @@ class AwaitedSignals {
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  /// Whether a signal is pending. Never blocks.
+  /// Whether one of these signals is pending. Never blocks.
   bool came();
-  /// Ends the process by the signal that came(), as if it had never been blocked.
+  /// Ends the process by the signal that came() has found, as if that signal had never been blocked.
   void pass();
-  /// Blocks until a signal arrives; returns at once if came(). The next signal ends the process.
+  /// Blocks until one of these signals arrives; returns immediately if came() has found one. The next signal ends the
+  /// process.
   void wait();
 
  private:
   void release();
 
   bool held_ = true;
-  int came_ = 0;  ///< the signal
+  int came_ = 0;  ///< the signal that came() or wait() has found; 0: none
 };
 
 }  // namespace sgm::cli

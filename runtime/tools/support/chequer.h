@@ -8,7 +8,7 @@
 
 namespace sgm::cli {
 
-/// A .png file of one tile: 2 x 2 squares, a red line along u and a green one along v.
+/// The bytes of a .png file with one tile of the texture: 2 x 2 squares, a red line along u and a green line along v.
 Result<std::vector<std::byte>> chequerPng();
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Checks that a region has the surface and the anchors that a picture needs.
+// Checks that a region has the surface and the anchors that a picture of it needs.
 
 #include <span>
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace sgm::cli {
 
-/// Error: invalid_argument if no anchor has the wanted name, kind or tag. An empty name accepts all.
+/// Checks that an anchor has the wanted name, kind or tag; an empty `wanted` accepts everything. Error:
+/// invalid_argument if there is none.
 Result<void> checkAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted);
 
-/// Error: invalid_argument if the region has no surface, or not the anchor that --at names.
+/// Error: invalid_argument if the region has no surface, or lacks the anchor that --at names.
 Result<void> checkDrawable(const RenderOptions& options, const Region& region);
 
 }  // namespace sgm::cli

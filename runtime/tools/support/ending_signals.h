@@ -1,5 +1,5 @@
 #pragma once
-// Work that an ending signal must not interrupt.
+// Defers signals that end the process during work that they must not interrupt.
 
 #include <unistd.h>
 
@@ -10,12 +10,14 @@
 
 namespace sgm::cli {
 
-/// Defers signals that would end the process while critical work is done. A signal mask is not enough: it holds for one
-/// thread, and the signal goes to another. Works only if the signal handler asks waits(). Thread-safe.
+/// Defers signals that would end the process while critical work is done. Blocking the signals is not enough: a signal
+/// mask applies to one thread only, and the system would deliver the signal to another. Works only if the signal
+/// handler calls waits(). Thread-safe.
 class EndingSignals {
  public:
-  /// For the handler, before it ends the process: whether the signal is deferred. It is raised again when the critical
-  /// work is done. Neither locks nor allocates.
+  /// Must be called by the signal handler before it ends the process. Returns whether the signal is deferred; if so,
+  /// the handler must return, and the signal is raised again when the critical work is done. Neither locks nor
+  /// allocates.
   bool waits(int signal) noexcept {
     int state = kOpen;
     while (!state_.compare_exchange_weak(state, state == kOpen ? kEnding : state == kHeld ? signal : state)) {
@@ -25,19 +27,20 @@ class EndingSignals {
 
  private:
   friend class Uninterrupted;
-  static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;  // or the deferred signal
+  // values of state_; a positive value is the number of the deferred signal
+  static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;
 
   std::atomic<int> state_{kOpen};
 };
 
-/// Defers ending signals during its lifetime. signals: must outlive this; null (nothing is deferred) if no signal
-/// handler calls signals->waits(). At most one Uninterrupted exists for an EndingSignals.
+/// Defers ending signals during its lifetime. signals: must outlive this object; null, with which nothing is deferred,
+/// if no signal handler calls signals->waits(). At most one Uninterrupted may exist for an EndingSignals.
 class Uninterrupted {
  public:
   explicit Uninterrupted(EndingSignals* signals) : signals_(signals) {
     if (signals_ == nullptr) return;
     int open = EndingSignals::kOpen;
-    // Another thread's handler is about to end the process.
+    // The signal handler, in another thread, is about to end the process: wait for that end.
     if (!signals_->state_.compare_exchange_strong(open, EndingSignals::kHeld))
       for (;;) pause();
   }
@@ -53,7 +56,8 @@ class Uninterrupted {
   EndingSignals* signals_;
 };
 
-/// Global, because a signal handler has no other access: the files that it removes, and the work that it waits for.
+/// Global variables, because a signal handler cannot reach anything else: the files that it removes, and the work that
+/// it must not interrupt.
 extern UnfinishedFiles unfinished_files;
 extern EndingSignals ending_signals;
 

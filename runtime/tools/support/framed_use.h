@@ -1,5 +1,5 @@
 #pragma once
-// `sgm render --frame`, from the options to a camera.
+// `sgm render --frame`: chooses the region and the camera that show a use of a rule.
 
 #include <optional>
 #include <span>
@@ -11,24 +11,25 @@
 
 namespace sgm::cli {
 
-/// The use that a picture shows.
+/// The use of a rule that a picture shows.
 struct FramedUse {
   std::string path;
-  IntBox bounds;        ///< units
-  bool inside = false;  ///< whether the use is a hollow that encloses the camera; if not:
-  double seen = 0;      ///< visible share of its near side
-  double fill = 0;      ///< share of the picture's height or width that it fills
+  IntBox bounds;  ///< bounds of the use's shapes, units
+  /// whether the use is a hollow that encloses the camera; otherwise `seen` and `fill` are valid:
+  bool inside = false;
+  double seen = 0;  ///< share of the use's surfaces facing the camera that nothing hides
+  double fill = 0;  ///< share of the picture's height or width that the use fills
 };
 
 Json toJson(const FramedUse& use);
 std::string textOf(const FramedUse& use);
 
-/// Makes the plan reject an unknown rule, and choose a region around the use nearest to the origin. The options must
-/// outlive the plan.
+/// Extends the plan: an unknown rule is rejected, and the region is chosen around the use nearest to the origin. The
+/// options must outlive the plan.
 void planFrame(const RenderOptions& options, RegionPlan& plan);
 
-/// A view of the use that is seen best. Contract: the region was meshed by planFrame()'s plan. Errors: invalid_argument
-/// if the region has no use, or no visible one; errors of derivation.
+/// The view of the use that is most visible. Contract: the region was meshed with the plan of planFrame(). Errors:
+/// invalid_argument if the region contains no use, or no visible use; errors of derivation.
 Result<View> frameUse(const RenderOptions& options, const Region& region, std::span<const RenderVertex> vertices,
                       std::span<const uint32_t> indices, std::optional<FramedUse>& framed);
 

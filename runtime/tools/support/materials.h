@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-/// Indexed as Program::materials; at least one. The nameless first is plain rock.
+/// One material for each of Program::materials; at least one. The first material, which has no name, is plain rock.
 std::vector<RenderMaterial> renderMaterials(const Program& program);
 std::vector<ExportMaterial> exportMaterials(const Program& program);
 

@@ -12,13 +12,14 @@
 
 namespace sgm::cli {
 
-/// Whether the path's name ends in .sgm, in any case, as meshFileKind() treats names of meshes.
+/// Whether the path's file name ends in .sgm, in upper or lower case, as meshFileKind() treats names of mesh files.
 bool isGrammarFile(const std::string& path);
 
-/// The triangles of a file in memory, of any number. Errors: those of readMesh.
+/// Reads a mesh file from memory, with any number of triangles. Errors: those of readMesh.
 Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind);
 
-/// Prints the reader's notes to stderr, a line each. Errors: io; those of readMesh, with the file's name in front.
+/// Reads a mesh file, and prints the reader's notes to stderr, one on each line. Errors: io; those of readMesh, with
+/// the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file);
 
 /// In a sandboxed process: the answer to askSandboxForMesh(), which has only points, triangles and the origin of the
@@ -27,10 +28,11 @@ Result<std::string> meshFileAnswer(const std::string& file);
 /// The mesh of a file that the sandboxed process reads. Errors: those of readMeshFile and askSandbox.
 Result<asset::TriangleMesh> askSandboxForMesh(const std::string& file, const SandboxOptions& options);
 
-/// The box that was meshed, relative to the mesh's origin.
+/// The box that was meshed, relative to the mesh's origin, at whose faces the surface may be cut.
 measure::Cut cutOf(const Region& region);
 
-/// Positions in metres from its origin; the mesh before its creases were split, if they were.
+/// The region's mesh, with positions in metres from its origin. If creases were split for sharp features, the mesh
+/// before the split.
 asset::TriangleMesh trianglesOf(const Region& region);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The density of a meshed region at the corners of its cells, which `sgm render --volume` draws.
+// Samples the density of a meshed region at the corners of its cells; `sgm render --volume` draws it.
 
 #include "query/density_grid.h"
 #include "tools/support/region.h"
@@ -13,7 +13,7 @@ struct RegionDensity {
   double seconds = 0;
 };
 
-/// Error: invalid_argument if the grammar's solid is not fog, with the statement to write.
+/// Error: invalid_argument if the grammar's solid is not fog; the message names the statement to write.
 Result<void> checkDensity(const Program& program);
 
 /// Shows a progress bar if stderr is a terminal. Errors: as sampleDensity(), limit, out_of_memory.

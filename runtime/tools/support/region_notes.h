@@ -1,5 +1,5 @@
 #pragma once
-// Notes for users on meshes that may surprise them.
+// Notes to the user about meshes that may differ from the expected ones.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace sgm::cli {
 
-/// Why a region has no triangle, and what to try, in one sentence. Errors: those of derivation.
+/// Explains in one sentence why a region has no triangle, and suggests what to try. Errors: those of derivation.
 Result<std::string> whyEmpty(const WorldField& world, const Region& region);
 
-/// Lists parts thinner than a cell on stderr, a line for each rule.
+/// Prints to stderr which parts are thinner than a cell, one line for each rule.
 void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell);
 
-/// Warns on stderr of treemaps whose walls are thinner than a cell.
+/// Warns on stderr about treemaps whose walls are thinner than a cell.
 void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell);
 
 }  // namespace sgm::cli

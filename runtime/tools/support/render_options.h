@@ -14,14 +14,16 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
-  std::optional<double> pixels;        ///< maximal size of a cell in the picture, which may make cells smaller
-  std::string light = "auto";          ///< sun, lamp, none, or auto: chosen by what the camera sees
-  bool volume = false;                 ///< draws the solid as fog instead of its surface
-  bool wires = false;                  ///< the mesh's edges, without materials
-  std::string frame;                   ///< a rule or a path of uses, of which the camera shows one use; empty: none
-  std::string seeds;                   ///< of a contact sheet, as for readSeeds; empty: one picture of `seed`
-  bool plan = false;                   ///< a survey's plan instead of a picture
-  std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it
+  /// maximal size of a grid cell in the picture, in pixels; cells are made smaller to satisfy it
+  std::optional<double> pixels;
+  std::string light = "auto";  ///< sun, lamp, none, or auto, which measures how much sky is visible
+  bool volume = false;         ///< draws the solid as fog instead of its surface
+  bool wires = false;          ///< also draws the mesh's edges, and no materials
+  std::string frame;           ///< a rule or a path of rule uses, one of which the camera shows; empty: none
+  std::string seeds;  ///< seeds of a contact sheet, in the form of readSeeds(); empty: one picture with the seed `seed`
+  bool plan = false;  ///< draws the plan of a survey instead of a picture
+  /// draws a long section: "" chooses its line, otherwise the line in the form of survey::readCutLine()
+  std::optional<std::string> section;
 };
 
 }  // namespace sgm::cli

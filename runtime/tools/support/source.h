@@ -1,5 +1,5 @@
 #pragma once
-// A grammar file, read and compiled, with its messages.
+// Reads and compiles a grammar file, and prints the compiler's messages.
 
 #include <optional>
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace sgm::cli {
 
-/// Reads a text of at most the compiler's own limit. Errors: io, limit.
+/// Reads a text of at most the size that the compiler accepts. Errors: io, limit.
 Result<std::string> readGrammarText(const std::string& file);
 
-/// Compiles the file; imports come from its folder. Errors (io, limit) only if the file itself cannot be read: problems
-/// in the text are in the diagnostics.
+/// Compiles a file; its imports are searched in its folder. Errors (io, limit) only if the file itself cannot be read:
+/// errors in the text are diagnostics of the result.
 Result<CompileResult> compileFile(const std::string& file);
 
-/// The same for a file that may be a library for others to import.
+/// As compileFile(), but also accepts a library, a file that has only rules for other files to import.
 Result<CheckResult> checkFileOnDisk(const std::string& file);
 
-/// As compileFile, but prints every message to stderr as "file:line:column: error: ..." with the line and a caret.
-/// Without a program, `status` is the exit status.
+/// Compiles a file as compileFile() does, and prints every message to stderr as "file:line:column: error: ..." with the
+/// source line and a caret. If `program` is null, `status` is the exit status.
 struct LoadedGrammar {
   std::shared_ptr<const Program> program;
   Exit status = Exit::done;

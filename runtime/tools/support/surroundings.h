@@ -1,5 +1,5 @@
 #pragma once
-// Chooses the default region in an endless world.
+// Chooses the region of an endless world if the options do not give one.
 
 #include <array>
 #include <string_view>
@@ -9,18 +9,19 @@
 
 namespace sgm::cli {
 
-/// Whether an anchor's name, kind or tag equals `wanted`; an empty one accepts all.
+/// Whether an anchor's name, kind or tag equals `wanted`; an empty `wanted` accepts every anchor.
 bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted);
 
-/// Boxes that meet the region, of elements that differ from the domain: shapes in air, cavities in rock.
+/// Boxes of the elements in the region that differ from the domain: shapes in air, cavities in rock.
 Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& region);
 
-/// 48 m to each side of a place in metres.
+/// The box that extends 48 m to each side of a place in metres.
 IntBox surroundingsOf(const std::array<double, 3>& place);
 
-/// The surroundings of the wanted anchor nearest to the world's origin. Without an anchor within 512 m and without a
-/// wanted one: the surroundings of the origin, or if these are empty, the shape nearest to it, up to 8 km off, with the
-/// shapes whose boxes touch its box, to a size of 1 km. Errors: those of derivation.
+/// The default region. It surrounds the anchor nearest to the world's origin, within 512 m, that isWanted() accepts. If
+/// there is no such anchor and wanted_anchor is empty, it surrounds the origin. If that region is empty, it contains
+/// the shape nearest to the origin, at most 8 km away, and the shapes whose boxes touch that shape's box, up to a size
+/// of 1 km. Errors: those of derivation.
 Result<IntBox> surroundings(const WorldField& world, std::string_view wanted_anchor);
 
 }  // namespace sgm::cli

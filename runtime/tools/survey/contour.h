@@ -1,5 +1,5 @@
 #pragma once
-// Values on a square grid, and their contours.
+// Values on a square grid, and their contour lines.
 
 #include <limits>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace sgm::survey {
 
-/// Missing value: contours end beside it.
+/// Value of a point whose value is unknown: contours end beside such points.
 inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Values at points (x, y), x along rows.
+/// Values at the grid points (x, y); x varies fastest.
 struct Grid {
   int width = 0, height = 0;
   std::vector<float> values;
@@ -25,21 +25,23 @@ struct Grid {
   float& at(int x, int y) { return values[index(x, y)]; }
   float at(int x, int y) const { return values[index(x, y)]; }
   bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
-  /// Interpolated; kUnknown if one of the four neighbours is, and outside the grid.
+  /// The bilinearly interpolated value; kUnknown outside the grid, or if one of the four neighbouring values is
+  /// unknown.
   float between(Point p) const;
 };
 
-/// Marching squares: lines in steps of the grid, with larger values on their right as y points down. A closed line ends
-/// with its start.
+/// Contours by marching squares, in grid coordinates. Larger values lie on the right of a line if y points down. The
+/// last point of a closed line equals its first point.
 std::vector<Line> contours(const Grid& grid, float level);
 
-/// The same, closed along the grid's border: rings around all areas above the level. Every value must be known.
+/// The boundaries of all areas above the level, as closed rings that follow the grid's border where an area reaches it.
+/// Every value must be known.
 std::vector<Line> areasAbove(const Grid& grid, float level);
 
-/// Cuts corners twice (Chaikin 1974); ends stay, rings stay rings.
+/// Smooths a line by cutting its corners twice (Chaikin 1974). Ends of open lines stay, closed lines stay closed.
 Line smoothed(const Line& line);
 
-/// The parts of a line whose points satisfy `wanted`.
+/// The parts of a line whose points all satisfy `wanted`.
 template <class Wanted>
 std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   std::vector<Line> parts;
@@ -56,15 +58,15 @@ std::vector<Line> partsOf(const Line& line, const Wanted& wanted) {
   return parts;
 }
 
-/// Replaces each value by the mean of its known neighbours, `times` times.
+/// Replaces each value by the mean of its known neighbours, and repeats this `times` times.
 void soften(Grid& grid, int times);
 
-/// Fills unknown values beside known ones with the mean of these, `times` times.
+/// Sets unknown values beside known ones to the mean of these, and repeats this `times` times.
 void spread(Grid& grid, int times);
 
 double lengthOf(const Line& line);
 
-/// Area above 0 in squares of the grid, estimated from the depths of its points.
+/// Area of the parts above 0, in grid squares, estimated from the values at the points.
 double squaresAbove(const Grid& grid);
 
 }  // namespace sgm::survey

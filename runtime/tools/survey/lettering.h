@@ -1,5 +1,5 @@
 #pragma once
-// Letters as pen strokes: identical in SVG files and pixels, independent of installed fonts.
+// Letters as pen strokes, which are identical in SVG files and pictures, and independent of installed fonts.
 
 #include <string_view>
 
@@ -9,10 +9,11 @@ namespace sgm::survey {
 
 enum class Align { left, middle, right };
 
-/// Width of the text in pixels, with capitals of this height.
+/// Width of the text in pixels. height: height of capital letters, pixels.
 double letterWidth(std::string_view text, double height);
 
-/// The text with its baseline at `at`. Characters beyond ASCII are drawn as question marks. height: of capitals.
+/// The strokes of a text whose baseline is at `at`. Characters beyond ASCII are drawn as question marks. height: height
+/// of capital letters, pixels.
 Mark lettering(std::string_view text, Point at, double height, Align align = Align::left, Ink ink = kBlack);
 
 }  // namespace sgm::survey

@@ -1,5 +1,5 @@
 #pragma once
-// A survey's plan: a caver's drawing of a passage, seen from above.
+// The plan of a survey: a passage seen from above, in the manner of cavers' drawings.
 
 #include <set>
 
@@ -7,12 +7,12 @@
 
 namespace sgm::survey {
 
-/// Colours of water and of its edges.
+/// Colours of water and of its shores.
 inline constexpr Ink kWater{205, 228, 246}, kShore{30, 100, 180};
-/// Colour of solid objects.
+/// Colour of solid objects in an open world.
 inline constexpr Ink kBuilt{230, 230, 226};
 
-/// Materials with signs, by index in Program::materials.
+/// The materials that have signs of their own in a plan, by their indices in Program::materials.
 struct MaterialSigns {
   std::vector<bool> water, dripstone;
   bool isWater(uint32_t label) const { return has(water, label); }
@@ -25,23 +25,23 @@ struct MaterialSigns {
   }
 };
 
-/// "-12"; never "-0".
+/// A height in whole metres: "-12"; never "-0".
 std::string wholeMetres(double height);
 
 MaterialSigns signsFor(const Program& program);
 
-/// Placement of a grid on the paper.
+/// Position and scale of a grid on the paper.
 struct Placement {
-  Point corner;      ///< place of its point (0, 0)
-  double scale = 1;  ///< pixels per step
+  Point corner;      ///< position of the grid point (0, 0), pixels
+  double scale = 1;  ///< pixels for each grid step
   Point at(Point p) const { return {corner.x + scale * p.x, corner.y + scale * p.y}; }
   Line at(const Line& line) const;
 };
 
-/// Rectangles of the paper that letters occupy.
+/// The rectangles of the paper that lettering occupies, so that texts do not overlap.
 class Lettered {
  public:
-  /// Whether a rectangle around the middle is free; if so, occupies it.
+  /// Whether a rectangle with this centre and size overlaps no occupied one; if so, the rectangle becomes occupied.
   bool take(Point middle, double width, double height);
 
  private:
@@ -51,28 +51,30 @@ class Lettered {
   std::vector<Room> rooms_;
 };
 
-/// Numbers of a plan; metres.
+/// Figures of a plan; lengths in metres.
 struct PlanFigures {
-  double interval = 0;             ///< between contours; 0: no contours
-  double area = 0;                 ///< of the subject seen from above, m2
-  double lowest = 0, highest = 0;  ///< of floors, or of the solid's top
-  std::set<double> water;          ///< levels, to a tenth
-  size_t dripstones = 0;           ///< signs drawn
-  size_t leads = 0;                ///< places where a passage continues beyond the region
+  double interval = 0;             ///< height difference between contours; 0: there are no contours
+  double area = 0;                 ///< area of the subject as seen from above, m2
+  double lowest = 0, highest = 0;  ///< heights of floors, or of the solid's top
+  std::set<double> water;          ///< heights of water surfaces, rounded to a tenth of a metre
+  size_t dripstones = 0;           ///< number of drawn signs for dripstones
+  size_t leads = 0;                ///< number of places at which a passage continues beyond the region
   bool empty = true;
 };
 
-/// Heights of surfaces visible from above: floors of the hollow, tops of the solid; kUnknown elsewhere.
+/// Heights of the surfaces that are visible from above: floors of a hollow, tops of a solid; kUnknown where there is
+/// none.
 Grid heightsIn(const Columns& columns);
 
 PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
-/// Draws floors by contours, with hachures where they are steep, and ceilings by dashes at their steps. Returns the
-/// contour interval in metres; 0 without contours.
+/// Draws floors as contours, with hachures where they are steep, and the edges of steps in the ceiling as dashed lines.
+/// Returns the height difference between contours in metres; 0 if there are no contours.
 double drawRelief(const Columns& columns, const MaterialSigns& signs, const Placement& place, Lettered& lettered,
                   Drawing& drawing);
 
-/// Draws signs for stalagmites, stalactites and columns, and outlines of larger flowstone. Returns the number of signs.
+/// Draws signs for stalagmites, stalactites and columns, and the outlines of larger flowstone. Returns the number of
+/// signs.
 size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
 }  // namespace sgm::survey

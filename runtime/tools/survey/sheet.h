@@ -1,5 +1,6 @@
 #pragma once
-// A sheet of paper with a plan, a long section, or both at one scale; a title, a scale bar, and a north arrow.
+// A sheet of paper with a plan, a long section, or both at the same scale; with a title, a scale bar, and a north
+// arrow.
 
 #include <optional>
 
@@ -9,22 +10,22 @@ namespace sgm::survey {
 
 struct SheetWish {
   int width = 1600, height = 1200;  ///< pixels
-  bool plan = true;                 ///< if false, the section alone
-  std::string title;                ///< "cave.sgm"
-  std::string subtitle;             ///< seed and region
+  bool plan = true;                 ///< draws a plan; if false, the section alone
+  std::string title;                ///< text such as "cave.sgm"
+  std::string subtitle;             ///< text with seed and region
 };
 
 struct SheetFigures {
-  double scale = 0;  ///< pixels per metre
+  double scale = 0;  ///< pixels for each metre
   PlanFigures plan;
   SectionFigures section;
 };
 
-/// Minimal width and height of a sheet, pixels.
+/// Minimum width and height of a sheet, pixels.
 inline constexpr int kLeastSheet = 320;
 
-/// slice: null: the plan alone. Contract: the plan or the slice is requested, and the sheet has at least kLeastSheet
-/// pixels on each edge.
+/// Draws the sheet. slice: the section to draw; null: the plan alone. Contract: wish.plan is set or slice is not null,
+/// and each edge of the sheet has at least kLeastSheet pixels.
 Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetWish& wish,
                   SheetFigures& figures);
 

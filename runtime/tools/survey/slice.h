@@ -1,5 +1,5 @@
 #pragma once
-// A vertical cut through a region's field, along a line seen from above.
+// Samples a region's field on a vertical cut along a line seen from above.
 
 #include <optional>
 #include <string_view>
@@ -8,32 +8,32 @@
 
 namespace sgm::survey {
 
-/// The line of a section, metres of the world.
+/// Ends of the line along which a section cuts, as seen from above; metres of the world.
 struct CutLine {
   double x0 = 0, z0 = 0, x1 = 0, z1 = 0;
   double length() const;
 };
 
-/// "X,Z:X,Z" in metres; nullopt if the text is not two different places of the world.
+/// Parses "X,Z:X,Z" in metres; nullopt if the text is not a pair of different places of the world.
 std::optional<CutLine> readCutLine(std::string_view text);
 
-/// Along the region's longer horizontal axis, where the cut area of the subject is largest.
+/// A cut parallel to the region's longer horizontal axis, at the place where it meets the largest area of the subject.
 CutLine longestCut(const Columns& columns);
 
-/// Samples on the cut: x counts steps along the line, y counts steps down from the top.
+/// Samples on the cut: column x counts steps along the line, row y counts steps down from the top.
 struct Slice {
   CutLine line;
   Subject subject = Subject::hollow;
-  double step = 0;              ///< metres
-  double top = 0;               ///< metres: height of row 0
-  Grid depth;                   ///< in the subject, steps, at most 2; negative outside
-  std::vector<uint32_t> label;  ///< tag << 16 | material of samples in the solid; otherwise 0
-  Grid beyond;                  ///< the projection of the subject of all columns: 1 or -1
+  double step = 0;              ///< distance between samples, metres
+  double top = 0;               ///< height of row 0, metres
+  Grid depth;                   ///< depth of each sample inside the subject, in steps, at most 2; negative outside
+  std::vector<uint32_t> label;  ///< for each sample in the solid: tag << 16 | material; otherwise 0
+  Grid beyond;  ///< the subject of all columns projected onto the cut: 1 inside the projection, -1 outside
 
   double heightAt(double row) const { return top - row * step; }
 };
 
-/// The cut through the columns' region. Errors: invalid_argument if the line does not meet the region; those of
+/// Samples the cut within the columns' region. Errors: invalid_argument if the line does not meet the region; those of
 /// compiling the field.
 Result<Slice> sampleSlice(const WorldField& world, const Columns& columns, int level, const CutLine& line,
                           JobSystem& jobs);

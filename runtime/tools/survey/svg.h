@@ -7,8 +7,8 @@
 
 namespace sgm::survey {
 
-/// Every mark is a path whose class is its name. Lettering has its text as a label for screen readers and searches.
-/// title: of the whole file.
+/// The text of an SVG file. Every mark becomes a path whose class is the mark's name. Lettering gets its text as a
+/// label for screen readers and searches. title: title of the whole file.
 std::string svgText(const Drawing& drawing, std::string_view title);
 
 }  // namespace sgm::survey

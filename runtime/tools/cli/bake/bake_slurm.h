@@ -1,5 +1,5 @@
 #pragma once
-// sgm bake --slurm: submits a bake, and shows its progress.
+// sgm bake --slurm: submits a bake as jobs of the cluster manager Slurm, and shows its progress.
 
 #include <functional>
 
@@ -9,9 +9,10 @@
 
 namespace sgm::cli {
 
-/// Submits a bake into an existing store, or finds its running jobs; unless --detach, waits for their end, with a
-/// progress bar on a terminal. Interrupting it stops only the waiting. name: of the bake, the same for the same bake.
-/// isThere: whether the store has the world, since Slurm's job records cannot tell.
+/// Submits a bake into an existing store, or finds the jobs of an earlier call that still run. Unless --detach is
+/// given, waits for the jobs' end, with a progress bar on a terminal; interrupting the command ends only the waiting.
+/// name: identifies the bake; the same options must give the same name. isThere: returns whether the store contains the
+/// world, because Slurm's job records cannot tell whether the bake succeeded.
 Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere);
 
 }  // namespace sgm::cli

@@ -1,6 +1,7 @@
 #pragma once
-// A bake as jobs of Slurm: an array of shards, the merge after all have succeeded, then the verification. If a node
-// dies, Slurm restarts its shard, which keeps its finished tiles.
+// Runs a bake as jobs of Slurm: an array job with a task for each shard, a merge job that starts after all shards have
+// succeeded, then a verification job. If a node dies, Slurm restarts its shard, which keeps the tiles that it has
+// finished.
 
 #include <filesystem>
 #include <optional>
@@ -12,35 +13,36 @@
 namespace sgm::cli {
 
 struct SlurmBake {
-  std::vector<std::string> bake;    ///< the command of a bake, without --shard and --merge; paths are absolute
-  std::vector<std::string> verify;  ///< the command of its verification
+  std::vector<std::string> bake;    ///< command line of the bake, without --shard and --merge; paths are absolute
+  std::vector<std::string> verify;  ///< command line that verifies the baked world
   uint64_t shards = 1;
-  std::vector<std::string> options;  ///< of sbatch, for every job
-  std::string name;                  ///< of the jobs
-  std::filesystem::path folder;      ///< exists; holds scripts, the jobs' output, and their numbers
+  std::vector<std::string> options;  ///< options of sbatch, for every job
+  std::string name;                  ///< name of the jobs in Slurm
+  std::filesystem::path folder;      ///< existing folder for the scripts, the jobs' output, and the job numbers
 };
 
-/// Job numbers.
+/// Job numbers that Slurm has assigned.
 struct SlurmJobs {
   std::string shards, merge, verification;
-  uint64_t count = 0;  ///< of shards
+  uint64_t count = 0;  ///< number of shards
 };
 
 struct SlurmState {
   uint64_t waiting = 0, running = 0,
-           failed = 0;              ///< shards; all others have succeeded, as far as known
-  std::string merge, verification;  ///< Slurm's word: "PENDING"; empty: unknown
+           failed = 0;              ///< numbers of shards; all other shards have succeeded, as far as known
+  std::string merge, verification;  ///< state of these jobs as Slurm prints it, such as "PENDING"; empty if unknown
   bool ended = false;               ///< no job is in the queue
 };
 
-// Errors: unsupported if a command of Slurm is missing; io if it fails, with its output.
+// Errors of all functions: unsupported if a command of Slurm is missing; io, with the command's output, if it fails.
 
-/// Jobs of an earlier call, with any number of shards, that still wait or run; nullopt if there are none.
+/// Finds jobs of an earlier call, with any number of shards, that still wait or run; nullopt if there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
-/// If a job cannot be submitted, cancels the others.
+/// Submits all jobs. If one cannot be submitted, cancels the others.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
-/// Waiting and running jobs come from the queue, which is current. The results of ended jobs come from Slurm's
-/// accounting, which may lag behind, or without it from the queue, which forgets them after some minutes.
+/// The state of the jobs. Waiting and running jobs are read from Slurm's queue, which is current. The results of ended
+/// jobs are read from Slurm's accounting, which may lag behind, or, without accounting, from the queue, which forgets
+/// ended jobs after some minutes.
 Result<SlurmState> stateOf(const SlurmJobs& jobs);
 
 }  // namespace sgm::cli

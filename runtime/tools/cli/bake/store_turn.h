@@ -1,5 +1,5 @@
 #pragma once
-// Changes a store that other processes may be changing.
+// Changes a store that other processes may be changing at the same time.
 
 #include <fmt/core.h>
 
@@ -9,7 +9,8 @@
 
 namespace sgm::cli {
 
-/// Calls change(patience) with patience 0; if another process holds the store, says so and waits for its turn.
+/// Calls change(0 ms). If another process holds the store's lock, prints a notice and calls change again with a longer
+/// patience, which waits for the lock.
 template <class Change>
 auto inTurn(const store::Folder& store, const Change& change) {
   auto changed = change(std::chrono::milliseconds(0));

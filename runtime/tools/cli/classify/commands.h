@@ -1,5 +1,5 @@
 #pragma once
-// The commands that classify meshes, and the process that inspects an upload.
+// The commands that classify meshes, and `sgm inspect`, which examines an upload in a process of its own.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,8 @@
 namespace sgm::cli {
 
 struct ClassifyOptions : WorldOptions {
-  std::string masters;  ///< a base; empty: the default base, or the built-in reference histograms
+  /// a file of reference histograms; empty: the default database, or the built-in ones if it does not exist
+  std::string masters;
   std::string mode = "curvature";
   SandboxOptions sandbox;  ///< for the reading of mesh files
 };
@@ -20,20 +21,22 @@ Exit classifyMesh(const ClassifyOptions& options);
 
 struct InspectOptions {
   std::string kind;        ///< "glb", "obj", "ply", "stl" or "sgm"
-  std::string name;        ///< the client's, for display; any text
-  std::string masters;     ///< a base; empty: the built-in reference histograms
-  uint64_t memory = 2048;  ///< MB
+  std::string name;        ///< file name that the client sent, for display; may contain any text
+  std::string masters;     ///< a file of reference histograms; empty: the built-in ones
+  uint64_t memory = 2048;  ///< address space limit of this process, MB
   uint64_t seconds = 60;
-  bool list_masters = false, store_masters = false;  ///< does this alone
-  std::string region, cell, seed;                    ///< of a grammar, as they were sent; empty: not sent
+  /// lists or replaces the reference histograms instead of inspecting an upload
+  bool list_masters = false, store_masters = false;
+  std::string region, cell, seed;  ///< options for a grammar, as the client sent them; empty: not sent
   std::vector<std::string> sets;
 };
-/// Standard input to standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview.
+/// Reads the upload from standard input. Writes to standard output: uint64 size of the JSON, the JSON, uint64 size of
+/// the preview, the preview.
 Exit inspect(const InspectOptions& options);
 
 struct MastersBuildOptions {
-  std::string out;   ///< empty: the default base, unless `emit` is given
-  std::string emit;  ///< a source file; empty: none
+  std::string out;   ///< file to write; empty: the default database, unless `emit` is given
+  std::string emit;  ///< C++ source file to write; empty: none
   uint64_t models = 12;
   uint64_t seed = 1;
   unsigned threads = 0;
@@ -41,7 +44,7 @@ struct MastersBuildOptions {
 Exit buildMasters(const MastersBuildOptions& options);
 
 struct MastersListOptions {
-  std::string file;  ///< as ClassifyOptions::masters
+  std::string file;  ///< a file of reference histograms, as ClassifyOptions::masters
   bool json = false;
 };
 Exit listMasters(const MastersListOptions& options);

@@ -15,22 +15,23 @@
 
 namespace sgm::cli {
 
-/// Why there is no report: the body of an HTTP answer (RFC 9457).
+/// The problem that prevents a report: the body of an HTTP answer (RFC 9457).
 struct InspectProblem {
   int status = 422;
   std::string code = "bad_input";
   std::string detail;               ///< one sentence for users
-  std::string pointer;              ///< to the wrong JSON value; empty: none
-  int line = 0, column = 0;         ///< in a text, from 1; 0: none
-  std::optional<Json> diagnostics;  ///< of a grammar, an array
+  std::string pointer;              ///< JSON pointer to the wrong value; empty: none
+  int line = 0, column = 0;         ///< position in a text, counted from 1; 0: none
+  std::optional<Json> diagnostics;  ///< the compiler's messages about a grammar, as an array
 };
 Json toJson(const InspectProblem& problem);
 
-/// For errors of an upload: a limit of the process is the service's problem (500), any other the upload's (422).
+/// The problem for an error of an upload: exceeding a limit of this process is the service's fault (500), any other
+/// error is the upload's (422).
 InspectProblem problemOf(const Error& error, const InspectOptions& options);
 InspectProblem outOfMemory(const InspectOptions& options);
 
-/// The process's answer: the members of a report, or a problem.
+/// Output of the process: the members of a report, or a problem.
 struct InspectAnswer {
   Json json;
   std::string preview;
@@ -40,21 +41,21 @@ struct InspectAnswer {
 InspectAnswer inspectUpload(std::span<const std::byte> bytes, const InspectOptions& options,
                             const Result<masters::OpenedBase>& base);
 
-/// A grammar's mesh, and the results for it.
+/// The mesh of an uploaded grammar, and the results that only a grammar has.
 struct InspectedGrammar {
   std::optional<Region> region;
-  Json measures;           ///< the region's own part of `sgm measure --json`
-  Json diagnostics;        ///< warnings, in the form of InspectProblem
+  Json measures;           ///< the members of `sgm measure --json` that concern the region
+  Json diagnostics;        ///< warnings of the compiler, as in InspectProblem::diagnostics
   InspectProblem problem;  ///< set if there is no region
 };
-/// The grammar may import only the standard library, and no file is read.
+/// Compiles and meshes an uploaded grammar, which may import only the standard library; no other file is read.
 InspectedGrammar meshUploadedGrammar(std::span<const std::byte> text, const InspectOptions& options);
 
-/// Implements GET and PUT /api/v1/masters: the reference histograms, or a problem.
+/// The bodies of the answers to GET and PUT /api/v1/masters: the reference histograms, or a problem.
 Json listedMasters(const InspectOptions& options);
 Json storedMasters(std::span<const std::byte> json, const InspectOptions& options);
 
-/// The base of that name, or the built-in reference histograms without a name or if the file does not exist.
+/// The reference histograms of a file; the built-in ones if `file` is empty or does not exist.
 Result<masters::OpenedBase> inspectedBase(const std::string& file);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Output and choice of the reference histograms.
+// Prints keys of reference histograms, and opens the file that an option names.
 
 #include <string>
 
@@ -8,12 +8,13 @@
 
 namespace sgm::cli {
 
-/// "mode corrected, 33 bins, 2 cells per metre".
+/// The key as text: "mode corrected, 33 bins, 2 cells per metre".
 std::string textOf(const measure::MasterKey& key);
 Json toJson(const measure::MasterKey& key);
 
-/// The base of that name; without a name the default base, or the built-in reference histograms. Reports on stderr what
-/// became of a damaged one. Errors: those of openBase; bad_input for a file that is not a base.
+/// The reference histograms of a file; if `file` is empty, those of the default database or the built-in ones. Prints
+/// to stderr how a damaged database was replaced. Errors: those of openBase; bad_input for a file that is not a
+/// database of reference histograms.
 Result<masters::OpenedBase> mastersOf(const std::string& file);
 
 }  // namespace sgm::cli

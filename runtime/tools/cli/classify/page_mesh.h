@@ -1,5 +1,5 @@
 #pragma once
-// A small version of any mesh, for a preview on a page.
+// Simplifies any mesh to a small one, for a preview on a web page.
 
 #include <array>
 #include <cstdint>
@@ -13,17 +13,18 @@ namespace sgm::cli {
 inline constexpr size_t kMostPreviewTriangles = 60'000;
 
 struct Preview {
-  asset::Point origin;                          ///< in the mesh's world; positions are relative to it
-  std::vector<std::array<float, 3>> positions;  ///< finite, and each is used
-  std::vector<uint32_t> indices;                ///< of triangles, at most kMostPreviewTriangles unless this cannot be
-                                                ///< reached
-  std::array<float, 3> low{}, high{};           ///< of the positions
+  asset::Point origin;                          ///< in the coordinates of the mesh; positions are relative to it
+  std::vector<std::array<float, 3>> positions;  ///< finite; triangles use every position
+  /// three for each triangle; at most kMostPreviewTriangles triangles, unless the mesh cannot be simplified so far
+  std::vector<uint32_t> indices;
+  std::array<float, 3> low{}, high{};  ///< bounds of the positions
 };
 
-/// Of the triangles with finite corners. Empty if there are none.
+/// The preview of the triangles with finite corners. Empty if there are none.
 Preview previewOf(const asset::TriangleMesh& mesh);
 
-/// "SGMPREV1", uint32 points, uint32 triangles, the positions, the indices; little-endian.
+/// The preview as bytes: "SGMPREV1", uint32 number of points, uint32 number of triangles, positions, indices;
+/// little-endian.
 std::string bytesOf(const Preview& preview);
 
 }  // namespace sgm::cli

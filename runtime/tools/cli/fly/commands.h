@@ -1,5 +1,5 @@
 #pragma once
-// `sgm fly`.
+// The options of `sgm fly`.
 
 #include <cstdint>
 #include <string>
@@ -16,9 +16,10 @@ struct FlyOptions : WorldOptions {
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
-  double edits = 0;                   ///< digs per second of the path
-  bool animate = false;               ///< animates parameters during the flight
-  std::vector<std::string> animated;  ///< these parameters; empty: all that the grammar declares animated
+  double edits = 0;      ///< number of digs per second of the path
+  bool animate = false;  ///< animates parameters during the flight
+  /// names of the parameters to animate; empty: all that the grammar declares animated
+  std::vector<std::string> animated;
   bool check = false, unpaced = false, compare = false;
   bool measure = false;  ///< measures every meshed chunk
   int top_level = 6;
@@ -26,10 +27,10 @@ struct FlyOptions : WorldOptions {
   uint64_t mesh_mb = 256;
   uint64_t pictures = 0;
   std::string out = "flight.png";
-  std::string light = "auto";  ///< of pictures, as RenderOptions::light
+  std::string light = "auto";  ///< light of the pictures, as RenderOptions::light
   bool levels = false;
   std::string video;                ///< an .mp4 file; empty: none
-  std::string journal, cache;       ///< a file and a folder of the world; empty: none
+  std::string journal, cache;       ///< the file of the edit journal, and the folder of the disk cache; empty: none
   std::vector<std::string> stores;  ///< folders of baked worlds
   bool serve = false, keep_serving = false;
   ServingOptions serving;  ///< used if `serve` is set

@@ -1,5 +1,5 @@
 #pragma once
-// The sheet and the video of `sgm fly`.
+// The contact sheet and the video of `sgm fly`.
 
 #include <sgm/sgm.h>
 
@@ -21,7 +21,7 @@ struct FlownScene {
   sgm_world* world = nullptr;
 };
 
-/// Number of pictures by their light.
+/// Number of drawn pictures by their light.
 struct PictureLights {
   uint64_t sun = 0, lamp = 0, none = 0;
 };
@@ -31,11 +31,12 @@ class FlyPictures {
  public:
   explicit FlyPictures(const FlyOptions& options) : options_(options) {}
 
-  /// Opens the files, the device and the encoder, so that errors show before a long flight.
+  /// Opens the files, the device and the encoder before the flight, so that their errors appear before a long flight.
   Result<void> begin();
-  /// Whether the sheet or the video has this frame.
+  /// Whether the sheet or the video contains this frame.
   bool wants(uint64_t frame) const { return inSheet(frame) || inVideo(frame); }
-  /// Call for every frame. False if it cannot be drawn or written; finish() returns the error.
+  /// Must be called for every frame. Returns false if the frame cannot be drawn or written; finish() then returns the
+  /// error.
   bool take(const FlownScene& scene, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
   Result<void> finish();
   const PictureLights& lights() const { return lights_; }
@@ -51,9 +52,10 @@ class FlyPictures {
   std::optional<FileWriter> sheet_;
   std::unique_ptr<VideoFile> video_;
   std::vector<Image> images_;
-  Light light_ = Light::sun;  ///< current
+  Light light_ = Light::sun;  ///< light of the current picture
   SteadyLight steady_;
-  double seen_depth_ = 1, depth_ = 1;  ///< metres: at the last look, and as drawn
+  /// typical distance to visible surfaces, metres: at the last measurement, and the smoothed value used for drawing
+  double seen_depth_ = 1, depth_ = 1;
   std::optional<FlightPlace> last_;
   PictureLights lights_;
   std::optional<Error> error_;

@@ -13,22 +13,22 @@ namespace sgm::cli {
 
 struct Flown {
   FlightReport report;
-  uint64_t hash = 0;                                 ///< of level 0 around the end, at rest
-  uint64_t runtime_peak_bytes = 0;                   ///< of all memory of the runtime
-  uint64_t frame_bytes = 0;                          ///< the maximum for one frame
-  uint64_t fields = 0;                               ///< with other parameters, passed to the world
-  uint64_t fields_drawn = 0;                         ///< of these
-  sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
+  uint64_t hash = 0;                ///< hash of the level-0 chunks around the last place, when all work is done
+  uint64_t runtime_peak_bytes = 0;  ///< peak of all memory that the runtime allocated
+  uint64_t frame_bytes = 0;         ///< budget of mesh bytes that one frame may receive
+  uint64_t fields = 0;              ///< number of fields with animated parameters that were passed to the world
+  uint64_t fields_drawn = 0;        ///< number of these fields that were drawn
+  sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< state at the end
   PictureLights lights;
-  std::optional<sgm_world_measures> measures;  ///< at the end, if requested
-  std::optional<Error> edits_lost;             ///< the journal does not hold all edits
+  std::optional<sgm_world_measures> measures;  ///< measures of the drawn chunks at the end, if requested
+  std::optional<Error> edits_lost;             ///< set if the journal does not contain all edits
 };
 
-/// by_distance: report of a second flight, with level 0 by distance alone.
+/// by_distance: report of a second flight in which the distance alone selects level 0, for comparison.
 Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
 void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
 
-/// The first violated guarantee; nullopt if there is none.
+/// Describes the first violated guarantee; nullopt if there is none.
 std::optional<std::string> defectOf(const Flown& flown);
 
 }  // namespace sgm::cli

@@ -11,15 +11,16 @@ namespace sgm::cli {
 
 /// The results of a file's statements for all seeds.
 struct ExpectationSummary {
-  Exit status = Exit::done;         ///< input if an expectation fails or a statement cannot be evaluated
-  uint64_t expectations = 0;        ///< in the file
-  uint64_t failed = 0;              ///< of all statements and seeds
+  Exit status = Exit::done;         ///< Exit::input if an expectation fails or a statement cannot be evaluated
+  uint64_t expectations = 0;        ///< number of `expect` statements in the file
+  uint64_t failed = 0;              ///< number of failures over all statements and seeds
   std::vector<uint64_t> bad_seeds;  ///< seeds with a failure, ascending
-  Json statements;                  ///< for --json: a list, by seed, then in the order of the file
+  Json statements;                  ///< for --json: a list, ordered by seed, then as in the file
 };
 
-/// Evaluates the statements of a compiled file. Unless options.json, prints reports and successes to standard output,
-/// and failures to stderr as diagnostics. Warnings of omissions, and a progress bar, go to stderr too.
+/// Evaluates the `report` and `expect` statements of a compiled file. Unless options.json is set, prints reports and
+/// successes to standard output, and failures to stderr as diagnostics. Warnings about elements that derivation left
+/// out, and a progress bar, also go to stderr.
 ExpectationSummary sayExpectations(const CompileResult& compiled, const WorldOptions& options, uint64_t seeds,
                                    Backend& backend, JobSystem& jobs);
 

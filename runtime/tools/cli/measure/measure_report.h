@@ -10,15 +10,17 @@
 
 namespace sgm::cli {
 
-/// All measures, in the mesh's unit. origin: origin of the mesh's points; places are reported relative to 0.
+/// All measures as JSON, in the mesh's unit. origin: world position of the mesh's origin; it is added to reported
+/// places.
 Json toJson(const measure::MeshMeasures& measures, measure::Point origin = {});
-/// The whole report except its time: the `known` members, the file's name, and all measures.
+/// The whole report except the elapsed time: the `known` members, the file's name, and all measures.
 Json reportJson(Json known, const std::string& file, const measure::MeshMeasures& measures, measure::Point origin);
-/// All measures as lines of text, below a line that names the mesh. unit: " m", or empty if unknown.
+/// All measures as lines of text, below a line that names the mesh. unit: " m", or empty if the mesh's unit is unknown.
 std::string textOf(const measure::MeshMeasures& measures, measure::Point origin = {}, std::string_view unit = "");
-/// Defects of the mesh as a solid's surface, one sentence each, with the first place if there is one.
+/// Reasons why the mesh is not the surface of a solid, one sentence for each kind of defect, with its first place if
+/// known.
 std::vector<std::string> problemsOf(const measure::MeshMeasures& measures, measure::Point origin = {});
-/// The same for failed checks. A mesh is valid if both are empty.
+/// Checks that could not be carried out, one sentence each. A mesh is valid if problemsOf() and unknownsOf() are empty.
 std::vector<std::string> unknownsOf(const measure::MeshMeasures& measures);
 
 }  // namespace sgm::cli

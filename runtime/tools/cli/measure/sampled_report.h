@@ -1,5 +1,5 @@
 #pragma once
-// Optional sections of `sgm measure`, which need more than the mesh itself.
+// The optional sections of `sgm measure`, which need more input than the mesh itself.
 
 #include <string>
 
@@ -13,28 +13,31 @@
 
 namespace sgm::cli {
 
-/// For --json, and as lines of text.
+/// A section of the report, for --json and as lines of text.
 struct Section {
   Json json;
   std::string text;
 };
 
-/// cell: the mesh's, units. origin: of its positions.
+/// The differences between mesh and field. cell: edge of the mesh's grid cells, units. origin: world position of the
+/// mesh's origin.
 Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin);
 
-/// One pair of levels: fine and fine + 1. coarse_cell: units. origin: of the fine one's positions.
+/// The distance between two levels of detail, fine and fine + 1. coarse_cell: edge of the coarser level's grid cells,
+/// units. origin: world position of the finer mesh's origin.
 Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, Int3 origin);
 
-/// with: the name of the other mesh. triangles: its number of triangles. origin: of both meshes.
+/// The distance between two meshes. with: name of the other mesh. triangles: its number of triangles. origin: world
+/// position of the origin of both meshes.
 Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles,
                         measure::Point origin);
 
-/// The cost of drawing it.
+/// The cost of drawing the mesh.
 Section drawingSection(const DrawingCost& found);
 
-/// For a file. resolution: texels on the edge of its texture.
+/// The texel density of a mesh file. resolution: number of texels along the edge of its texture.
 Section texelSection(const asset::TriangleMesh& mesh, double resolution);
-/// For a textured region, in tiles of kTile.
+/// The texel density of a textured region, whose texture repeats in tiles of kTile.
 Section texelSection(const Region& region, double resolution);
 
 }  // namespace sgm::cli

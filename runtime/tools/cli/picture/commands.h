@@ -9,11 +9,11 @@
 namespace sgm::cli {
 
 struct MeshOptions : WorldOptions {
-  std::string out;  ///< empty: measure only
+  std::string out;  ///< file to write; empty: the mesh is only measured
 };
 Exit mesh(const MeshOptions& options);
 
-/// A picture, a contact sheet or a survey.
+/// Draws a picture, a contact sheet or a survey.
 Exit render(const RenderOptions& options);
 
 }  // namespace sgm::cli

@@ -12,7 +12,7 @@ struct ServeOptions {
 };
 Exit serve(const ServeOptions& options);
 
-/// The language server on standard input and output, until it is told to exit.
+/// Runs the language server on standard input and output until the client sends the notification `exit`.
 Exit serveLanguage();
 
 }  // namespace sgm::cli

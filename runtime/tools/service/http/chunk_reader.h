@@ -1,5 +1,6 @@
 #pragma once
-// Parses a chunked body (RFC 9112, 7.1) byte by byte, so the result does not depend on how the bytes arrive in pieces.
+// Parses a chunked body (RFC 9112, 7.1) byte by byte, so that the result does not depend on how the bytes are split
+// into pieces on arrival.
 
 #include <cstdint>
 #include <optional>
@@ -11,11 +12,12 @@ namespace sgm::service::http {
 
 class ChunkReader {
  public:
-  /// most_bytes: limit of the decoded body; a chunk that exceeds it gives a 413 before it is read.
+  /// most_bytes: limit of the decoded body. A chunk that would exceed it gives a 413 before the chunk is read.
   explicit ChunkReader(uint64_t most_bytes) : room_(most_bytes) {}
 
-  /// Consumes bytes up to the next piece of the body or its end, and removes them from `bytes`. piece: empty if neither
-  /// is reached; otherwise a part of `bytes`. Must not be called again after a problem.
+  /// Consumes bytes up to the end of the next piece of the body or of the whole body, and removes them from `bytes`.
+  /// Sets `piece` to a part of `bytes`, or to empty if no byte of the body was found. Must not be called again after it
+  /// has returned a problem.
   std::optional<Problem> next(std::string_view& bytes, std::string_view& piece);
   bool ended() const { return state_ == State::ended; }
 
@@ -38,10 +40,10 @@ class ChunkReader {
   std::optional<Problem> endSize();
 
   State state_ = State::size;
-  uint64_t room_;          ///< bytes that the body may still have
-  uint64_t in_chunk_ = 0;  ///< remaining bytes of the current chunk
+  uint64_t room_;          ///< number of bytes that the body may still have
+  uint64_t in_chunk_ = 0;  ///< number of bytes of the current chunk that have not arrived
   uint32_t digits_ = 0;
-  uint32_t beside_ = 0;  ///< bytes of extensions and trailers, which are ignored
+  uint32_t beside_ = 0;  ///< number of bytes of chunk extensions and trailers so far, which are ignored but limited
 };
 
 }  // namespace sgm::service::http

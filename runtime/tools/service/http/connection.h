@@ -1,5 +1,5 @@
 #pragma once
-// One client: its successive requests, and the time limits of their phases.
+// The connection of one client: its successive requests, and the time limits of their phases.
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
@@ -18,16 +18,16 @@ namespace sgm::service::http {
 
 class Connection final : public Answered, public std::enable_shared_from_this<Connection> {
  public:
-  /// loop outlives it. Does nothing before start() or turnAway().
+  /// loop must outlive the connection. The connection does nothing before start() or turnAway().
   Connection(Loop& loop, boost::asio::ip::tcp::socket socket);
 
   void start();
-  /// Answers 503 and closes.
+  /// Sends a 503 and closes.
   void turnAway();
   void deliver(std::optional<Response> response) override;
-  /// The server is stopping: closes unless a request is being answered.
+  /// For the stop of the server: closes, unless a request is being answered.
   void stopSoon();
-  /// Closes immediately. The connection may be destroyed after this.
+  /// Closes immediately. May destroy the connection, so the caller must not use it afterwards.
   void close() noexcept;
 
  private:
@@ -59,11 +59,13 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   boost::asio::steady_timer timer_;
   Phase phase_ = Phase::idle;
   Clock::time_point deadline_ = Clock::time_point::max();
-  Clock::time_point alarm_ = Clock::time_point::max();  ///< when the timer checks the deadline; never later than it
+  /// time at which the timer fires and checks deadline_; never later than deadline_
+  Clock::time_point alarm_ = Clock::time_point::max();
   std::shared_ptr<std::atomic<bool>> gone_ = std::make_shared<std::atomic<bool>>(false);
-  uint32_t turn_ = 0;  ///< number of the current wait for bytes: cancelled waits are ignored
+  /// number of the current wait for bytes; a completed wait with another number was cancelled, and is ignored
+  uint32_t turn_ = 0;
   RequestReader reader_;
-  std::string kept_;  ///< bytes read after the current request, for the next one
+  std::string kept_;  ///< bytes that were read after the current request; they belong to the next request
   std::unique_ptr<Body> body_;
   std::string answer_head_;
   std::shared_ptr<const std::string> answer_body_;

@@ -1,5 +1,5 @@
 #pragma once
-// State that the connections of a server share. Only for its thread, except the counts and the mailbox.
+// State that the connections of a server share. Only the server's thread uses it, except the counts and the mailbox.
 
 #include <array>
 #include <atomic>
@@ -32,16 +32,16 @@ struct Loop {
   LoopCounts counts;
   boost::asio::io_context context{1};
   std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(context);
-  /// Shared, so that idle connections need no buffers.
+  /// Receives bytes of the connection that is being read. Shared, so that idle connections need no buffers.
   std::vector<char> buffer = std::vector<char>(size_t{16} << 10);
   std::unordered_set<std::shared_ptr<Connection>> connections;
   Unsent unsent{settings.unsent_bytes};
-  size_t turned_away_now = 0;  ///< connections that only receive the 503
+  size_t turned_away_now = 0;  ///< number of connections that only receive the 503 (turned away)
   bool stopping = false;
 
-  /// For the field Date. Formatted once a second.
+  /// The current time for the field Date. Formatted once a second.
   std::string_view date();
-  /// Removes a closed connection. The last one ends a stopping loop.
+  /// Removes a closed connection. If the loop is stopping and this was the last connection, ends the loop.
   void forget(const std::shared_ptr<Connection>& connection, bool turned_away);
 
  private:

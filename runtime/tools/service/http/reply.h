@@ -1,5 +1,5 @@
 #pragma once
-// Passes an answer from any thread to its server's thread.
+// Passes an answer from any thread to the thread of its server.
 
 #include <boost/asio/io_context.hpp>
 #include <memory>
@@ -10,23 +10,24 @@
 
 namespace sgm::service::http {
 
-/// The receiver of an answer. Called in the server's thread.
+/// Receives an answer. The functions are called in the server's thread.
 class Answered {
  public:
   virtual ~Answered() = default;
-  /// nullopt: the reply was destroyed without an answer.
+  /// nullopt: the Reply was destroyed without an answer.
   virtual void deliver(std::optional<Response> response) = 0;
 };
 
 struct Letter;
 
-/// The mailbox of one server; replies may keep it alive longer.
+/// The mailbox of one server. A Reply shares its ownership, so the mailbox may outlive the server.
 class Mailbox {
  public:
   explicit Mailbox(boost::asio::io_context& context) : context_(&context) {}
-  /// Discards letters that are posted later.
+  /// Letters that are posted afterwards are discarded.
   void close();
-  /// Allocates nothing: an answer that could not be delivered would leave its client waiting.
+  /// Queues a letter for the server's thread. Allocates no memory: if it failed, the client would wait for the answer
+  /// forever.
   void post(std::shared_ptr<Letter> letter) noexcept;
 
  private:
@@ -34,7 +35,7 @@ class Mailbox {
   boost::asio::io_context* context_;
 };
 
-/// A Reply to `to`, which may be destroyed meanwhile.
+/// Makes a Reply that delivers to `to`. If `to` has been destroyed by then, the answer is discarded.
 Reply makeReply(std::shared_ptr<Mailbox> mailbox, std::weak_ptr<Answered> to);
 
 }  // namespace sgm::service::http

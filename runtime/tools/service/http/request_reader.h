@@ -1,6 +1,6 @@
 #pragma once
-// Parses requests from the bytes of a connection, without sockets or clocks: the result depends only on the bytes, not
-// on how they arrive in pieces.
+// Parses requests from the bytes of a connection, without sockets or clocks. The result depends only on the bytes, not
+// on how they are split into pieces on arrival.
 
 #include <atomic>
 #include <cstdint>
@@ -19,40 +19,41 @@ namespace sgm::service::http {
 class RequestReader {
  public:
   enum class Event {
-    starved,  ///< all bytes are consumed, and more are needed
-    head,     ///< request() is valid; call allow() before the next step
+    starved,  ///< all bytes are consumed, and more bytes are needed
+    head,     ///< request() is valid; the caller must call allow() or finish() before the next step
     go_on,    ///< the client waits for 100 (Continue) before it sends the body
     piece,    ///< piece() is the next piece of the body, never empty
-    end,      ///< the request is complete; the next step starts the next one
-    refused,  ///< refusal() is the problem; no further events
+    end,      ///< the request is complete; the next step begins with the next request
+    refused,  ///< refusal() is the problem; no further events follow
   };
 
-  /// gone: for the requests (Request::gone).
+  /// gone: flag for Request::gone of all requests.
   explicit RequestReader(const ReaderLimits& limits, std::shared_ptr<const std::atomic<bool>> gone = nullptr)
       : scanner_(limits), gone_(std::move(gone)) {}
 
-  /// One step. Removes consumed bytes from `bytes`. Without bytes, returns a pending event, or starved.
+  /// Performs one step, and removes the consumed bytes from `bytes`. If `bytes` is empty, returns a pending event, or
+  /// starved.
   Event next(std::string_view& bytes);
 
-  /// Valid from head to end.
+  /// The current request; valid from Event::head to Event::end.
   const Request& request() const { return head_.request; }
-  /// The maximal size of an accepted body; 0 without a call. The next step rejects a body that is larger, that is
-  /// encoded, or whose length is missing (POST, PUT, PATCH).
+  /// Sets the limit of the body in bytes, after Event::head; without a call the limit is 0. The next step rejects a
+  /// body that is larger, that has a Content-Encoding, or whose length is missing (POST, PUT, PATCH).
   void allow(uint64_t most_bytes) { most_bytes_ = most_bytes; }
-  /// After head, for a request without a body that has been answered without its checks. The next step starts the next
-  /// one.
+  /// May be called after Event::head instead of allow(), for a request without a body that has already been answered.
+  /// The next step begins with the next request.
   void finish() { state_ = State::end; }
-  /// A part of the bytes passed to next().
+  /// The piece of the body at Event::piece: a part of the bytes passed to next().
   std::string_view piece() const { return piece_; }
   const Problem& refusal() const { return refusal_; }
 
-  /// Between two requests, before the first byte of the next one.
+  /// Whether the reader is between two requests: no byte of the next request has been consumed.
   bool between() const { return state_ == State::head && !scanner_.begun(); }
-  /// Whether a request's head is being read, or the reader waits for one.
+  /// Whether the head of a request is being read, or has yet to begin.
   bool inHead() const { return state_ == State::head; }
-  /// From head to end: whether the client sends a body.
+  /// Whether the request has a body. Valid from Event::head to Event::end.
   bool hasBody() const { return head_.hasBody(); }
-  /// From head to end: whether another request may follow.
+  /// Whether another request may follow on this connection. Valid from Event::head to Event::end.
   bool keepAlive() const { return head_.keep_alive; }
   bool http11() const { return head_.http11; }
 
@@ -67,7 +68,7 @@ class RequestReader {
   Head head_;
   State state_ = State::head;
   uint64_t most_bytes_ = 0;
-  uint64_t to_come_ = 0;  ///< remaining bytes of a body of known length
+  uint64_t to_come_ = 0;  ///< number of bytes that have not arrived, for a body of known length
   ChunkReader chunks_{0};
   std::string_view piece_;
   Problem refusal_;

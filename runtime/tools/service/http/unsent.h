@@ -1,5 +1,5 @@
 #pragma once
-// Counts the memory of answers that clients have not received yet.
+// Limits the memory of answers that clients have not yet received.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace sgm::service::http {
 
-/// For one server, in its thread.
+/// For one server. Used only in its thread.
 class Unsent {
  public:
   explicit Unsent(uint64_t most_bytes) : most_(most_bytes) {}
 
-  /// Counts a body until it is released as often as it was held; a body that is already held costs nothing. False if
-  /// there is no room besides others; then it is not held. Null and bodies below 4 KiB always have room. Throws
-  /// std::bad_alloc, without holding the body.
+  /// Counts the size of a body until release() has been called as often as hold(); a body that is already held costs
+  /// nothing. Returns false, without holding the body, if the total would exceed the limit and other bodies are held.
+  /// Null and bodies below 4 KiB are always accepted. If it throws std::bad_alloc, the body is not held.
   bool hold(const std::shared_ptr<const std::string>& body);
   void release(const std::shared_ptr<const std::string>& body) noexcept;
 

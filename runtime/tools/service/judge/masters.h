@@ -1,5 +1,5 @@
 #pragma once
-// The reference histograms of the service, read and written by the inspector.
+// The reference histograms of the service. The inspector's processes read and write them.
 
 #include <chrono>
 #include <functional>
@@ -12,30 +12,30 @@
 
 namespace sgm::service {
 
-/// The result: Inspection's status and JSON, shared by all receivers.
+/// The answer to a request: status and JSON as in Inspection, shared by all callers.
 struct MastersAnswer {
   int status = 503;
-  std::shared_ptr<const std::string> json;  ///< null: out of memory
+  std::shared_ptr<const std::string> json;  ///< null: the process is out of memory
 };
 
-/// Caches the reference histograms: concurrent requests share one process that reads them, and its result is used for
-/// some seconds. Thread-safe.
+/// Caches the reference histograms: concurrent requests share one process that reads them, and the cached result stays
+/// valid for some seconds. Thread-safe.
 class Masters {
  public:
   using Told = std::function<void(const MastersAnswer&)>;
 
-  /// inspector must outlive it, but be stopped first: `told` functions are called from its threads.
+  /// inspector must outlive this object, but must have ended its threads before, since these call the `told` functions.
   explicit Masters(Inspector& inspector) : inspector_(inspector) {}
 
   void read(Told told);
-  /// Replaces them by this JSON, completely or not at all.
+  /// Replaces the reference histograms by this JSON, completely or not at all.
   void write(std::string json, Told told);
 
-  /// The last result of reading; a status of 0 before the first one.
+  /// The last result of reading; its status is 0 before the first one.
   MastersAnswer last() const;
 
  private:
-  /// Informs all waiting callers, also when out of memory.
+  /// Passes an answer to all waiting callers, even if memory has run out.
   void tell(MastersAnswer said);
   void keep(const MastersAnswer& said);
 
@@ -43,7 +43,7 @@ class Masters {
   mutable std::mutex mutex_;
   MastersAnswer last_{0, nullptr};
   std::chrono::steady_clock::time_point when_;
-  std::vector<Told> waiting_;  ///< for the reading process
+  std::vector<Told> waiting_;  ///< callers that wait for the process that is reading
 };
 
 }  // namespace sgm::service

@@ -1,5 +1,5 @@
 #pragma once
-// The results of the last uploads, by their ids.
+// The reports on the latest uploads, found by their ids.
 
 #include <cstdint>
 #include <memory>
@@ -12,24 +12,25 @@ namespace sgm::service {
 
 enum class ReportState { waiting, running, done, failed, cancelled };
 
-/// Thread-safe. Keeps the last 64 reports, up to 128 MiB; waiting and running ones are always kept.
+/// Thread-safe. Keeps the last 64 reports, up to 128 MiB; reports on waiting and running uploads are always kept.
 class Reports {
  public:
   Reports();
   ~Reports();
 
-  /// Adds a waiting report; returns its id, 16 unguessable hexadecimal digits.
+  /// Adds a report in the state "waiting". Returns its id, 16 unguessable hexadecimal digits.
   std::string begin(const std::string& name, UploadKind kind, uint64_t bytes);
   void run(const std::string& id);
-  /// Finishes a report: done (a status of 200), cancelled (503) or failed, also if there is no memory for it. Returns
-  /// the report as json() would; empty for an unknown id, or without memory for the copy. Throws nothing.
+  /// Finishes a report. The status of `inspection` sets its state: 200 done, 503 cancelled, otherwise or if memory runs
+  /// out, failed. Returns the report as json() would; empty for an unknown id, or if there is no memory for the copy.
+  /// Throws nothing.
   std::string finish(const std::string& id, Inspection inspection);
 
-  /// A report as a JSON object; nullopt for an id that is unknown or no longer kept.
+  /// A report as a JSON object; nullopt if the id is unknown or its report is no longer kept.
   std::optional<std::string> json(const std::string& id) const;
-  /// Null for an unknown id, or a report without a preview.
+  /// The preview mesh of a report; null if the id is unknown or the report has no preview.
   std::shared_ptr<const std::string> preview(const std::string& id) const;
-  /// {"reports": [...]}, newest first, without their measures.
+  /// All reports as {"reports": [...]}, newest first, without their measures.
   std::string list() const;
   size_t size() const;
 

@@ -1,6 +1,6 @@
 #pragma once
-// A file that a client sends, written to disk as it arrives: it needs no memory, and disappears when the process ends
-// in any way.
+// A file that a client uploads. It is written to disk as it arrives, so it needs no memory, and it disappears when the
+// process ends in any way.
 
 #include <cstdint>
 #include <optional>
@@ -15,24 +15,25 @@
 namespace sgm::service {
 
 enum class UploadKind { glb, obj, ply, stl, grammar };
-/// "glb", "obj", "ply", "stl", "sgm".
+/// The kind's name: "glb", "obj", "ply", "stl", "sgm".
 std::string_view nameOf(UploadKind kind);
-/// From the content type, or if that is application/octet-stream or empty, from the name's ending. nullopt if unknown.
+/// The kind of an upload from its content type, or if that is application/octet-stream or empty, from the ending of its
+/// file name. nullopt if unknown.
 std::optional<UploadKind> uploadKind(std::string_view content_type, std::string_view name);
 
-/// An unnamed file in a folder, which the system deletes when its last descriptor is closed. Move-only.
+/// A file without a name in a folder; the system deletes it when its last descriptor is closed. Move-only.
 class Upload {
  public:
-  /// folder: empty: the system's folder for temporary files. Error: io.
+  /// folder: if empty, the system's folder for temporary files. Error: io.
   static Result<Upload> create(const std::string& folder);
   /// Error: io (the disk is full).
   Result<void> append(std::string_view piece);
   int file() const { return file_.number(); }  ///< open for reading and writing
   uint64_t bytes() const { return bytes_; }
 
-  std::string name;  ///< the client's; for display
+  std::string name;  ///< file name that the client sent, for display
   UploadKind kind = UploadKind::glb;
-  /// For a grammar: "region", "cell", "seed", "set" with their values, as received.
+  /// For a grammar: the values of "region", "cell", "seed" and "set" as the client sent them.
   std::vector<std::pair<std::string, std::string>> options;
 
  private:

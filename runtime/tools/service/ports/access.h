@@ -1,5 +1,6 @@
 #pragma once
-// Access control: rejects pages of other sites, under any name of this machine, and clients without the token.
+// Access control: rejects requests that pages of other sites make, under any name of this machine, and clients without
+// the token.
 
 #include <optional>
 #include <string>
@@ -12,12 +13,12 @@
 namespace sgm::service {
 
 struct AccessSettings {
-  std::string address = "127.0.0.1";    ///< the listening address
-  std::string token;                    ///< empty: no token is required
-  std::vector<std::string> host_names;  ///< further names of this server, besides its address
+  std::string address = "127.0.0.1";    ///< the address on which the server listens
+  std::string token;                    ///< token that clients must send; empty: no token is required
+  std::vector<std::string> host_names;  ///< names of this server that clients may use in addition to its address
 };
 
-/// Whether a numeric address is this machine's loopback; false for any other text.
+/// Whether the text is a numeric loopback address of this machine.
 bool isLoopback(std::string_view address);
 
 class Access {
@@ -27,17 +28,17 @@ class Access {
   /// name.
   static Result<Access> create(const AccessSettings& settings);
 
-  /// The answer to a forbidden request: 421 for an unknown Host (a site that resolves its own name to our address gets
-  /// no data), 403 for an Origin other than ours. nullopt if it is allowed.
+  /// The answer to a forbidden request: 421 for an unknown Host (so that a site that resolves its own name to our
+  /// address gets no data), 403 for an Origin other than ours. nullopt if the request is allowed.
   std::optional<http::Response> refuse(const http::Request& request) const;
-  /// 401 if there is a token and the request does not have it.
+  /// The answer 401 if a token is required and the request does not have it; nullopt otherwise.
   std::optional<http::Response> refuseStranger(const http::Request& request) const;
 
  private:
   bool isOurs(std::string_view host) const;
 
   std::string token_;
-  std::vector<std::string> names_;  ///< in lower case, without ports
+  std::vector<std::string> names_;  ///< accepted host names in lower case, without ports
   bool any_address_ = false;        ///< the server listens on all addresses of the machine
 };
 

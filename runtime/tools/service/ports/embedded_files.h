@@ -1,5 +1,6 @@
 #pragma once
-// The page's files and the description of the interface, embedded in the library: no files are read at run time.
+// The files of the web page and the description of the HTTP interface, embedded in the library, so that no files are
+// read at run time.
 
 #include <span>
 #include <string_view>
@@ -7,9 +8,9 @@
 namespace sgm::service {
 
 struct EmbeddedFile {
-  std::string_view name;  ///< without a folder
+  std::string_view name;  ///< file name without its folder
   std::string_view bytes;
-  std::string_view tag;  ///< the ETag of these bytes
+  std::string_view tag;  ///< entity tag (ETag) of these bytes
 };
 
 std::span<const EmbeddedFile> embeddedFiles();

@@ -1,5 +1,5 @@
 #pragma once
-// Parses values of request fields.
+// Parses the values of HTTP request fields.
 
 #include <string>
 #include <string_view>
@@ -7,13 +7,13 @@
 
 namespace sgm::service {
 
-/// Only ASCII letters, as in names of HTTP.
+/// The text with ASCII letters in lower case; other characters are unchanged.
 std::string inSmallLetters(std::string_view text);
-/// The media type of a Content-Type in lower case, without parameters: "model/stl".
+/// The media type of a Content-Type value, in lower case and without parameters: "model/stl".
 std::string mediaType(std::string_view content_type);
-/// The members of a list, trimmed; quoted strings are not split.
+/// The members of a comma-separated list, without surrounding spaces. Commas within quoted strings do not separate.
 std::vector<std::string_view> listed(std::string_view value);
-/// Whether an If-None-Match matches this entity tag, by weak comparison (RFC 9110, 8.8.3.2 and 13.1.2).
+/// Whether the value of If-None-Match contains this entity tag, by weak comparison (RFC 9110, 8.8.3.2 and 13.1.2).
 bool namesTag(std::string_view if_none_match, std::string_view tag);
 
 }  // namespace sgm::service

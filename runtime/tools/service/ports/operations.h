@@ -1,6 +1,6 @@
 #pragma once
-// The port for operators: liveness, readiness and metrics. It has its own thread, so that uploads and slow clients do
-// not delay it.
+// The HTTP port for operators: liveness, readiness and metrics. It has a thread of its own, so that uploads and slow
+// clients do not delay it.
 
 #include <functional>
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace sgm::service {
 
-/// A dependency of the service.
+/// The state of something on which the service depends.
 struct Check {
   std::string name;
   bool ok = true;
-  bool needed = false;  ///< the service is not ready without it; otherwise it is degraded
+  bool needed = false;  ///< if true, the service is not ready while ok is false; otherwise it is degraded
   std::string detail;
 };
 
 struct OperationsParts {
   const Access& access;
-  std::function<std::string()> metrics;  ///< the text for Prometheus
+  std::function<std::string()> metrics;  ///< returns the metrics in Prometheus' text format
   std::function<std::vector<Check>()> checks;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The port for users and programs: the page, uploads, reports, reference histograms.
+// The HTTP port for users and programs: the page, uploads, reports, reference histograms.
 
 #include <functional>
 #include <map>
@@ -22,10 +22,11 @@ struct WorkSettings {
   std::string upload_folder;  ///< empty: the system's folder for temporary files
   uint64_t most_upload_bytes = uint64_t{64} << 20;
   bool masters_writable = false;
-  uint64_t most_incoming_bytes = uint64_t{1} << 30;  ///< of all uploads being received; at least one fits
+  /// limit of all uploads that are being received; a single upload is always accepted
+  uint64_t most_incoming_bytes = uint64_t{1} << 30;
 };
 
-/// The parts that it uses, which outlive the server.
+/// Objects that the port uses; they must outlive the server.
 struct WorkParts {
   const Access& access;
   Inspector& inspector;
@@ -49,8 +50,9 @@ class Work final : public http::Handler {
 
   WorkParts parts_;
   WorkSettings settings_;
-  std::shared_ptr<IncomingRoom> room_, text_room_;                        ///< of uploads on disk, of texts in memory
-  std::map<std::string_view, std::shared_ptr<const std::string>> files_;  ///< one copy for all clients
+  std::shared_ptr<IncomingRoom> room_, text_room_;  ///< bytes being received: uploads on disk, and texts in memory
+  /// the embedded files by name, one copy for all clients
+  std::map<std::string_view, std::shared_ptr<const std::string>> files_;
 };
 
 }  // namespace sgm::service

@@ -1,5 +1,5 @@
 #pragma once
-// Names of chunk defects in the service's output.
+// Names of the defects of chunks in the service's output.
 
 #include <sgm/sgm.h>
 

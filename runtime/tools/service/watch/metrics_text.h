@@ -1,5 +1,6 @@
 #pragma once
-// The text for Prometheus, format 0.0.4: base units, labels of closed sets, at most about 500 series a world.
+// Writes the metrics in Prometheus' text format 0.0.4: base units, labels with a closed set of values, at most about
+// 500 time series for each world.
 
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace sgm::service {
 
-/// Each family has HELP and TYPE. Names of worlds must be unique. Non-finite numbers are written as the format
+/// Each metric family has HELP and TYPE. Names of worlds must be unique. Non-finite numbers are written as the format
 /// requires. Thread-safe. Throws std::bad_alloc.
 std::string metricsText(const ServiceState& state, const std::vector<WorldSample>& worlds);
 

@@ -1,5 +1,5 @@
 #pragma once
-// State of the service, for its metrics and its summary.
+// The state of the service, from which its metrics and its summary are written.
 
 #include <chrono>
 
@@ -14,7 +14,7 @@ struct ServiceState {
   http::ServerCounts work, operations;
   InspectorCounts inspector;
   bool inspects = false;      ///< whether uploads can be inspected
-  unsigned most_waiting = 0;  ///< uploads
+  unsigned most_waiting = 0;  ///< maximum number of waiting uploads
   uint64_t most_upload_bytes = 0;
   size_t reports = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// The page's data as JSON. Non-finite numbers are null. Thread-safe. The functions throw std::bad_alloc.
+// Writes the page's data as JSON. Non-finite numbers become null. The functions are thread-safe, and throw
+// std::bad_alloc.
 
 #include <string>
 #include <vector>
@@ -9,9 +10,9 @@
 
 namespace sgm::service {
 
-/// GET /api/v1/summary.
+/// The body of the answer to GET /api/v1/summary.
 std::string summaryText(const ServiceState& state, const std::vector<WorldSample>& worlds);
-/// GET /api/v1/worlds/{name}/chunks.
+/// The body of the answer to GET /api/v1/worlds/{name}/chunks.
 std::string chunksText(const WorldMap& map);
 
 }  // namespace sgm::service

@@ -1,5 +1,6 @@
 #pragma once
-// Functions that declare a command, and return the function to run if it is given.
+// Functions that declare a command and its options to the command line parser. They return the function that runs the
+// command.
 
 #include <concepts>
 #include <functional>
@@ -36,9 +37,9 @@ class Command {
 
 using AddCommand = Command (*)(CLI::App& root);
 
-/// The commands of this build, in the order of help: those of all_commands.cpp or of core_commands.cpp.
+/// The commands of this build, in the order of --help. Defined in all_commands.cpp or in core_commands.cpp.
 std::span<const AddCommand> commandsToAdd();
-/// Names of commands that are not in this build.
+/// Names of the commands that this build does not have.
 std::span<const std::string_view> commandsLeftOut();
 
 Command addCheck(CLI::App& root);
@@ -58,7 +59,7 @@ Command addServe(CLI::App& root);
 Command addBench(CLI::App& root);
 Command addPaper(CLI::App& root);
 Command addBackends(CLI::App& root);
-/// Not listed in help: the metrics service calls it.
+/// This command is not listed in --help, because only the metrics service calls it.
 Command addInspect(CLI::App& root);
 
 }  // namespace sgm::cli

@@ -1,5 +1,5 @@
 #pragma once
-// Options of commands that start the metrics service.
+// Options of the commands that can start the metrics service.
 
 #include "tools/cli/fly/commands.h"
 #include "tools/support/serving.h"
@@ -11,10 +11,11 @@ class Option;
 
 namespace sgm::cli {
 
-/// --serve, --keep-serving, and those below. In a small build, --serve is a usage error.
+/// Adds --serve, --keep-serving, and the options of addServingOptions(). In a build without the service, --serve is a
+/// usage error.
 void addFlightServing(CLI::App& app, FlyOptions& options);
 
-/// --listen to --waiting. needs: an option that they require; null: none.
+/// Adds the options from --listen to --waiting. needs: an option without which they are usage errors; null: none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
 
 }  // namespace sgm::cli

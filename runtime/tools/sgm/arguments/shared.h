@@ -1,5 +1,5 @@
 #pragma once
-// Options that several commands share, and checks of values, which return "" or the problem.
+// Options that several commands share, and functions that check an option's value. These return "" or the problem.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -11,11 +11,12 @@
 
 namespace sgm::cli {
 
-/// As CLI::Range, which accepts text that is not a number, and prints 0.000000 as a limit.
+/// Accepts numbers from low to high. CLI::Range does the same, but accepts text that is not a number, and prints
+/// 0.000000 as a limit.
 CLI::Validator numberIn(double low, double high);
 
 std::string checkRegion(const std::string& text);
-/// Rejects signed text, which would wrap into an unsigned number.
+/// Accepts whole numbers. Rejects a sign, since CLI11 would wrap a negative number into a large unsigned number.
 std::string checkWhole(const std::string& text);
 std::string checkSet(const std::string& text);
 std::string checkMeshFile(const std::string& out);
@@ -25,28 +26,28 @@ std::string checkCamera(const std::string& text);
 std::string checkLevels(const std::string& text);
 std::string checkShard(const std::string& text);
 std::string checkPng(const std::string& out);
-/// .png or .svg.
+/// Accepts names of files that end in .png or .svg.
 std::string checkPicture(const std::string& out);
 std::string checkCutLine(const std::string& text);
 std::string checkSeeds(const std::string& text);
 std::string checkVideo(const std::string& out);
 
 void addLevelOption(CLI::App& app, WorldOptions& options);
-/// --seed, --set, --backend, --threads.
+/// Adds --seed, --set, --backend, --threads.
 void addDerivationOptions(CLI::App& app, WorldOptions& options);
-/// FILE, --json, and those of addDerivationOptions.
+/// Adds FILE, --json, and the options of addDerivationOptions().
 void addWorldOptions(CLI::App& app, WorldOptions& options);
-/// --region, --cell, --ld, --max-chunks.
+/// Adds --region, --cell, --ld, --max-chunks.
 void addRegionOptions(CLI::App& app, WorldOptions& options);
 void addSharpOption(CLI::App& app, WorldOptions& options);
-/// --light for pictures, and its footer of --help.
+/// Adds --light for pictures, and explains it in the footer of --help.
 CLI::Option* addLightOption(CLI::App& app, std::string& light);
 inline constexpr const char* kLightFooter =
     "Light: from the points where the rays of the picture end (at most 256 m away), five more rays each go up\n"
     "through the world, meshed or not. If at least 3 % of them reach the sky, or glass, cloud or snow, the sun\n"
     "shines; otherwise the camera has a head lamp. The sun also shines if the camera itself is inside rock.\n";
 
-/// All options except `others`.
+/// All options of the command except `others`.
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others);
 
 /// Limits of the process that reads a mesh file.
