@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// pi/2 and ln 2 as sums of parts (Cody and Waite's reduction). The leading 33 (pi/2) or 32 (ln 2) bits are short enough
+// Pi/2 and ln 2 as sums of parts (Cody and Waite's reduction). The leading 33 (pi/2) or 32 (ln 2) bits are short enough
 // that their product with the whole number that the reduction subtracts is exact.
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
@@ -204,7 +204,7 @@ DoubleDouble twoProduct(double a, double b) {
   return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// log x with about 12 bits more than a double has: detPow multiplies the logarithm, and with it its error, by the
+/// Log x with about 12 bits more than a double has: detPow multiplies the logarithm, and with it its error, by the
 /// exponent.
 DoubleDouble logExtended(double x) {
   const Split split = splitFloat(x);

@@ -18,7 +18,7 @@ std::string procFile(const char* name) {
   return content ? std::move(*content) : std::string();
 }
 
-/// Boot time of the machine, seconds since 1970.
+/// The time when the machine booted, seconds since 1970.
 std::optional<double> bootTime() {
   std::istringstream in(procFile("/proc/stat"));
   for (std::string word; in >> word;) {
@@ -28,7 +28,7 @@ std::optional<double> bootTime() {
   return std::nullopt;
 }
 
-/// The fields of /proc/self/stat after the program's name, which may contain any characters.
+/// Reads the fields of /proc/self/stat that follow the program's name; the name may contain any characters.
 void readTimes(ProcessFigures& figures) {
   const std::string stat = procFile("/proc/self/stat");
   const size_t name_end = stat.rfind(')');
@@ -55,7 +55,7 @@ std::optional<uint64_t> openFiles() {
   uint64_t count = 0;
   std::filesystem::directory_iterator at("/proc/self/fd", error);
   for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) ++count;
-  // One of them is the folder's own descriptor.
+  // One of the counted descriptors is that of the folder itself.
   return error || count == 0 ? std::nullopt : std::optional(count - 1);
 }
 

@@ -24,10 +24,11 @@ using measure::MasterLimits;
 constexpr int64_t kApplication = 0x53474D4D;  // "SGMM"
 constexpr int64_t kSchemaVersion = 1;
 constexpr int64_t kMostMasters = 100'000;
-/// Maximum of bytes of a value or statement: enough for ours, and a crafted file cannot request gigabytes.
+/// Maximum number of bytes of a value or SQL statement: enough for valid databases, and small enough that a crafted
+/// file cannot make SQLite allocate gigabytes.
 constexpr int kMostBytes = 1 << 20;
 
-// Tables are recognized by these exact texts, which SQLite stores.
+// A table is recognized by the exact text of its CREATE statement, which SQLite stores.
 constexpr const char* kKeysTable =
     "CREATE TABLE keys(id INTEGER PRIMARY KEY, bins INTEGER NOT NULL, mode TEXT NOT NULL, length REAL NOT NULL, "
     "density REAL NOT NULL, version INTEGER NOT NULL, limit_mse REAL NOT NULL, limit_emd REAL NOT NULL, "
@@ -35,11 +36,11 @@ constexpr const char* kKeysTable =
 constexpr const char* kMastersTable =
     "CREATE TABLE masters(id INTEGER PRIMARY KEY, key INTEGER NOT NULL REFERENCES keys(id), class TEXT NOT NULL, "
     "name TEXT NOT NULL, models INTEGER NOT NULL, shares BLOB NOT NULL, checksum INTEGER NOT NULL) STRICT";
-/// The sum of all rows, to detect a lost one.
+/// This table holds the number of all rows and the sum of their checksums, to detect a missing row.
 constexpr const char* kSealTable =
     "CREATE TABLE seal(id INTEGER PRIMARY KEY, rows INTEGER NOT NULL, checksum INTEGER NOT NULL) STRICT";
 
-/// A checksum of all columns of a row, to detect any flipped bit.
+/// A checksum of all columns of a row, which detects any changed bit.
 class RowSum {
  public:
   template <class T>
@@ -93,7 +94,7 @@ ReadBase failed(const Database& database) {
 
 ReadBase damaged(const std::string& what) { return {{}, Damage::damaged, what}; }
 
-/// Null, with SQLite's code, if it cannot be opened.
+/// Opens a database file. Returns null, and sets `code` to SQLite's code, if it cannot be opened.
 Database openFile(const std::string& name, int flags, int& code) {
   sqlite3* raw = nullptr;
   code = sqlite3_open_v2(name.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, nullptr);
@@ -106,7 +107,7 @@ Database openFile(const std::string& name, int flags, int& code) {
   return database;
 }
 
-/// The file's URI for SQLite, followed by a query.
+/// The file's URI for SQLite, followed by a query string.
 std::string uriOf(const std::filesystem::path& file, const std::string& query) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -120,8 +121,8 @@ std::string uriOf(const std::filesystem::path& file, const std::string& query) {
   return uri + query;
 }
 
-/// Replays the log of a killed writer. Without write permission, opens the file as immutable: otherwise SQLite would
-/// create its own files beside it.
+/// Opens a database for reading. If the file is writable, SQLite replays the log of a killed writer. Otherwise the file
+/// is opened as immutable, because SQLite would create its own files beside it.
 Database openForReading(const std::filesystem::path& file, int& code) {
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   if (access(file.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0) {
@@ -136,7 +137,7 @@ std::optional<int64_t> pragma(const Database& database, const char* text) {
   return statement.whole(0);
 }
 
-/// nullopt, or the problem that SQLite itself finds.
+/// The reason why SQLite or its header rejects the file; nullopt if the file is intact.
 std::optional<ReadBase> unsound(const Database& database) {
   const std::optional<int64_t> application = pragma(database, "PRAGMA application_id");
   const std::optional<int64_t> version = pragma(database, "PRAGMA user_version");
@@ -224,7 +225,7 @@ Error cannotWrite(const std::filesystem::path& file, const Database& database) {
   return {Code::io, "cannot write " + file.string() + ": " + sqlite3_errmsg(database.get())};
 }
 
-/// Inserts into empty tables. Returns whether it succeeded.
+/// Inserts all rows of the set into empty tables. Returns whether it succeeded.
 bool insertRows(const Database& database, const MasterSet& set) {
   uint64_t sum = 0;
   Statement key(database, "INSERT INTO keys VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
@@ -250,7 +251,7 @@ bool insertRows(const Database& database, const MasterSet& set) {
   return key.code() == SQLITE_OK && master.code() == SQLITE_OK && seal.code() == SQLITE_OK;
 }
 
-/// Built in memory first, so that the file appears completely.
+/// Writes a new file. The database is first built in memory, so that the file appears completely or not at all.
 Result<void> writeNew(const std::filesystem::path& file, const MasterSet& set) {
   int code = SQLITE_OK;
   const Database database = openFile(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, code);
@@ -270,7 +271,8 @@ Result<void> writeNew(const std::filesystem::path& file, const MasterSet& set) {
   if (!writer) return writer.error();
   writer->write(bytes.get(), static_cast<size_t>(size));
   if (Result<void> done = writer->commit(); !done) return done;
-  // Lets readers and one writer work concurrently. If this fails, it is still a valid base.
+  // The mode WAL lets readers and one writer work concurrently. If setting it fails, the database is valid all the
+  // same.
   if (const Database made = openFile(file.string(), SQLITE_OPEN_READWRITE, code)) {
     execute(made, "PRAGMA journal_mode = WAL");
   }
@@ -308,7 +310,7 @@ ReadBase readBase(const std::filesystem::path& file) {
   int code = SQLITE_OK;
   const Database database = openForReading(file, code);
   if (!database) return failed(code, sqlite3_errstr(code));
-  // One transaction, so that all rows come from the same write.
+  // One transaction, so that all rows come from the same state of the database.
   if (execute(database, "BEGIN") != SQLITE_OK) return failed(database);
   if (std::optional<ReadBase> wrong = unsound(database)) return *wrong;
   return readRows(database);

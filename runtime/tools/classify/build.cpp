@@ -21,7 +21,7 @@ using Shares = std::vector<double>;
 
 constexpr double kMillion = 1e6;
 
-/// A histogram and its family.
+/// A histogram of a model, and the family of that model.
 struct Member {
   const Family* family;
   const Shares* shares;
@@ -49,7 +49,8 @@ size_t nearestOf(HistogramMode mode, const Shares& shares, std::span<const Share
   return nearest;
 }
 
-/// Lloyd's algorithm, started with members that lie far apart: deterministic.
+/// Divides histograms into clusters by Lloyd's algorithm (k-means). It starts with members that lie far apart, so that
+/// the result is deterministic.
 std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const Member> members) {
   std::vector<Shares> centres{*members.front().shares};
   while (centres.size() < std::min(mastersAGrammar(mode), members.size())) {
@@ -69,7 +70,7 @@ std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const 
   return clusters;
 }
 
-/// Integral millionths that add up to one, so that sourceOf() writes exact values.
+/// Rounds shares to whole millionths that still add up to one, so that sourceOf() writes exact values.
 Shares rounded(const Shares& shares) {
   std::vector<double> parts(shares.size());
   std::vector<size_t> order(shares.size());
@@ -97,7 +98,7 @@ std::vector<Master> mastersFor(const MasterKey& key, std::span<const Member> mem
   return masters;
 }
 
-/// Three digits, also exact in the source.
+/// Rounds a value to three significant digits, so that sourceOf() writes it exactly.
 double toThreeDigits(double value) {
   const std::string text = generalText(value, 3);
   double out = value;

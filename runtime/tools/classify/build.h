@@ -28,7 +28,7 @@ size_t mastersAGrammar(measure::HistogramMode mode);
 struct Specimen {
   const Family* family = nullptr;
   uint64_t seed = 0;
-  /// histogram of each key of masterKeys(); empty if the key is for another density than the family's
+  /// Histogram of each key of masterKeys(); empty if the key is for another density than the family's.
   std::vector<std::vector<double>> shares;
 };
 

@@ -18,14 +18,15 @@ namespace {
 
 constexpr uint64_t kMostChunks = 8192;
 constexpr size_t kCellBytes = size_t{256} << 20;
-/// Cells on an edge of the part of the world that is searched for a surface.
+/// Number of grid cells along the edge of the part of the world that is searched for a surface.
 constexpr int64_t kSearchCells = 64;
-/// Limit of the vertical component of a steep surface's unit normal: 60 degrees.
+/// Maximum vertical component of the unit normal of a steep surface: it is inclined by at least 60 degrees.
 constexpr double kSteep = 0.5;
 constexpr size_t kFewestTriangles = 1000;
 constexpr uint64_t kAttempts = 10;
 
-/// Contract: the file exists; for a constant, the compiler reports a missing one.
+/// The text of an embedded grammar. Contract: the file is embedded; in a constant expression, the compiler reports a
+/// missing file.
 constexpr std::string_view embedded(std::string_view file) {
   for (const EmbeddedGrammar& grammar : kEmbeddedGrammars)
     if (grammar.file == file) return grammar.text;
@@ -52,7 +53,7 @@ rule Tree(h) weight 1 { plant.Spruce(h); }
 rule Tree(h) weight 1 { plant.Broadleaf(h); }
 )sgm";
 
-/// Cells and cubes that show enough of a model at low cost: at most 96 cells on an edge.
+/// A size of grid cells and of cubes that shows enough of a model at low cost: at most 96 cells along an edge.
 struct Scale {
   double cell = 0, edge = 0;
 };
@@ -69,7 +70,7 @@ struct Kind {
   std::string_view class_name;
   std::span<const Scale> scales;
   std::string_view file;
-  double middle = 0;  ///< excludes the ground around a building, and its border
+  double middle = 0;  ///< width of the middle that excludes the ground around a building, and its border; 0: no limit
   std::string_view text = embedded(file);
 };
 constexpr std::array kKinds{
@@ -134,7 +135,7 @@ constexpr auto kFamilies = [] {
   return all;
 }();
 
-/// The box with that edge around a point, lo <= p < hi.
+/// The box with that edge length centred on a point, lo <= p < hi.
 IntBox cubeAround(const measure::Point& p, double edge) {
   IntBox cube;
   for (int axis = 0; axis < 3; ++axis) {
@@ -144,7 +145,7 @@ IntBox cubeAround(const measure::Point& p, double edge) {
   return cube;
 }
 
-/// A column in the middle of a box, `wide` metres along x and z.
+/// The middle of a box: `wide` metres along x and z, and its full height.
 IntBox middleOf(const IntBox& box, double wide) {
   IntBox middle = box;
   for (const int axis : {0, 2}) {
@@ -156,7 +157,7 @@ IntBox middleOf(const IntBox& box, double wide) {
   return middle;
 }
 
-/// The coarsest level for searching a box.
+/// The coarsest level of detail that suffices to search a box for a surface.
 int searchLevel(const IntBox& box, int32_t cell) {
   int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, int64_t{box.hi[axis]} - box.lo[axis]);
@@ -172,8 +173,9 @@ bool contains(const IntBox& box, const measure::Point& p) {
   return true;
 }
 
-/// A point on a steep surface, chosen by `share`, 0..1: flat ground, most of a village's surface, tells nothing of the
-/// objects on or below it. If there is no steep surface in the box, any point. Contract: the mesh has triangles.
+/// A point on a steep surface, selected by `share`, 0..1. Flat ground, which is most of a village's surface, says
+/// nothing about the objects on or below it. If the box contains no steep surface, the point is on any surface.
+/// Contract: the mesh has triangles.
 measure::Point placeOn(const ModelMesh& mesh, const IntBox& box, double share) {
   std::vector<uint32_t> steep;
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -208,7 +210,7 @@ ModelMesh randomGrid(double edge, const PathKey& key) {
   return mesh;
 }
 
-/// Metres from the world's origin.
+/// Converts a mesh to metres from the world's origin.
 ModelMesh modelOf(const WorldMesh& mesh) {
   ModelMesh model = measure::trianglesOf(mesh);
   const measure::Point origin{metres(mesh.origin.x), metres(mesh.origin.y), metres(mesh.origin.z)};

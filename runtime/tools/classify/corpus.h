@@ -23,7 +23,7 @@ struct Family {
   std::string_view text;  ///< text of the grammar; empty for noise
   double cell = 0;        ///< edge of a grid cell, metres; for noise, the edge of a quadrangle
   double edge = 0;        ///< edge of the examined cube, metres; 0: the whole world is examined, which is finite
-  /// width along x and z, metres, of the middle of a finite world from which cubes are taken; 0: the whole world
+  /// Width along x and z, metres, of the middle of a finite world from which cubes are taken; 0: the whole world.
   double middle = 0;
 };
 std::span<const Family> families();

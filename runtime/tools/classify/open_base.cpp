@@ -1,4 +1,4 @@
-// The default base, and the treatment of a damaged one.
+// Finds and opens the user's database of reference histograms, and replaces a damaged one.
 
 #include <sys/stat.h>
 
@@ -20,8 +20,8 @@ bool isThere(const std::string& file) {
   return lstat(file.c_str(), &about) == 0;
 }
 
-/// Returns the new name, or an empty one with errno. Moves the log first: otherwise SQLite would replay it into the
-/// next base.
+/// Renames a damaged file. Returns the new name, or an empty text with errno if it fails. Moves SQLite's log first:
+/// otherwise SQLite would replay that log into the next database.
 std::string moveAside(const std::string& file) {
   for (int i = 1; i <= kMostDamaged; ++i) {
     const std::string aside = file + ".damaged-" + std::to_string(i);

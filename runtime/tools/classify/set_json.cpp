@@ -24,7 +24,7 @@ using measure::MasterLimits;
 constexpr size_t kLongestClass = 64, kLongestName = 256;
 constexpr double kMostLength = 1e9;
 
-/// Reads until the first problem, and ignores later ones.
+/// Reads a set until the first problem; further problems are not reported.
 class SetReader {
  public:
   ReadSet run(const JsonValue& json) {
@@ -51,7 +51,8 @@ class SetReader {
     pointer_ = pointer;
   }
 
-  /// An object with these members, each once; `passed_over` ones are optional.
+  /// Requires an object with the `wanted` members, each exactly once. Members named in `passed_over` are optional and
+  /// ignored.
   void members(const JsonValue& json, const std::string& at, std::initializer_list<std::string_view> wanted,
                std::initializer_list<std::string_view> passed_over = {}) {
     if (json.kind != JsonValue::Kind::object) return fail("an object is expected here", at);
@@ -61,7 +62,7 @@ class SetReader {
     for (size_t i = 0; i < json.names.size(); ++i) {
       const std::string& name = json.names[i];
       const bool known = has(wanted, name) || has(passed_over, name);
-      // Do not repeat names of unknown members in messages.
+      // The message does not repeat the name of an unknown member, because the client chose that text.
       if (!known) return fail("unknown member", at);
       if (std::find(json.names.begin(), json.names.begin() + static_cast<std::ptrdiff_t>(i), name) !=
           json.names.begin() + static_cast<std::ptrdiff_t>(i))
@@ -105,7 +106,7 @@ class SetReader {
   std::string text(const JsonValue& json, const std::string& name, const std::string& at, size_t longest) {
     if (wrong_) return {};
     const JsonValue& value = *json.find(name);
-    // The JSON reader accepts only UTF-8.
+    // The JSON reader accepts only UTF-8, so only control characters must be rejected here.
     const bool controls =
         std::ranges::any_of(value.text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
     if (value.kind != JsonValue::Kind::text || value.text.empty() || value.text.size() > longest || controls)
@@ -174,7 +175,7 @@ class SetReader {
       if (!fits) fail("a number from 0 to 1 is expected here", at + "/" + std::to_string(i));
       shares.push_back(items[i].number);
     }
-    // The same condition as for a base.
+    // The same condition as for histograms in a database.
     if (!(std::fabs(std::accumulate(shares.begin(), shares.end(), 0.0) - 1) < 1e-9))
       fail("these shares do not add up to 1", at);
     return shares;
@@ -194,7 +195,7 @@ class SetReader {
   bool wrong_ = false;
   std::string what_, pointer_;
   std::set<std::tuple<std::ptrdiff_t, std::string, std::string>> names_;
-  std::set<std::ptrdiff_t> with_masters_;  ///< keys
+  std::set<std::ptrdiff_t> with_masters_;  ///< indices of the keys for which a reference histogram was read
 };
 
 }  // namespace

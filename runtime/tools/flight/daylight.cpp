@@ -9,17 +9,18 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kColumns = 6, kRows = 4;  // of the rays over a picture; none in its exact centre
-constexpr double kViewMetres = 256;        // farther surfaces take up little of a picture
+constexpr size_t kColumns = 6, kRows = 4;  // rays over a picture; none passes through its exact centre
+constexpr double kViewMetres = 256;        // length of the rays; farther surfaces take up little of a picture
 constexpr double kGoldenAngle = 2.399963229728653;
-/// A ray upwards that hits nothing within this distance has reached the sky: between solids, for solids that go on
-/// upwards without end, and out of rock, whose caves may be high. It is limited because the world is derived along the
-/// ray.
+/// Length of upward rays that must hit nothing to reach the sky: in an open world; in an open world whose cells are
+/// stacked without end; and in rock, whose caves may be high. The length is limited because the world must be derived
+/// along the ray.
 constexpr double kSkyMetres = 256, kEndlessSkyMetres = 128, kRockSkyMetres = 1024;
-/// Thresholds for a look that clearly calls for the other light.
+/// Factors of kEnoughDaylight beyond which a value is clearly on the other side of the threshold.
 constexpr double kClearlyMore = 1.5, kClearlyLess = 0.5;
 
-/// Straight up, and around at 30 degrees above the horizon. `turn` varies the directions between places.
+/// Five directions: straight up, and four around at 30 degrees above the horizon. `turn` rotates the four by an angle
+/// that differs from place to place.
 std::array<Metres3, 5> upwards(double turn) {
   std::array<Metres3, 5> directions{Metres3{0, 1, 0}};
   const double height = glm::radians(30.0);
@@ -34,7 +35,7 @@ bool letsThrough(const LitWorld& world, const RayEnd& end) {
   return end.material < world.translucent.size() && world.translucent[end.material];
 }
 
-/// The share of the upward directions in which light reaches a place.
+/// The share of the upward directions from which light reaches a place.
 Result<double> openness(const LitWorld& world, const Metres3& place, double turn) {
   const std::array<Metres3, 5> directions = upwards(turn);
   int open = 0;
@@ -88,7 +89,7 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     sum += *open;
   }
   std::ranges::sort(distances);
-  // Between median and upper quartile: frames are near, but what they frame matters.
+  // The mean of median and upper quartile: the frame of a view is near, but the things behind it matter.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
   return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }

@@ -33,7 +33,7 @@ struct LitWorld {
   bool roofless = true;           ///< false if endless rock lies above everything
   double sky_metres = 256;        ///< a ray upwards that hits nothing within this distance counts as reaching the sky
   std::vector<bool> translucent;  ///< by material index: whether the material transmits light, as glass and clouds do
-  /// distance by which a ray starts off its surface, so that it does not hit that surface
+  /// Distance by which a ray starts off its surface, so that it does not hit that surface.
   double clearance_metres = 1.0 / 256;
 
   /// The properties for a kind of domain. solid: the domain is solid outside its hollows. endless_height: its cells are

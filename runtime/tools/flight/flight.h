@@ -23,7 +23,7 @@ struct FlightSettings {
   double edits = 0;          ///< digs per second of the path, up to 60
   bool check = false;        ///< checks every frame's changes of the surface, and all chunks in every 500th frame
   bool paced = true;         ///< runs at 60 frames a second; otherwise as fast as possible
-  /// distance in metres within which visible surfaces should be of level 0; the world has the same setting
+  /// Distance in metres within which visible surfaces should be of level 0; the world has the same setting.
   double finest_distance = 24;
   uint64_t frame_bytes = uint64_t{4} << 20;  ///< maximum number of mesh bytes handed over in one frame
   /// Stands for an engine's other work in a frame, `seconds` after the first frame; its time counts as part of the
@@ -34,19 +34,19 @@ struct FlightSettings {
 struct FlightReport {
   uint64_t frames = 0, commits = 0;
   CheckedFrames checked;  ///< includes the last state, when all work is done; empty without `check`
-  /// thread CPU time of each frame in ms: digging, setting viewers, updating, polling, releasing meshes, and
-  /// FlightSettings::each_frame
+  /// Thread CPU time of each frame in ms: digging, setting viewers, updating, polling, releasing meshes, and
+  /// FlightSettings::each_frame.
   Spread main_thread;
-  /// wall time from the first update until the surroundings are walkable (kWalkableDistance); -1 if they never were
+  /// Wall time from the first update until the surroundings are walkable (kWalkableDistance); -1 if they never were.
   double walkable_ms = -1;
   double seconds = 0;  ///< wall time including checks, without the planning of the path
-  /// number of visible surfaces within finest_distance, and how many of these were of level 0, over all frames
+  /// Number of visible surfaces within finest_distance, and how many of these were of level 0, over all frames.
   uint64_t seen = 0, seen_finest = 0;
-  /// number of frames in which all visible surfaces were of level 0; number of frames with a visible surface
+  /// Number of frames in which all visible surfaces were of level 0; number of frames with a visible surface.
   uint64_t frames_covered = 0, frames_seen = 0;
   std::vector<uint64_t> work_at_teleports;  ///< number of requests that wait or are being processed at each teleport
-  /// share of these requests that still wait two frames later, for each teleport with such requests; only in paced
-  /// flights
+  /// Share of these requests that still wait two frames later, for each teleport with such requests; only in paced
+  /// flights.
   std::vector<double> stale;
   DigReport digs;
   ColliderReport colliders;  ///< at the end, when all work is done

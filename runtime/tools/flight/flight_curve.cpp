@@ -8,7 +8,7 @@ namespace sgm::cli {
 
 namespace {
 
-/// Of length one; a zero vector stays as it is.
+/// The vector scaled to length one; a zero vector is returned unchanged.
 Metres3 unit(const Metres3& a) {
   const double length = glm::length(a);
   return length > 0 ? a / length : a;
@@ -20,7 +20,8 @@ std::vector<Metres3> splinePoints(std::span<const Metres3> controls, double spac
                                   const std::optional<Metres3>& start) {
   const size_t count = controls.size(), segments = closed ? count : count - 1;
   const auto control = [&](size_t i) { return controls[i % count]; };
-  // Velocities at unit speed: the slopes on both sides, with more weight for the nearer control.
+  // Velocities at a control point for unit speed: the mean of the slopes on both sides; the nearer control has more
+  // weight.
   const auto velocity = [&](size_t i) {
     const bool first = i == 0 && !closed, last = i == count - 1 && !closed;
     if (first && start) return unit(*start);
@@ -76,7 +77,7 @@ FlightPlace FlightCurve::at(double s) const {
   const double t = along - static_cast<double>(i);
   place.position = places_[i] + t * (places_[next] - places_[i]);
   const Metres3 direction = unit((1 - t) * slope(i) + t * slope(next));
-  // Where a curve reverses, the chord is zero.
+  // Where a curve reverses its direction, the interpolated direction is zero; keep the default.
   if (glm::length(direction) > 0) place.direction = direction;
   return place;
 }

@@ -57,7 +57,7 @@ class FlightDigger {
     size_t undone = 0;  ///< if `undo` is set: index into last_ of the edit to undo
   };
   struct Waiting {
-    /// number of the edit state that includes the dig; number of commits when the dig was made
+    /// Number of the edit state that includes the dig; number of commits when the dig was made.
     uint64_t state, commits;
     Clock::time_point since;
   };
@@ -72,8 +72,8 @@ class FlightDigger {
   std::deque<sgm_edit_id> last_;          ///< recent edits that can be undone; undoing an undo repeats the edit
   std::deque<Waiting> waiting_;
   uint64_t frame_ = 0;  ///< number of the frame that was drawn at the last call of look()
-  /// number of changes of the picture so far; counted because the drawn frame's number may rise by more than one at a
-  /// time
+  /// Number of changes of the picture so far; counted because the drawn frame's number may rise by more than one at a
+  /// time.
   uint64_t commits_ = 0;
   DigReport report_;
   std::vector<double> frames_, milliseconds_;

@@ -23,7 +23,7 @@ struct PictureWish {
   double fov_degrees = 68;  ///< across the picture's height
   int width = 640, height = 360;
   Light light = Light::sun;
-  /// typical distance in metres of visible surfaces; sets the reach of the lamp and the density of haze
+  /// Typical distance in metres of visible surfaces; sets the reach of the lamp and the density of haze.
   double depth = 20;
   /// Draws each level of detail in its own colour, brightly lit; otherwise materials in `light`.
   bool levels = false;

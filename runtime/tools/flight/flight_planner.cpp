@@ -13,15 +13,16 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int64_t kFirstLook = 1'000;      // cost limit of paths in the first search for a new place
-constexpr int64_t kFarthestLook = 81'000;  // final limit, before old places are accepted
-constexpr size_t kMostNodes = 1'000'000;   // limit of visited nodes
-constexpr int64_t kShortest = 240;         // minimal cost of a useful path
-constexpr size_t kWorthIt = 500;           // nodes that a start must reach
-constexpr int kRegion = 16;                // steps: places nearer than this count as the same
-constexpr int kTries = 40;                 // far places, waypoints
+constexpr int64_t kFirstLook = 1'000;  // limit of the path cost in the first search for a new place
+// Limit of the path cost in the last search, after which visited places are accepted.
+constexpr int64_t kFarthestLook = 81'000;
+constexpr size_t kMostNodes = 1'000'000;  // maximum number of visited nodes in a search
+constexpr int64_t kShortest = 240;        // minimum cost of a useful path
+constexpr size_t kWorthIt = 500;          // minimum number of nodes that must be reachable from the start
+constexpr int kRegion = 16;               // steps; places nearer to each other than this count as the same region
+constexpr int kTries = 40;                // maximum number of attempts to find a far place or a waypoint
 constexpr int kGoals = 24;
-constexpr int kWays = 8;  // tried to each goal
+constexpr int kWays = 8;  // number of paths that are tried to each goal
 
 Metres3 metresOf(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
 
@@ -35,7 +36,7 @@ Int3 unitsOf(const Metres3& p) {
 int64_t distanceSquared(Int3 a, Int3 b) {
   int64_t sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const int64_t d = (int64_t{a[axis]} - b[axis]) / 16;  // so that the sum fits
+    const int64_t d = (int64_t{a[axis]} - b[axis]) / 16;  // divided so that the sum of squares does not overflow
     sum += d * d;
   }
   return sum;
@@ -67,7 +68,7 @@ double FlightPlanner::spacing() const { return metres(grid_->step()) / 4; }
 Result<FlightPlanner> FlightPlanner::begin(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings) {
   std::optional<Error> error;
   AutoFlight narrower = settings;
-  // If the world chooses the room, half of it may do.
+  // If the caller does not require a width, half of the chosen width may suffice.
   for (int attempt = 0; attempt < (settings.room > 0 ? 1 : 2); ++attempt) {
     FlightPlanner planner(field, grammar, narrower);
     const Result<void> settled = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre);
@@ -98,7 +99,7 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     return false;
   };
   if (settleAt(domain_.solid != 0 ? anchorsNear(near, reach) : std::vector<Int3>{near})) return {};
-  // Without anchors, anywhere in the void: near places first, since each place costs a derivation.
+  // Without anchors, search the void everywhere, near places first, since each place costs a derivation.
   for (int32_t half = 32 * kUnitsPerMetre; domain_.solid != 0 && half <= reach; half *= 4) {
     const Result<std::vector<Int3>> found = voidsNear(near, half);
     if (!found) return found.error();
@@ -109,7 +110,7 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
                             metres(near.x), metres(near.y), metres(near.z)));
 }
 
-/// The 16 nearest places in the void, up to `half` units away.
+/// The 16 places in the void nearest to `near`, at most `half` units away on each axis.
 Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   constexpr size_t kMostPlaces = 16;
   std::vector<Int3> lattice;
@@ -123,7 +124,7 @@ Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   std::stable_sort(lattice.begin(), lattice.end(),
                    [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
   std::vector<Int3> places;
-  // The first batch usually suffices, and needs the derivation of few cells.
+  // The places are sampled in batches: the first batch usually suffices, and needs the derivation of few cells.
   constexpr size_t kAtOnce = 512;
   for (size_t first = 0; first < lattice.size() && places.size() < kMostPlaces; first += kAtOnce) {
     const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));
@@ -172,14 +173,14 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
     const Result<std::vector<Int3>> way = wayOn();
     if (!way) return way.error();
     if (attempt % kWays == kWays - 1) {
-      // The obstacle is wider than a few nodes: choose another goal.
+      // All paths to this goal were blocked by an obstacle wider than a few nodes: choose another goal.
       grid_->unblock();
       been_.insert(regionOf(way->back()));
       ++waypoint_;
       continue;
     }
     const int32_t room = attempt < kGoals * kWays / 2 ? grid_->step() / 2 : grid_->step() / 8;
-    // First a smooth curve through every third node; if it comes too close to rock, a curve through every node.
+    // First try a smooth curve through every third node; if it comes too close to rock, a curve through every node.
     for (const size_t stride : {size_t{3}, size_t{1}}) {
       std::vector<Metres3> controls;
       for (size_t i = 0; i + 1 < way->size(); i += stride) controls.push_back(metresOf(grid_->placeOf((*way)[i])));
@@ -196,8 +197,8 @@ Result<std::vector<Metres3>> FlightPlanner::next() {
       if (!tight) return tight.error();
       if (*tight && stride > 1) continue;
       if (*tight) {
-        // An obstacle lies between the grid's nodes: block this path for now. At the start of a piece, the cause may be
-        // a turn that is too sharp.
+        // An obstacle lies between the grid's nodes: mark the nearest node as not clear. At the start of a piece, the
+        // cause may instead be too sharp a turn.
         const auto nearest = std::min_element(way->begin(), way->end(), [&](Int3 a, Int3 b) {
           return distanceSquared(grid_->placeOf(a), **tight) < distanceSquared(grid_->placeOf(b), **tight);
         });
@@ -224,7 +225,7 @@ Result<std::vector<Int3>> FlightPlanner::wayOn() { return domain_.solid != 0 ? w
 
 Result<std::vector<Int3>> FlightPlanner::wayToNew() {
   for (int64_t look = kFirstLook;; look *= 3) {
-    // Prefer far nodes; the seed varies the order.
+    // Far nodes are preferred; the seed varies the order.
     std::optional<Int3> best;
     double most = 0;
     const VoidSearch search(*grid_, node_, kMostNodes, {}, [&](Int3 node, int64_t cost) {
@@ -242,7 +243,7 @@ Result<std::vector<Int3>> FlightPlanner::wayToNew() {
     if (best) return search.wayTo(*best);
     if (look < kFarthestLook) continue;
     if (been_.size() <= 1) return noRoom("the void around the flight is too small");
-    // Everything is visited: start again.
+    // All regions are visited: forget them and start again.
     been_.clear();
     look = kFirstLook / 3;
   }
@@ -307,13 +308,13 @@ Result<void> FlightPlanner::findSolids(Int3 near) {
 }
 
 Int3 FlightPlanner::waypoint(int64_t number) const {
-  // Each turn of the spiral is wider by `scale_`, and its waypoints lie half of that apart. At this angle the spiral's
-  // length is `number` halves of it: the length grows with the square of the angle.
+  // Each turn of the spiral is wider by `scale_`, and waypoints lie half of `scale_` apart. The length of the spiral
+  // grows with the square of the angle; at this angle it is `number` times half of `scale_`.
   constexpr double kTurn = 2 * std::numbers::pi;
   const double angle = std::sqrt(kTurn * (1.0 + static_cast<double>(number)));
   double radius = scale_ * (0.25 + angle / kTurn);
   if (domain_.infinite == 0) {
-    // Moves in and out of a finite world.
+    // In a finite world, the radius alternately grows and shrinks, so that the flight stays inside.
     const double widest = 2.5 * scale_;
     radius = std::fabs(std::remainder(radius, 2 * widest));
   }

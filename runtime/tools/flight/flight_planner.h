@@ -62,7 +62,7 @@ class FlightPlanner {
   std::unique_ptr<VoidGrid> grid_;
   Int3 home_;  ///< node at which the flight began
   Int3 node_;  ///< node at which the flight currently ends
-  /// direction in which the flight reached node_; nullopt if it may continue in any direction
+  /// Direction in which the flight reached node_; nullopt if it may continue in any direction.
   std::optional<Metres3> way_;
   std::unordered_set<Int3, PlaceHash> been_;
   uint64_t pieces_ = 0;

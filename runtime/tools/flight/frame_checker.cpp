@@ -17,14 +17,14 @@ ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key
 
 bool isFeature(const VertexPlace& v) { return (v.kind & SGM_VERTEX_FEATURE) != 0; }
 
-/// Whether the vertex lies on no face of its chunk, so that no other chunk can share it. Features may lie off their
-/// faces.
+/// Whether the vertex lies on no face of its chunk, so that no other chunk can share it. Feature vertices (crisp edges)
+/// may lie beside the face to which they belong, so they never count as inside.
 bool isInside(const VertexPlace& v) {
   const auto inner = [](int16_t at) { return at != 0 && at != kChunkEdge; };
   return !isFeature(v) && inner(v.x) && inner(v.y) && inner(v.z);
 }
 
-/// The key of a feature in a body, or in the seam over a face; nullopt if these cannot have it.
+/// The key of a feature vertex in a body, or in the seam over a face; nullopt if no such vertex exists there.
 std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
   const bool of_cell = (vertex.kind >> 14 & 1) != 0, coarser = (vertex.kind >> 13 & 1) != 0;
   if (seam == nullptr ? coarser : of_cell) return {};
@@ -54,7 +54,7 @@ Error malformed(const ChunkKey& key, const std::string& what) {
                                       what};
 }
 
-/// Counts one edge by its uses in both directions.
+/// Adds an edge to the counts, given the number of its uses in both directions.
 template <class Counts>
 void countUse(uint64_t forward, uint64_t backward, Counts& counts) {
   counts.edges += forward + backward > 0;
@@ -62,7 +62,7 @@ void countUse(uint64_t forward, uint64_t backward, Counts& counts) {
   counts.nonmanifold += forward > 1 || backward > 1;
 }
 
-/// Calls use(from, to), both indices, for every edge of the triangles without repeated vertices.
+/// Calls use(from, to) with vertex indices for every edge of each triangle that has no repeated vertex.
 template <class Use>
 void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
   for (size_t i = 0; i < indices.size(); i += 3) {
@@ -76,7 +76,7 @@ void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_
 
 bool samePlace(const VertexPlace& a, const VertexPlace& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// Runs jobs in the calling thread: the runtime has the other threads.
+/// Runs jobs in the calling thread, because the runtime uses the other threads.
 class NoThreads final : public JobSystem {
  public:
   unsigned concurrency() const override { return 1; }
@@ -179,7 +179,7 @@ void FrameChecker::forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
 }
 
 void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) {
-  std::vector<std::pair<uint64_t, uint32_t>> edges;  // edge within the chunk, vertex number
+  std::vector<std::pair<uint64_t, uint32_t>> edges;  // packed edge within the chunk, and vertex number
   edges.reserve(part.vertices.size());
   for (const VertexPlace& v : part.vertices) {
     const auto number = static_cast<uint32_t>(edges.size());
@@ -190,7 +190,7 @@ void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) 
     }
     const uint64_t axis = v.x % kSubcell != 0 ? 0 : v.y % kSubcell != 0 ? 1 : 2;
     const uint64_t cell = (word(v.x) / kSubcell << 16) | (word(v.y) / kSubcell << 8) | word(v.z) / kSubcell;
-    // Distinct from a feature's key, whose low bits are not 0.
+    // Differs from every feature's key, whose low bits are not 0.
     edges.push_back({(cell << 2 | axis) << 16, number});
   }
   std::sort(edges.begin(), edges.end());
@@ -217,8 +217,8 @@ Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& pa
   const auto at = chunks_.find(keyOf(key));
   if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
   Chunk& chunk = at->second;
-  // Only lateral vertices depend on neighbouring blocks, but seams are small: if its fans change, re-add the whole
-  // seam.
+  // A changed set of neighbouring blocks changes only lateral vertices of a seam, but seams are small: if its fans
+  // change, the whole seam is added again.
   std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
   forEachDrawn(chunk, [&](Part&, size_t number) {
     if (number == 0) return;
@@ -426,7 +426,7 @@ uint64_t FrameChecker::countBetweenParts() const {
     bool body;
   };
   std::vector<Owner> parts;
-  std::vector<uint32_t> owners;  // part, by triangle
+  std::vector<uint32_t> owners;  // the part of each triangle
   std::vector<measure::Point> points;
   std::vector<measure::Triangle> triangles;
   if (chunks_.empty()) return 0;
@@ -437,7 +437,7 @@ uint64_t FrameChecker::countBetweenParts() const {
       for (const VertexPlace& v : part.vertices) {
         measure::Point& p = points.emplace_back();
         const std::array<int, 3> at{v.x, v.y, v.z};
-        // In 1/256 unit, which is exact.
+        // Coordinates in 1/256 unit, which doubles represent exactly.
         for (int axis = 0; axis < 3; ++axis)
           p[axis] = static_cast<double>((int64_t{grid.origin[axis]} - origin[axis]) * kSubcell +
                                         int64_t{at[static_cast<size_t>(axis)]} * grid.cell);
@@ -461,7 +461,7 @@ uint64_t FrameChecker::countBetweenParts() const {
     tree.visitPairs(walk, UINT64_MAX, [&](uint32_t a, uint32_t b) {
       const Owner &first = parts[owners[a]], &second = parts[owners[b]];
       if (owners[a] == owners[b]) {
-        // A body's own pairs are already counted; triangles of a seam may coincide.
+        // Pairs within a body are already counted; triangles of one seam may coincide.
         if (first.body) return;
       } else if (first.body && second.body && first.level == second.level) {
         pairs += measure::pairFault(cornersOf(a), cornersOf(b)) != PairFault::none;

@@ -26,8 +26,8 @@ namespace sgm::cli {
 /// The drawn seams of a chunk, and its coarser neighbours.
 struct DrawnParts {
   uint32_t seams = 0;  ///< faces whose seams are drawn: bits (1u << sgm_face)
-  /// neighbouring blocks that belong to coarser chunks, as in sgm_chunk_request; blocks across the faces in `seams`
-  /// always count as coarser
+  /// Neighbouring blocks that belong to coarser chunks, as in sgm_chunk_request; blocks across the faces in `seams`
+  /// always count as coarser.
   Neighbourhood coarser = 0;
   friend bool operator==(const DrawnParts&, const DrawnParts&) = default;
 };
@@ -53,10 +53,10 @@ struct FrameReport {
   uint64_t chunks = 0, triangles = 0;
   uint64_t edges = 0;       ///< number of undirected edges
   uint64_t open_edges = 0;  ///< edges that triangles use more often in one direction than in the other
-  /// edges that triangles use at least twice in one direction; this includes every edge of three triangles
+  /// Edges that triangles use at least twice in one direction; this includes every edge of three triangles.
   uint64_t nonmanifold_edges = 0;
   uint64_t degenerate_triangles = 0;  ///< triangles with a repeated vertex, whose edges do not count
-  /// triangles of bodies without area; this and the next two members count within one part only
+  /// Triangles of bodies without area; this and the next two members count within one part only.
   uint64_t flat_triangles = 0;
   uint64_t folded_triangles = 0;    ///< pairs of triangles of one body that share an edge and lie on each other
   uint64_t self_intersections = 0;  ///< pairs of triangles of one body that cut each other
@@ -101,7 +101,7 @@ class FrameChecker {
   WholeReport checkWhole() const;
 
  private:
-  /// bit of a vertex id: the vertex lies inside its body, and the id is unique only within the body
+  /// Bit of a vertex id: the vertex lies inside its body, and the id is unique only within the body.
   static constexpr uint32_t kInside = 1u << 31;
   using Edge = std::pair<uint32_t, uint32_t>;  ///< ids of both vertices, the lower one first
   struct Hash {
@@ -160,14 +160,14 @@ class FrameChecker {
   std::pmr::unsynchronized_pool_resource pool_;
   std::pmr::unordered_map<VertexKey, VertexUse, Hash> vertices_{&pool_};  ///< the vertices on faces of chunks
   std::pmr::unordered_map<Edge, EdgeUse, Hash> edges_{&pool_};  ///< the edges between vertices on faces of chunks
-  /// the drawn chunks, and all coarser chunks that contain a drawn one
+  /// The drawn chunks, and all coarser chunks that contain a drawn one.
   std::pmr::unordered_map<ChunkKey, Place, Hash> places_{&pool_};
   std::map<ChunkKey, Chunk> chunks_;
   std::vector<uint32_t> free_ids_;
   uint32_t next_id_ = 0;
   std::vector<uint32_t> first_;  ///< scratch memory, used within one call
-  /// scratch memory: edges inside a body, as both vertex numbers, the lower one first; the last bit is set if the edge
-  /// was reversed
+  /// Scratch memory: edges inside a body, as both vertex numbers, the lower one first; the last bit is set if the edge
+  /// was reversed.
   std::vector<uint64_t> inside_;
   PairScratch pairs_{std::pmr::new_delete_resource()};
   FrameReport report_;

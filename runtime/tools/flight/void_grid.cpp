@@ -11,11 +11,11 @@ namespace sgm::cli {
 namespace {
 
 constexpr int32_t kWorldEnd = 2'000'000 * kUnitsPerMetre;
-constexpr size_t kMostBlocks = size_t{1} << 16;  // half a kilobyte each
+constexpr size_t kMostBlocks = size_t{1} << 16;  // half a kilobyte for each block
 
 constexpr int32_t floorDivide(int32_t a, int32_t b) { return static_cast<int32_t>(floorDiv(a, b)); }
 
-/// Tenths of a step to a neighbour, by the number of axes on which it differs.
+/// Cost of a step to a neighbouring node, in tenths of a step, by the number of axes on which the nodes differ.
 constexpr std::array<int64_t, 4> kStepCost{0, 10, 14, 17};
 
 }  // namespace
@@ -65,7 +65,7 @@ bool VoidGrid::isClear(Int3 node) {
 }
 
 const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
-  // Usually the last requested block.
+  // Most requests are for the same block as the previous request.
   if (latest_ != nullptr && latest_at_ == at) return *latest_;
   latest_at_ = at;
   const auto known = blocks_.find(at);
@@ -85,7 +85,7 @@ const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
     error_ = solid.error();
     return block;
   }
-  // Dilates by one node, one axis after the other.
+  // Dilates the solid by one node, one axis after the other, so that a node is clear only if its neighbours are.
   std::vector<bool> blocked = *solid;
   for (const int stride : {1, kSide, kSide * kSide}) {
     const std::vector<bool> before = blocked;
@@ -120,7 +120,8 @@ std::optional<Int3> VoidGrid::nearestClear(Int3 node, int radius) {
 
 VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
                        const std::function<bool(Int3, int64_t)>& visit) {
-  using Entry = std::tuple<int64_t, Int3>;  // cost plus guess; ties by place, for a deterministic order
+  // Cost plus guess; equal costs are ordered by place, for a deterministic order.
+  using Entry = std::tuple<int64_t, Int3>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto left = [&](Int3 node) { return guess ? guess(node) : 0; };
   reached_[from] = {0, from, false};

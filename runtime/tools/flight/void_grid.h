@@ -45,7 +45,7 @@ class VoidGrid {
   const std::optional<Error>& error() const { return error_; }
 
  private:
-  /// number of nodes on each axis of a block; the nodes of a block are sampled together
+  /// Number of nodes on each axis of a block; the nodes of a block are sampled together.
   static constexpr int kBlock = 16;
   using Block = std::bitset<kBlock * kBlock * kBlock>;
   const Block& blockAt(Int3 at);

@@ -12,18 +12,19 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostSpots = 40;  // on a target's surface, tested for visibility
+constexpr size_t kMostSpots = 40;  // maximum number of points on a target's surface that are tested for visibility
 constexpr int kHeadings = 20;
-constexpr std::array kPitches{-20.0f, 3.0f, 14.0f, 30.0f, 55.0f};  // degrees above the target
+// Directions to the camera, in degrees above the target.
+constexpr std::array kPitches{-20.0f, 3.0f, 14.0f, 30.0f, 55.0f};
 constexpr std::array kNearer{1.0f, 0.84f, 0.7f,
-                             0.5f, 0.3f,  0.2f};  // of the distance at which the box fills the intended share
-constexpr float kLeastSeen = 0.35f;               // views with a smaller visible share do not count
+                             0.5f, 0.3f,  0.2f};  // factors of the distance at which the box fills the picture
+constexpr float kLeastSeen = 0.35f;               // minimum visible share of a view
 
 struct Spot {
   glm::vec3 position{0}, normal{0};
 };
 
-/// Centres of an even selection of the target's triangles.
+/// The centres of an evenly distributed selection of the target's triangles.
 std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   std::vector<Spot> spots;
   const size_t count = target.triangles.size(), taken = std::min(count, kMostSpots);
@@ -37,7 +38,7 @@ std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   return spots;
 }
 
-/// The distance from its centre at which the box takes `fill` of the picture, from the direction `away`.
+/// The distance from the box's centre, in the direction `away`, at which the box fills the share `fill` of the picture.
 float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera& wish, float fill) {
   const glm::vec3 right = glm::normalize(glm::cross(-away, glm::vec3(0, 1, 0))), up = glm::cross(right, -away);
   const float high = fill * std::tan(glm::radians(wish.fov_degrees) / 2);
@@ -52,7 +53,7 @@ float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera&
   return distance;
 }
 
-/// A view, before the test whether its place is open.
+/// A view that may be chosen; whether its camera position is open has not been tested yet.
 struct Candidate {
   FramedView view;
   float score = 0;
@@ -89,7 +90,7 @@ class Framer {
   std::vector<Candidate> candidates;
 
  private:
-  /// Scores the visible share. False if it is too small, or a wall is close to the camera.
+  /// Scores a view by its visible share. Returns false if that share is too small, or a wall is close to the camera.
   bool judge(const std::vector<Spot>& spots, glm::vec3 from, float distance, Candidate& candidate) const {
     size_t facing = 0, seen = 0;
     for (const Spot& spot : spots) {
@@ -127,7 +128,7 @@ Result<std::optional<FramedView>> frameTargets(std::span<const RenderVertex> ver
   for (size_t index = 0; index < targets.size(); ++index) {
     const size_t first = framer.candidates.size();
     framer.tryAll(targets[index], index);
-    // The scene's border cuts objects near it.
+    // Prefer targets near the scene's centre, because the scene's border may cut objects near it.
     const float off = glm::distance(0.5f * (targets[index].lo + targets[index].hi), centre);
     for (size_t i = first; i < framer.candidates.size(); ++i) framer.candidates[i].score -= off / size;
   }

@@ -14,12 +14,12 @@ namespace {
 
 constexpr size_t kMostUses = 50'000;
 constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // units
-constexpr int32_t kCellsAcross = 12;                                      // of a use, minimum where cell sizes allow
-constexpr int64_t kRegionCells = 352;                                     // on the region's longest edge
+constexpr int32_t kCellsAcross = 12;   // minimum number of grid cells across a use, unless the cells would be too small
+constexpr int64_t kRegionCells = 352;  // number of grid cells along the region's longest edge
 
 Error refusal(std::string message) { return {Code::invalid_argument, std::move(message)}; }
 
-/// Modules by their import names in the root.
+/// The imported modules by the names that the root file gives them.
 std::map<std::string, uint32_t> importsOf(const Program& program) {
   std::map<std::string, uint32_t> imports;
   for (const DeclaredName& declared : declarationsOf(program.modules[0].text).names) {
@@ -30,7 +30,7 @@ std::map<std::string, uint32_t> importsOf(const Program& program) {
   return imports;
 }
 
-/// The names that --frame accepts, as written in the root.
+/// All names that --frame accepts, as the root file writes them, with the indices of their rules.
 std::map<std::string, uint32_t> namesOf(const Program& program) {
   std::map<std::string, uint32_t> names;
   const std::map<std::string, uint32_t> imports = importsOf(program);
@@ -43,7 +43,7 @@ std::map<std::string, uint32_t> namesOf(const Program& program) {
   return names;
 }
 
-/// A similar name, as it is written: with the import's name if `wanted` lacks it.
+/// The known name most similar to `wanted`, with its import's name in front even if `wanted` has none.
 std::string nearName(const std::map<std::string, uint32_t>& names, const std::string& wanted) {
   Suggestion whole(wanted), bare(wanted);
   std::map<std::string, std::string> without;
@@ -85,14 +85,14 @@ double squareFromOrigin(const IntBox& box) {
 
 FrameRegion around(const IntBox& use) {
   const int64_t size = longestEdge(use);
-  // Long and thin uses need smaller cells.
+  // Long and thin uses need smaller cells, so that their thickness is resolved.
   int64_t detail = size;
   for (int axis = 0; axis < 3; ++axis) detail = std::min(detail, int64_t{use.hi[axis]} - use.lo[axis]);
   detail = std::max(detail, size / kCellsAcross);
   FrameRegion frame;
   frame.cell = kLargestCell;
   while (frame.cell > kSmallestCell && frame.cell * kCellsAcross > detail) frame.cell /= 2;
-  // Room for the camera, and for the background.
+  // Space around the use for the camera, and for the background.
   const int64_t wanted = std::max<int64_t>(6 * size, int64_t{24} * kUnitsPerMetre);
   const int64_t half = std::max(std::min(wanted, kRegionCells / 2 * frame.cell), size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -116,7 +116,8 @@ Result<FramedRule> findFramedRule(const Program& program, std::string_view text)
   std::string name(last.name);
   if (!last.qualifier.empty()) name = fmt::format("{}.{}", last.qualifier, last.name);
   if (framed.by_path) {
-    // Qualifiers in imported files are names of their own imports, so only the path decides.
+    // In an imported file, qualifiers are the names of that file's own imports, so the last name alone selects
+    // candidate rules; matchesPath() compares the whole path.
     for (uint32_t rule = 0; rule < program.rules.size(); ++rule)
       if (program.text(program.rules[rule].name) == last.name) framed.rules.push_back(rule);
   } else if (const auto found = names.find(name); found != names.end()) {

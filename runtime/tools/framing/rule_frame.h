@@ -26,7 +26,7 @@ bool matchesPath(std::string_view wanted, std::string_view path);
 struct RuleUse {
   std::string path;
   IntBox bounds;  ///< bounds of the use's shapes, units
-  /// a derived cell with the use's shapes only, without the shapes that enclose them
+  /// A derived cell with the use's shapes only, without the shapes that enclose them.
   std::shared_ptr<const DerivedCell> alone;
 };
 

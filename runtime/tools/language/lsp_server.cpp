@@ -19,13 +19,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Error codes of the protocol.
+// Error codes of JSON-RPC and of the Language Server Protocol.
 constexpr int kParseError = -32700, kInvalidRequest = -32600, kMethodNotFound = -32601, kInvalidParams = -32602,
               kServerNotInitialized = -32002;
 constexpr const char* kNotOpen = "this document is not open: send textDocument/didOpen first";
 constexpr int kErrorSeverity = 1, kWarningSeverity = 2;
 
-/// Parts of the standard library are documents too, which editors request with sgm/standardText.
+/// URIs of the standard library's modules, whose text editors request with sgm/standardText.
 constexpr std::string_view kStandardUri = "sgm-std:/";
 
 Json toJson(const TextPosition& p) { return {{"line", p.line}, {"character", p.character}}; }
@@ -39,7 +39,7 @@ uint32_t offsetAt(const DocumentText& text, const Json& params) {
   return text.offset({position.at("line").get<uint32_t>(), position.at("character").get<uint32_t>()});
 }
 
-/// The server asked for whole texts, but a client may send the replaced range as well.
+/// The text after a change. The server requests whole texts, but a client may send a replaced range as well.
 DocumentText changed(const DocumentText& before, const Json& change) {
   std::string text = change.at("text").get<std::string>();
   if (!change.contains("range") || change.at("range").is_null()) return DocumentText(std::move(text));
@@ -55,7 +55,7 @@ std::string folderOf(const std::string& uri) {
   return std::filesystem::path(pathOfUri(uri)).parent_path().lexically_normal().string();
 }
 
-/// Resolves imports to open documents first, then to files.
+/// Resolves imports, to open documents if there is one, otherwise to files.
 class OpenImports : public ImportResolver {
  public:
   OpenImports(const std::map<std::string, DocumentText>& open, std::string folder)
@@ -74,7 +74,7 @@ class OpenImports : public ImportResolver {
   api::FolderImports files_;
 };
 
-/// The protocol's numbers for kinds of completions and symbols.
+/// The protocol's numbers for a kind of completion item, and for a kind of symbol.
 struct KindNumbers {
   int completion, symbol;
 };
@@ -118,7 +118,7 @@ std::string hoverText(const DeclaredName& name) {
   return text;
 }
 
-/// The message without the library's own name and error number.
+/// The exception's message without the JSON library's name and error number.
 std::string reasonOf(const Json::exception& error) {
   const std::string_view text = error.what();
   const size_t end = text.starts_with('[') ? text.find("] ") : std::string_view::npos;
@@ -138,7 +138,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   const bool object = message.is_object();
   const Json id = object && message.contains("id") ? message.at("id") : Json();
   const bool request = object && message.contains("id");
-  // Ignore answers: this server sends no requests.
+  // Messages with a result or an error are answers; ignore them, because this server sends no requests.
   if (object && !message.contains("method") && (message.contains("result") || message.contains("error"))) return out;
   if (!object || !message.contains("method") || !message.at("method").is_string() ||
       (request && !id.is_string() && !id.is_number_integer())) {
@@ -148,7 +148,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
   }
   const std::string method = message.at("method");
   const Json params = message.contains("params") ? message.at("params") : Json::object();
-  // The library throws if params do not follow the protocol.
+  // The JSON library throws if params do not follow the protocol.
   try {
     if (!request) {
       notify(method, params, out);
@@ -211,7 +211,7 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
     const std::string uri = params.at("textDocument").at("uri");
     const Json& changes = params.at("contentChanges");
     if (!documents_.contains(uri) || changes.empty()) return;
-    // Apply all changes or none: an invalid change throws.
+    // Either all changes are applied or none: an invalid change throws before the document is replaced.
     DocumentText text = documents_[uri];
     for (const Json& change : changes) text = changed(text, change);
     documents_[uri] = std::move(text);
@@ -225,7 +225,8 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
   }
 }
 
-/// Importers of the opened, changed or closed document may have become right or wrong.
+/// Publishes diagnostics of all open documents: a changed document may also add or remove errors in documents that
+/// import it.
 void LanguageServer::diagnoseAll(std::vector<Json>& out) {
   for (const auto& [open, text] : documents_) diagnose(open, out);
 }
@@ -265,7 +266,7 @@ void LanguageServer::diagnose(const std::string& uri, std::vector<Json>& out) {
     if (!of_file.contains(about) && !documents_.contains(about)) publish(about, Json::array(), out);
   before.clear();
   for (const auto& [about, diagnostics] : of_file) {
-    // An open document publishes its own diagnostics.
+    // Errors in another open document are published with that document's own diagnostics.
     if (about != uri && documents_.contains(about)) continue;
     publish(about, diagnostics, out);
     before.insert(about);

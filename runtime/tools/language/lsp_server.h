@@ -73,7 +73,7 @@ class LanguageServer {
   State state_ = State::fresh;
   bool asked_to_end_ = false;
   std::map<std::string, DocumentText> documents_;  ///< by URI
-  /// for each open document, the URIs of the files for which diagnostics were published
+  /// For each open document, the URIs of the files for which diagnostics were published.
   std::map<std::string, std::set<std::string>> diagnosed_;
 };
 

@@ -5,7 +5,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Bytes of the character that starts here; 1 for invalid UTF-8.
+/// Number of bytes of the character at the start of `rest`; 1 for invalid UTF-8.
 uint32_t bytesOf(std::string_view rest) {
   const auto first = static_cast<unsigned char>(rest[0]);
   const uint32_t bytes = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
@@ -81,7 +81,7 @@ std::string pathOfUri(std::string_view uri) {
   constexpr std::string_view kFile = "file://";
   if (!uri.starts_with(kFile)) return {};
   uri.remove_prefix(kFile.size());
-  // Skip the host's name, which is localhost or empty.
+  // The host name, which is localhost or empty, is not part of the path.
   uri.remove_prefix(std::min(uri.find('/'), uri.size()));
   std::string path;
   for (size_t i = 0; i < uri.size(); ++i) {

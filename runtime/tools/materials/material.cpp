@@ -75,7 +75,7 @@ constexpr std::array<Named, 56> kTable{{
     {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.17f, 0.2f}},
 }};
 
-/// The effect of a tint word on a colour: a share of the way to another colour.
+/// The effect of a tint word on a colour: the colour is mixed with another colour.
 struct Tint {
   std::string_view word;
   Rgb colour;
@@ -97,7 +97,7 @@ constexpr std::array<Tint, 14> kTints{{{"white", rgb(0.80f, 0.79f, 0.76f), 0.85f
                                        {"dark", rgb(0.0f, 0.0f, 0.0f), 0.50f},
                                        {"pale", rgb(0.85f, 0.84f, 0.82f), 0.40f}}};
 
-/// Words that stand for a material of the table, in names without one.
+/// Words that select a material of the table, for names that contain no word of the table.
 struct Synonym {
   std::string_view word, means;
 };
@@ -140,7 +140,7 @@ void tint(MaterialLook& look, const Tint& by) {
 
 constexpr std::string_view kWet = "wet", kWetBefore = "wet_";
 
-/// "plaster_ochre": a known material, tinted.
+/// The look of a known material with a tint word at the end: "plaster_ochre".
 std::optional<MaterialLook> tinted(std::string_view name) {
   const size_t at = name.rfind('_');
   if (at == std::string_view::npos) return {};
@@ -152,8 +152,8 @@ std::optional<MaterialLook> tinted(std::string_view name) {
   return look;
 }
 
-/// The look of the first word that is a material, otherwise of the first synonym, with other words as tints: a brick
-/// wall is brick, a mere wall is plaster.
+/// The look of the first word that names a material, otherwise of the first synonym; the other words tint it. So
+/// "brick_wall" is brick, while "wall" alone means plaster.
 std::optional<MaterialLook> byWords(std::string_view name) {
   const MaterialLook *named = nullptr, *meant_one = nullptr;
   bool is_wet = false;
@@ -178,7 +178,7 @@ std::optional<MaterialLook> byWords(std::string_view name) {
 }  // namespace
 
 std::optional<MaterialLook> findLook(std::string_view name) {
-  // Names come from grammars and may have any length. A second `wet_` changes nothing.
+  // Names come from grammars and may have any length. Repeated prefixes `wet_` have the same effect as one.
   bool is_wet = false;
   for (; name.starts_with(kWetBefore); name.remove_prefix(kWetBefore.size())) is_wet = true;
   const MaterialLook* by_name = known(name);
@@ -189,7 +189,7 @@ std::optional<MaterialLook> findLook(std::string_view name) {
 
 MaterialLook lookOf(std::string_view name) {
   if (const std::optional<MaterialLook> found = findLook(name)) return *found;
-  // A shape without a material gets a plain look, which shows its form.
+  // A shape without a material gets a plain look that shows its form well.
   if (name.empty()) return {plain, rgb(0.50f, 0.48f, 0.44f), 0.9f, 0.5f};
   if (const std::optional<MaterialLook> found = byWords(name)) return *found;
   uint32_t hash = 2166136261u;  // FNV-1a: the same tint for the same name on every machine

@@ -35,8 +35,8 @@ enum class SurfacePattern : uint32_t {
   fibres,  ///< bark, thatch
   mossy,
   water,  ///< reflects its surroundings; darker with depth
-  /// soft white; under a sky drawn as a participating medium that the mesh bounds: roughness sets its density, relief
-  /// the strength of its puffs
+  /// Soft white; under a sky drawn as a participating medium that the mesh bounds: roughness sets its density, relief
+  /// the strength of its puffs.
   cloud,
   boards,   ///< wood, boards side by side
   glowing,  ///< emits light: the pane of a lit lantern, embers

@@ -15,7 +15,7 @@ struct AxisStyle {
   /// Ends of the axis. Without a value, the smallest and largest shown value, widened to the next tick on a linear
   /// axis.
   std::optional<double> low, high;
-  /// values of ticks, ascending, used if there is room for them; empty: round numbers are chosen
+  /// Values of ticks, ascending, used if there is room for them; empty: round numbers are chosen.
   std::vector<double> marks{};
 };
 

@@ -35,8 +35,8 @@ Exit benchPaper(const BenchOptions& options) {
   for (const StageModel& model : stageModels()) {
     const Result<int32_t> cell = cellOf(options, model);
     if (!cell) return complain(cell.error());
-    // Fresh devices, as in a process that generates only this stage: software devices specialize for the kinds of
-    // instructions seen so far, and each costs time even where it is not used.
+    // Each stage gets newly opened devices, as in a process that generates only this stage: software devices specialize
+    // their code for all kinds of instructions seen so far, and each kind costs time even in stages that do not use it.
     const Result<std::vector<Contender>> contenders = makeContenders(options.backends, options.threads);
     if (!contenders) return complain(contenders.error());
     Result<StageResult> result = measure(options, model, *cell, *contenders);
@@ -48,7 +48,7 @@ Exit benchPaper(const BenchOptions& options) {
   } else {
     print(options, results);
   }
-  // A requested backend that is missing has its row, and is an error, as for other commands.
+  // A requested backend that is missing still has its row, but the exit status is an error, as for other commands.
   Exit status = Exit::done;
   for (const StageRow& row : results.back().rows) {
     if (!row.measured() && !options.backends.empty())

@@ -25,7 +25,7 @@ class BundledImports final : public ImportResolver {
   }
 
  private:
-  std::string folder_;  // empty, or with a final slash
+  std::string folder_;  // empty, or with a slash at its end
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace sgm::cli {
 namespace {
 
 constexpr double kLineHeight = 18, kGap = 10, kLetter = 6.6;
-constexpr double kRoomAMark = 56;  // along x
-constexpr double kOverBar = 5;     // of its number
+constexpr double kRoomAMark = 56;  // pixels that each mark of the x axis needs
+constexpr double kOverBar = 5;     // pixels between a bar and the number above it
 constexpr double kRight = 18;
 
 std::string at(double value) { return fmt::format("{:.2f}", value); }
@@ -27,7 +27,7 @@ Markup line(double x0, double y0, double x1, double y1, std::string_view style) 
                       {{"x1", at(x0)}, {"y1", at(y0)}, {"x2", at(x1)}, {"y2", at(y1)}, {"class", std::string(style)}});
 }
 
-/// A different shape for each series, since colours may not be distinguishable, for example on paper.
+/// Each series has its own shape of mark, because its colour may not be distinguishable, for example on paper.
 Markup pointMark(double x, double y, size_t series) {
   constexpr double kSize = 3.5;
   const std::string style = "mark " + colour(series);
@@ -47,9 +47,9 @@ Markup pointMark(double x, double y, size_t series) {
   }
 }
 
-/// The common frame of both kinds of charts: a legend above, marks on the left and below.
+/// The frame that both kinds of charts share: a legend above, axis marks on the left and below.
 struct Frame {
-  double left = 0, right = 0, top = 0, bottom = 0;  ///< of the plot
+  double left = 0, right = 0, top = 0, bottom = 0;  ///< edges of the plot area
   Markup legend;
 
   double x(double part) const { return left + part * (right - left); }
@@ -125,7 +125,7 @@ Markup svg(const std::string& title, int width, int height, const Markup& conten
          Markup{"\n"};
 }
 
-/// The path through the points; for steps, with the area below them.
+/// The SVG path through the points; for steps, with the area below them. floor: y of the area's lower edge.
 std::string pathOf(const std::vector<std::array<double, 2>>& places, Series::Style style, double floor) {
   std::string path;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -225,7 +225,7 @@ Markup drawn(const BarChart& chart) {
                                        {"width", at(0.94 * bar_width)},
                                        {"height", at(frame.bottom - top)},
                                        {"class", "bar " + colour(s)}});
-      // Omit numbers that would touch their neighbours.
+      // Omit a number that would touch its neighbours.
       const std::string number = shortNumber(value, 3);
       if (textWidth(number) > bar_width) continue;
       const bool above = top - kOverBar > frame.top;

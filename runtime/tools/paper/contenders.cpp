@@ -9,7 +9,8 @@
 namespace sgm::cli {
 namespace {
 
-/// named: requested by the user. An unnamed software device is not measured, as `auto` does not choose it.
+/// named: the user has requested this backend. A software device that is not named is not measured, as `auto` does not
+/// choose it either.
 Result<Contender> makeContender(const std::string& name, const std::string& backend, bool named, unsigned threads) {
   Contender contender;
   contender.name = name;

@@ -28,7 +28,8 @@ Error failure(const fs::path& path, const std::string& why) {
   return Error{Code::io, fmt::format("cannot write {}: {}", path.string(), why)};
 }
 
-/// A new folder beside the target, removed with its contents unless it is renamed.
+/// A new folder beside the target; the destructor removes it with its contents, unless it has been renamed to the
+/// target.
 class Beside {
  public:
   static Result<Beside> create(const fs::path& target) {
@@ -50,7 +51,7 @@ class Beside {
   fs::path path_;
 };
 
-/// Without a trailing slash, which would count as another name.
+/// The path without a trailing slash, after which the path would have no file name.
 fs::path cleaned(const fs::path& target) {
   const fs::path path = target.lexically_normal();
   return path.has_filename() ? path : path.parent_path();
@@ -73,7 +74,7 @@ FolderFile manifestOf(const std::vector<FolderFile>& files) {
   return {kReportManifest, std::move(lines)};
 }
 
-/// By path; nullopt if there is no manifest.
+/// The checksums in a report's manifest, by path; nullopt if there is no manifest.
 std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report) {
   const std::optional<std::string> manifest = contentOf(report / kReportManifest);
   if (!manifest) return std::nullopt;
@@ -88,7 +89,8 @@ std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report)
   return sums;
 }
 
-/// Whether a folder is empty or an unchanged report, so that it may be removed; target: its name in messages.
+/// Checks that a folder is empty or an unchanged report, so that it may be removed. target: the folder's name in
+/// messages.
 Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
   std::error_code why;
   fs::recursive_directory_iterator entries(folder, why);
@@ -124,7 +126,7 @@ Result<void> exchange(const fs::path& a, const fs::path& b, const fs::path& targ
   return failure(target, cannot ? "its file system cannot exchange folders: remove it first" : systemMessage(errno));
 }
 
-/// Whether a report must be exchanged for an existing target.
+/// Checks the target. Returns whether a folder exists there, for which the new report must be exchanged.
 Result<bool> checkTarget(const fs::path& target) {
   std::error_code why;
   const fs::file_status status = fs::symlink_status(target, why);
@@ -147,7 +149,7 @@ Result<void> writeFile(const fs::path& path, const std::string& bytes) {
   return file->commit();
 }
 
-/// Gives the new folder the target's name.
+/// Renames the new folder to the target.
 Result<void> takePlace(Beside& made, const fs::path& target) {
   std::error_code why;
   fs::permissions(made.path(),
@@ -155,14 +157,14 @@ Result<void> takePlace(Beside& made, const fs::path& target) {
                       fs::perms::others_exec,
                   why);
   if (why) return failure(target, systemMessage(why));
-  // Renaming suffices to replace an empty folder.
+  // Renaming replaces an empty folder; only other folders need an exchange.
   fs::rename(made.path(), target, why);
   if (!why) {
     made.keep();
     return {};
   }
   if (const Result<void> exchanged = exchange(made.path(), target, target); !exchanged) return exchanged.error();
-  // The target may have changed since the check.
+  // After the exchange, `made` is the old folder. It may have changed since the first check, so check again.
   const Result<void> replaceable = checkReplaceable(made.path(), target);
   if (!replaceable) {
     if (const Result<void> back = exchange(made.path(), target, target); !back) {

@@ -1,4 +1,4 @@
-// Table 4: one grammar for each system, and a measurement for each YES.
+// Table 4: one grammar represents each system, and each YES is measured.
 
 #include <fmt/core.h>
 
@@ -18,11 +18,11 @@
 namespace sgm::cli {
 namespace {
 
-/// Our own answer to a criterion.
+/// The result of our own measurement for a criterion.
 struct Finding {
   enum class Said { yes, no, none } said = Said::none;
   std::string what;
-  std::string command;  ///< empty: none
+  std::string command;  ///< command that repeats the measurement; empty: none
 };
 using Findings = std::array<Finding, kCriteria>;
 
@@ -41,7 +41,7 @@ WorldOptions optionsFor(const Workshop& workshop, const ComparedSystem& system) 
 
 size_t trianglesOf(const WorldMesh& mesh) { return mesh.indices.size() / 3; }
 
-/// The effect of a parameter's other value on the mesh.
+/// Measures how another value of a parameter changes the mesh. set: assignment NAME=VALUE.
 Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options, const Region& base, const char* set) {
   WorldOptions changed = options;
   changed.sets.emplace_back(set);
@@ -154,7 +154,7 @@ const char* signOf(const Finding& finding) {
   return "";
 }
 
-/// The picture of a system, the reasons, and the commands.
+/// The part of the page about one system: its picture, the reasons, and the commands.
 Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup& picture) {
   std::vector<std::vector<std::string>> rows{{"", "paper", "ours", "measured"}};
   Markup commands;
@@ -179,7 +179,7 @@ Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
   options.seed = system.view_seed;
   if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
   options.sharp = system.sharp;
-  // From inside, a wider angle shows more.
+  // Inside a cave, a wider angle shows more.
   options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
   options.size = workshop.pick("720x440", "400x250");
   const std::string file = Workshop::grammarOf(options);

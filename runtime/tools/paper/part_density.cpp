@@ -1,4 +1,4 @@
-// Figures 10 and 11: area and volume against the density of the mesh, and their convergence.
+// Figures 10 and 11: area and volume as functions of the mesh's density, and their convergence.
 
 #include <fmt/core.h>
 
@@ -17,12 +17,12 @@
 namespace sgm::cli {
 namespace {
 
-/// A model at increasing densities, each twice the previous.
+/// A model that is meshed at increasing densities, each twice the previous one.
 struct Model {
   const char *name, *grammar;
   uint64_t seed;
-  const char* region;  ///< empty: all of a finite world
-  double coarsest;     ///< metres of a cell
+  const char* region;  ///< region as for --region; empty: all of a finite world
+  double coarsest;     ///< edge of the grid cells at the lowest density, metres
   std::vector<std::string> sets{};
 };
 
@@ -32,7 +32,7 @@ struct Sample {
 
 struct Sampled {
   const Model* model = nullptr;
-  std::vector<Sample> samples;  ///< coarsest first, cells halved each time
+  std::vector<Sample> samples;  ///< one for each density, the coarsest first; the cell size is halved each time
 };
 
 Result<Sampled> sample(Workshop& workshop, const Model& model, int steps, std::vector<std::string>& commands) {
@@ -52,8 +52,9 @@ Result<Sampled> sample(Workshop& workshop, const Model& model, int steps, std::v
   return sampled;
 }
 
-/// log2 of the ratio of the last two changes: 2 for quadratic convergence in the cell size, 0 for a logarithm, whose
-/// changes are equal. nullopt if a change is 0, or they differ in sign.
+/// The observed order of convergence: log2 of the ratio of the last two changes. It is 2 for quadratic convergence in
+/// the cell size, and 0 for a logarithm, whose changes are equal. nullopt if a change is 0, or the changes differ in
+/// sign.
 std::optional<double> observedOrder(std::span<const double> values) {
   if (values.size() < 3) return std::nullopt;
   const double a = values[values.size() - 3], b = values[values.size() - 2], c = values.back();
@@ -74,7 +75,7 @@ std::vector<double> valuesOf(const Sampled& sampled, double Sample::*of) {
   return values;
 }
 
-/// Adds the chart, table and numbers of one measure of all models.
+/// Adds chart, table and numbers of one measure, for all models, to the exhibit. of: the member with the measure.
 void compare(const std::vector<Sampled>& all, double Sample::*of, const std::string& what, const std::string& unit,
              Exhibit& exhibit) {
   LineChart chart;
@@ -116,9 +117,9 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
   exhibit.numbers["models"] = std::move(models);
 }
 
-/// A ball of 5 m, with known area and volume.
+/// Errors for a ball with a radius of 5 m, whose area and volume are known.
 struct BallErrors {
-  double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;  ///< relative
+  double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;  ///< cell: metres; the others: relative errors
 };
 
 Result<std::vector<BallErrors>> ballErrors(Workshop& workshop, std::vector<std::string>& commands) {
@@ -268,7 +269,8 @@ Exhibits densityPart(Workshop& workshop) {
   const std::vector<Model> models{{"cave", "cave.sgm", 7, "64,64,64:192,192,192", 2},
                                   {"cloud", "cloud.sgm", 3, "0,768,0:768,1536,768", 24},
                                   {"building", "storeys.sgm", 0, "", 1}};
-  // Only the block's surroundings: its whole world would be half a million chunks of the finest cells.
+  // Only the surroundings of the block are meshed: its whole world would be half a million chunks at the finest cell
+  // size.
   constexpr const char* kBlock = "-32,-32,-32:32,32,32";
   const std::vector<Model> tunnels{{"smooth walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0"}},
                                    {"rough walls", "tunnels.sgm", 0, kBlock, 1, {"tunnels=2", "rough=0.8"}}};

@@ -1,5 +1,5 @@
-// Figures 14 and 15: histograms of dihedral angles against the density of the mesh, those of the main classes, and the
-// accuracy of classification by them.
+// Figures 14 and 15: histograms of dihedral angles at several densities of the mesh, histograms of the main classes,
+// and the accuracy of classification by them.
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -25,7 +25,7 @@ using measure::HistogramMode;
 
 constexpr HistogramMode kModes[] = {HistogramMode::printed, HistogramMode::corrected, HistogramMode::curvature};
 
-/// The histogram as steps over v, which equation 14 divides into bins.
+/// The histogram as a series of steps over v, the quantity that equation 14 divides into bins.
 Series stepsOf(const std::string& name, std::span<const double> shares, int32_t first_bin, uint32_t bins) {
   Series series{name, {}, Series::Style::steps};
   for (size_t i = 0; i <= shares.size(); ++i) {
@@ -64,7 +64,7 @@ struct Density {
   std::string verdict;
 };
 
-/// The result of `sgm classify` without options, with the built-in reference histograms.
+/// The class that `sgm classify` reports without options, with the built-in reference histograms.
 Result<std::string> verdictOf(const asset::TriangleMesh& mesh, const masters::MasterSet& set, JobSystem& jobs) {
   const measure::MasterKey key = masters::defaultKey();
   const Result<Histogram> histogram = measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), jobs);
@@ -188,7 +188,7 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
 
 // Figure 15.
 
-/// Models with other seeds than those of the built-in reference histograms.
+/// First seed of test models. The built-in reference histograms were made with other seeds.
 constexpr uint64_t kHeldOut = uint64_t{1} << 32;
 
 std::vector<masters::Family> familiesFor(const Workshop& workshop) {
@@ -200,7 +200,7 @@ std::vector<masters::Family> familiesFor(const Workshop& workshop) {
   return families;
 }
 
-/// families: outlive the specimens.
+/// Makes the models of the families. families: must outlive the result.
 Result<std::vector<masters::Specimen>> specimens(Workshop& workshop, std::span<const masters::Family> families) {
   WorldOptions options;
   options.backend = workshop.options().backend;
@@ -214,14 +214,15 @@ Result<std::vector<masters::Specimen>> specimens(Workshop& workshop, std::span<c
                               });
 }
 
-/// Classification of models of known class by one key's reference histograms.
+/// Results of classifying models of known class with the reference histograms of one key.
 struct Judged {
   measure::MasterKey key;
-  std::map<std::string, std::map<std::string, int>> verdicts;  ///< by true class
-  std::map<std::string, std::map<std::string, double>> mse;    ///< sums of the smallest error of each class
-  std::map<std::string, std::vector<double>> mean;             ///< histogram by true class
+  std::map<std::string, std::map<std::string, int>> verdicts;  ///< numbers of verdicts, by true class, then by verdict
+  /// For each true class, and each class compared with it, the sum of the smallest errors.
+  std::map<std::string, std::map<std::string, double>> mse;
+  std::map<std::string, std::vector<double>> mean;  ///< mean histogram of each true class
   std::map<std::string, int> models;
-  int right = 0, all = 0;  ///< without noise
+  int right = 0, all = 0;  ///< numbers of models without noise: classified correctly, and in all
 };
 
 Result<Judged> judge(std::span<const masters::Specimen> specimens, size_t key_number, const masters::MasterSet& set) {
@@ -304,7 +305,7 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   Markup charts, tables;
   Json judgements = Json::array();
   for (const HistogramMode mode : kModes) {
-    // For the paper's own modes, one cell per metre, for which there are models of every class.
+    // For the paper's own modes use one cell per metre, because models of every class exist for that density.
     const auto key = std::ranges::find_if(
         keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);

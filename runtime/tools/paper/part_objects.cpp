@@ -1,4 +1,4 @@
-// Figure 12: independent objects of buildings, caves and clouds, and a cloud of ten.
+// Figure 12: separate objects in buildings, caves and clouds, and a cloud with ten of them.
 
 #include <fmt/core.h>
 
@@ -16,8 +16,8 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kWanted = 10;      // "10 separate elements"
-constexpr uint64_t kMostClouds = 64;  // examined at most
+constexpr uint64_t kWanted = 10;      // the paper: "10 separate elements"
+constexpr uint64_t kMostClouds = 64;  // maximum number of clouds that are searched
 
 Result<uint64_t> objectsOf(Workshop& workshop, const WorldOptions& options) {
   const Result<Region> region = workshop.mesh(options);
@@ -36,7 +36,7 @@ constexpr Kind kKinds[] = {{"architecture", "building.sgm", "", 0.25, "balconies
                            {"caves", "cave.sgm", "0,0,0:192,192,192", 1.5, "boxy=0.3"},
                            {"clouds", "cloud.sgm", "0,768,0:2304,1536,2304", 24, "cover=80%"}};
 
-/// A scattered cloud with ten separate objects, searched among the seeds from the report's own.
+/// A scattered cloud with ten separate objects. Seeds are searched in order, from the seed of the report on.
 Result<std::optional<RenderOptions>> cloudOfTen(Workshop& workshop) {
   RenderOptions options = workshop.on<RenderOptions>("paper/scattered.sgm");
   options.cell = workshop.pick(4.0, 8.0);

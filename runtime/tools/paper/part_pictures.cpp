@@ -1,4 +1,4 @@
-// Figures 7, 8 and 9: clouds, caves from cubic to spherical, and architecture.
+// Figures 7, 8 and 9: clouds, caves that morph from cubic to spherical, and architecture.
 
 #include <fmt/core.h>
 
@@ -70,7 +70,7 @@ Exhibits cloudPart(Workshop& workshop) {
 
 namespace {
 
-/// Volume and area of the hall for one value of the morph parameter.
+/// Volume and area of the hall for one value t of the morph parameter.
 struct Morphed {
   double t = 0, volume = 0, area = 0;
 };

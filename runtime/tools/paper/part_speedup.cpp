@@ -1,4 +1,4 @@
-// Figures 1 and 2, tables 1 to 3: speedup, efficiency and throughput.
+// Figures 1 and 2 and tables 1 to 3: speedup, efficiency and throughput.
 
 #include <fmt/core.h>
 
@@ -34,11 +34,11 @@ constexpr double kCell = 0.5;  // metres
 /// The measurement for one number of position points.
 struct PointsRun {
   int points = 0;
-  size_t nodes = 0, instructions = 0;  ///< of the program of all points
+  size_t nodes = 0, instructions = 0;  ///< numbers of nodes and instructions in the field program of all points
   StageResult result;
 };
 
-/// Counts nodes and instructions of the world's program.
+/// Counts nodes and instructions of the world's field program.
 Result<void> countNodes(PointsRun& run, bool hybrid) {
   const CompileResult compiled = compileBundled("paper/points.sgm");
   if (!compiled.program) return Error{Code::bad_input, renderDiagnostics(compiled)};
@@ -85,7 +85,7 @@ Result<std::vector<PointsRun>> measurePoints(Workshop& workshop, bool hybrid) {
   return all;
 }
 
-/// Per position point, between the fewest points and the most.
+/// Increase of a quantity for each position point, between the run with the fewest points and the run with the most.
 double slope(const std::vector<PointsRun>& runs, size_t PointsRun::*of) {
   return static_cast<double>(runs.back().*of - runs.front().*of) / (runs.back().points - runs.front().points);
 }
@@ -159,7 +159,7 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
   return exhibit;
 }
 
-/// Our equivalent of the paper's 14 against 41.
+/// Our equivalent of the paper's comparison of 14 with 41 nodes.
 Markup nodesCompared(const std::vector<PointsRun>& morphing, const std::vector<PointsRun>& hybrid) {
   const double before = slope(morphing, &PointsRun::nodes), after = slope(hybrid, &PointsRun::nodes);
   BarChart chart;
@@ -200,7 +200,7 @@ Result<std::vector<StageResult>> measureStages(Workshop& workshop, const BenchOp
 
 constexpr std::array<const char*, 3> kStageNames = {"A – cave", "B – cloud", "C – building"};
 
-/// One row for each contender, of one figure by stage; the paper's first.
+/// A table of one figure: a column for each stage, and a row for each contender after the paper's own row.
 Markup stageTable(const std::vector<StageResult>& results, const std::string& caption,
                   std::vector<std::vector<std::string>> rows,
                   const std::function<std::string(const StageResult&, const StageRow&)>& figure) {

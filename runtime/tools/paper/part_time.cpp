@@ -1,4 +1,4 @@
-// Figure 16: time against the density of the mesh and the number of triangles, of a cave.
+// Figure 16: time to mesh a cave as a function of the mesh's density and of the number of triangles.
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The exponent e of the best fit y = c x^e.
+/// The exponent e of the best fit y = c x^e, by least squares of the logarithms.
 double exponentOf(const std::vector<std::array<double, 2>>& points) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [a, b] : points) {

@@ -1,4 +1,4 @@
-// sgm paper: makes the report part by part.
+// Sgm paper: makes all parts of the report.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@
 namespace sgm::cli {
 namespace {
 
-/// An exhibit's order in the report: figures by number, then tables.
+/// The position of an exhibit in the report: figures by number, then tables by number.
 std::pair<bool, int> orderOf(const Exhibit& exhibit) {
   return {exhibit.id.starts_with("table"), std::stoi(exhibit.id.substr(exhibit.id.find('-') + 1))};
 }
@@ -43,7 +43,7 @@ Result<std::vector<Exhibit>> makeExhibits(const PaperOptions& options, Workshop&
   return all;
 }
 
-/// The device that meshes; fails if the requested one is missing.
+/// The name of the device that meshes. Error if the requested backend is missing.
 Result<std::string> meshingDevice(const PaperOptions& options, JobSystem& jobs) {
   WorldOptions world;
   world.backend = options.backend;
@@ -70,7 +70,7 @@ std::vector<std::string> paperParts() {
 
 Exit reproducePaper(const PaperOptions& options) {
   const Stopwatch watch;
-  // Check for errors before minutes of work.
+  // Report errors of the output folder before minutes of work.
   if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
     return complain(writable.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);

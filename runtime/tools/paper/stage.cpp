@@ -18,9 +18,9 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kMostChunks = 65536;
-constexpr size_t kDerivedBytes = size_t{512} << 20;  // more than the cells of any stage
+constexpr size_t kDerivedBytes = size_t{512} << 20;  // large enough for the derived cells of any stage
 
-/// A stage that can be generated any number of times.
+/// The world settings and the cube of a stage, from which it can be generated any number of times.
 struct StageScene {
   WorldFieldSettings settings;
   IntBox cube;
@@ -76,7 +76,7 @@ Result<StageRun> generate(const StageScene& scene, const WorldField& world, cons
   return run;
 }
 
-/// Meshes as the CPU does, with the counting evaluator.
+/// Meshes the stage as the CPU backend does, with an evaluator that counts operations.
 Result<uint64_t> countOperations(const StageScene& scene, const WorldField& world, JobSystem& jobs) {
   const Result<std::pmr::vector<ChunkKey>> keys = scene.keys(world);
   if (!keys) return keys.error();
@@ -84,7 +84,7 @@ Result<uint64_t> countOperations(const StageScene& scene, const WorldField& worl
   std::vector<std::optional<Error>> errors(keys->size());
   parallelFor(jobs, keys->size(), [&](size_t i) {
     ChunkJob job;
-    // A previous run has checked that every chunk is inside the world.
+    // A previous run has checked that every chunk lies inside the world.
     job.grid = *chunkGrid(world, (*keys)[i]);
     Result<std::shared_ptr<const FieldProgram>> field = world.compile(chunkBox(job.grid), 0);
     if (!field) {
@@ -146,7 +146,7 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
     row.reason = contender.reason;
     row.workers = contender.workers;
   }
-  // Each has its own world, and derives it in its first run.
+  // Each contender has its own world, and derives its cells in its first run.
   std::deque<WorldField> worlds;
   for (size_t i = 0; i < contenders.size(); ++i) worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());
   std::optional<size_t> first, last;

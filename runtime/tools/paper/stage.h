@@ -23,7 +23,7 @@ struct StageModel {
   uint64_t seed = 0;
   Int3 low;          ///< corner of the cube, metres
   int32_t edge = 0;  ///< edge of the cube, metres
-  /// values of the parameters that differ from their defaults, SI units
+  /// Values of the parameters that differ from their defaults, SI units.
   std::span<const std::pair<std::string_view, double>> parameters{};
 };
 /// The models cave, cloud and building, in the order of kPaperStages.

@@ -45,7 +45,7 @@ struct ComparedSystem {
   const char* region;  ///< the region that is measured, as for --region; empty: all of a finite world
   double cell, quick_cell;
   const char* control;  ///< an assignment NAME=VALUE that changes a parameter, to test the criterion "control"
-  /// an assignment that changes a parameter for morphing; null if the grammar has no such parameter
+  /// An assignment that changes a parameter for morphing; null if the grammar has no such parameter.
   const char* morph;
   // Options of the picture.
   const char *view_region, *camera;  ///< options --region and --camera; empty: the renderer chooses

@@ -49,7 +49,7 @@ Result<measure::MeshMeasures> Workshop::measure(const MeasureOptions& options) c
 Result<Markup> Workshop::picture(RenderOptions options, const std::string& name, const std::string& alt,
                                  const std::string& caption, std::vector<std::string>& commands) {
   if (renderer_ == nullptr) return Markup{};
-  // Beside the report, which may contain no other files.
+  // The command writes the picture beside the report's folder, which may contain no other files.
   options.out = "../" + name + ".png";
   std::optional<RegionDensity> density;
   RegionPlan plan = picturePlan(options, density);

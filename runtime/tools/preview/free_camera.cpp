@@ -7,13 +7,13 @@
 namespace sgm::preview {
 namespace {
 
-constexpr double kSteepest = 1.55;  // almost straight up, where a heading is undefined
-constexpr double kNearest = 0.01;   // metres, to a target
+constexpr double kSteepest = 1.55;  // radians, almost straight up, where the heading would be undefined
+constexpr double kNearest = 0.01;   // metres, minimum distance to the target
 
 glm::dvec3 pointOf(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 std::array<double, 3> arrayOf(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
-/// To the right, horizontal.
+/// The horizontal unit vector to the right of a direction.
 glm::dvec3 rightOf(const glm::dvec3& forward) {
   const glm::dvec3 right = glm::cross(forward, glm::dvec3(0, 1, 0));
   const double length = glm::length(right);
@@ -37,8 +37,8 @@ FreeCamera::Gaze FreeCamera::gaze() const { return {arrayOf(target_ - distance_ 
 
 void FreeCamera::turn(double right, double up) {
   const glm::dvec3 place = target_ - distance_ * forward();
-  // The dragged surface follows the pointer. In a hollow the camera turns the opposite way, so that the wall follows;
-  // outside it orbits the opposite way, which turns it the same way, so that the near side follows.
+  // The dragged surface must follow the pointer. In a hollow the camera therefore turns against the drag. Outside it
+  // orbits against the drag, by which it turns in the drag's direction, so that the near side follows.
   const double way = inside_ ? -1 : 1;
   heading_ += way * right;
   pitch_ = std::clamp(pitch_ + way * up, -kSteepest, kSteepest);

@@ -24,9 +24,9 @@ using cli::Region;
 using cli::RegionScene;
 using cli::RenderOptions;
 
-constexpr uint64_t kChunks = 2048;      // maximum for a picture's region without --cell
-constexpr uint64_t kDraftChunks = 256;  // for a draft
-constexpr int kCoarsestDraft = 4;       // levels above the picture's
+constexpr uint64_t kChunks = 2048;      // maximum number of chunks of a picture's region without --cell
+constexpr uint64_t kDraftChunks = 256;  // maximum number of chunks of a draft
+constexpr int kCoarsestDraft = 4;       // maximum number of levels by which a draft is coarser than the picture
 constexpr double kDraftPixels = 90'000;
 
 std::string pointText(const std::array<double, 3>& p) { return fmt::format("{},{},{}", p[0], p[1], p[2]); }
@@ -35,7 +35,7 @@ std::string boxText(const IntBox& box) {
   return corner(box.lo) + ":" + corner(box.hi);
 }
 
-/// Whether a camera is so far inside a box that most of its view is there too.
+/// Whether a camera is so far inside a box that the box contains most of its view.
 bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   for (int axis = 0; axis < 3; ++axis) {
     const double margin = (metres(box.hi[axis]) - metres(box.lo[axis])) / 4, at = camera[static_cast<size_t>(axis)];
@@ -44,7 +44,7 @@ bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   return true;
 }
 
-/// A size of the same shape with a limited number of pixels.
+/// A picture size with the same aspect ratio and a limited number of pixels.
 std::string draftSize(const std::string& size) {
   const cli::PictureSize whole = *cli::readSize(size);
   const double smaller = std::max(1.0, std::sqrt(whole.width * (whole.height / kDraftPixels)));
@@ -52,7 +52,7 @@ std::string draftSize(const std::string& size) {
                      std::max(1, static_cast<int>(whole.height / smaller)));
 }
 
-/// The files of a grammar in its folder, without those of the standard library, which are not on disk.
+/// The files of a grammar in its folder. Files of the standard library are omitted, because they are not on disk.
 std::vector<std::filesystem::path> filesOf(const std::string& file, const CompileResult& compiled) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::vector<std::filesystem::path> files{file};
@@ -62,7 +62,7 @@ std::vector<std::filesystem::path> filesOf(const std::string& file, const Compil
   return files;
 }
 
-/// The settings that the grammar accepts.
+/// The assignments that the grammar accepts; the others are reported in `messages`.
 std::vector<std::string> takenSets(const Program& program, const std::vector<std::string>& sets,
                                    std::string& messages) {
   std::vector<std::string> taken;
@@ -77,7 +77,7 @@ std::vector<std::string> takenSets(const Program& program, const std::vector<std
 
 }  // namespace
 
-/// The state of the painting thread.
+/// State that only the painting thread uses.
 struct Painter::Worker {
   Painter& painter;
   Renderer renderer;
@@ -86,12 +86,12 @@ struct Painter::Worker {
   std::optional<uint64_t> edition;
   std::shared_ptr<const Program> program;
   std::string compile_messages;
-  std::vector<std::filesystem::path> files;  ///< not yet published
+  std::vector<std::filesystem::path> files;  ///< read, but not yet part of a published result
 
-  std::string world;          ///< description of the world of the regions below
-  std::optional<IntBox> box;  ///< the drawn part of the world
+  std::string world;          ///< identifies the world to which the regions below belong
+  std::optional<IntBox> box;  ///< the part of the world that is drawn
   std::shared_ptr<const Region> draft, fine;
-  std::string home;  ///< the camera chosen for wishes without one
+  std::string home;  ///< the camera chosen for requests without one
   Light light = Light::sun;
 
   Worker(Painter& owner, Renderer drawer, std::unique_ptr<JobSystem> threads)
@@ -100,7 +100,7 @@ struct Painter::Worker {
   void paint(const Wish& wish, uint64_t number);
 
  private:
-  /// A wish in progress.
+  /// A request in progress.
   struct Task {
     const Wish& wish;
     uint64_t number;
@@ -176,13 +176,14 @@ Result<void> Painter::Worker::settle(Task& task) {
 
 Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, int level, bool draft_only) {
   RenderOptions options = task.options;
-  // Use a coarser world: a coarse level of the picture's world would still derive and probe at its fine cell size.
+  // Use a world with coarser cells: a coarse level of the picture's world would still be derived and probed at its fine
+  // cell size.
   options.cell = std::ldexp(*options.cell, level);
   std::optional<cli::RegionDensity> no_density;
   cli::RegionPlan plan = cli::picturePlan(options, no_density);
   plan.quiet = true;
   plan.notes = !draft_only;
-  // Anchors serve to choose the camera, so they are needed only once.
+  // Anchors serve only to choose the camera, so they are needed only once.
   plan.anchors = options.camera.empty() && home.empty();
   if (!draft_only) plan.go_on = [this, number = task.number] { return painter.isNewest(number); };
   Result<Region> made = cli::meshProgram(program, options, plan);
@@ -325,7 +326,7 @@ std::optional<Painted> Painter::take() {
 
 void Painter::publish(Painted painted) {
   const std::lock_guard lock(mutex_);
-  // Files are published once: pass on those of an untaken result.
+  // Files are published once, so a new result takes over those of a result that nobody has taken.
   if (painted.files.empty() && result_) painted.files = std::move(result_->files);
   result_ = std::move(painted);
 }

@@ -19,7 +19,7 @@ namespace sgm::preview {
 
 /// A request for a picture. The grammar file is read again if `edition` differs from the previous request's.
 struct Wish {
-  /// if the camera is empty, the painter chooses one; `out`, `frame`, `seeds`, `volume` are ignored
+  /// If the camera is empty, the painter chooses one; `out`, `frame`, `seeds`, `volume` are ignored.
   cli::RenderOptions options;
   uint64_t edition = 0;
 };
@@ -27,12 +27,12 @@ struct Wish {
 /// The current result of a request.
 struct Painted {
   uint64_t wish = 0;  ///< the request's number, as Painter::wish() returned it
-  /// the compiled grammar; while the text has errors, the last correct program
+  /// The compiled grammar; while the text has errors, the last correct program.
   std::shared_ptr<const Program> program;
   std::vector<std::filesystem::path> files;  ///< files that the grammar consists of; empty if they were not read again
   bool text_is_wrong = false;
   std::string messages;  ///< messages for the user, one on each line; empty: no problems
-  /// the meshed region in the picture; null: the previous picture stays valid
+  /// The meshed region in the picture; null: the previous picture stays valid.
   std::shared_ptr<const cli::Region> region;
   std::string box;  ///< region in the picture, as for --region, without the margin that a draft's coarse chunks add
   double cell = 0;  ///< edge of the picture's grid cells, metres; larger in a draft

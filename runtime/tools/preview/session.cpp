@@ -14,10 +14,10 @@ namespace {
 using cli::gazeText;
 
 constexpr double kLook = 0.04;    // seconds between two checks of the files
-constexpr double kRest = 0.15;    // seconds that a pointer must rest before its place is looked up
-constexpr double kTurn = 3.0;     // radians, for a drag across the picture's height
+constexpr double kRest = 0.15;    // seconds for which the pointer must rest before the place under it is looked up
+constexpr double kTurn = 3.0;     // radians by which the camera turns for a drag across the picture's height
 constexpr double kNearer = 0.85;  // factor of the distance for a step of the wheel
-constexpr double kWalk = 0.6;     // of the typical depth, per second
+constexpr double kWalk = 0.6;     // share of the view's typical depth that a held key moves the camera in a second
 constexpr double kRadians = 0.017453292519943295;
 
 FreeCamera::Gaze gazeOf(const Painted& painted) {
@@ -31,7 +31,7 @@ std::string textOf(const PointedPlace& place) {
   return text + fmt::format("\n{:.2f}, {:.2f}, {:.2f} m", place.position[0], place.position[1], place.position[2]);
 }
 
-/// Quoted as one word for a shell.
+/// The word quoted for a shell.
 std::string quoted(const std::string& word) {
   const bool plain = std::ranges::all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -99,7 +99,7 @@ Result<void> Session::takeResult() {
   if (painted->wish == wished_ && !painted->draft) at_work_ = false;
   sayPicture(*painted);
   if (!painted->region) {
-    // The last picture stays visible beside the messages.
+    // The last picture stays visible beside the error messages.
     last_.messages = painted->messages;
     window_.refresh();
     return {};
@@ -238,7 +238,7 @@ Result<void> Session::run() {
       steer();
       point();
     });
-    // A resting pointer and a held key send no events.
+    // A resting pointer and a held key cause no events, so further frames are requested here.
     if (pointing_.valid() || !place_is_known_) window_.refresh();
     for (const char key : {'W', 'A', 'S', 'D', 'Q', 'E'})
       if (window_.isHeld(key)) window_.refresh();

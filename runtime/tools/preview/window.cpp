@@ -12,8 +12,10 @@
 namespace sgm::preview {
 namespace {
 
-constexpr int kSettlingFrames = 3;  // Dear ImGui reacts to some events a frame or two later
-constexpr double kStill = 4;        // maximal motion in pixels during a click
+// Frames that are drawn after an event, because Dear ImGui reacts to some events a frame or two later.
+constexpr int kSettlingFrames = 3;
+// Maximum motion of the pointer in pixels between press and release that still counts as a click.
+constexpr double kStill = 4;
 
 std::string reason() {
   const char* description = nullptr;
@@ -23,8 +25,8 @@ std::string reason() {
 
 }  // namespace
 
-/// The OpenGL 1.1 functions for a picture. They are loaded at run time, so that the command starts on machines without
-/// OpenGL.
+/// The OpenGL 1.1 functions that show a picture. They are loaded at run time, so that the command also starts on
+/// machines without OpenGL.
 struct Window::PictureCalls {
   decltype(&glGenTextures) gen_textures = nullptr;
   decltype(&glDeleteTextures) delete_textures = nullptr;
@@ -97,7 +99,7 @@ struct Window::State {
     });
   }
 
-  /// The picture's place in the window, in its coordinates: corner and size.
+  /// Corner and size of the picture in the window, in the window's coordinates.
   std::array<ImVec2, 2> place() const {
     const ImVec2 all = ImGui::GetIO().DisplaySize;
     if (picture_width == 0 || picture_height == 0) return {ImVec2(0, 0), all};
@@ -149,7 +151,7 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
   glfwSwapInterval(1);
   state->listen();
   ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // do not write a file into the user's folder
+  ImGui::GetIO().IniFilename = nullptr;  // Dear ImGui must not write a file into the user's folder
   ImGui::StyleColorsDark();
   state->imgui = ImGui_ImplGlfw_InitForOpenGL(state->window, true);
   if (!state->imgui || !ImGui_ImplOpenGL3_Init("#version 150")) return failed("the display's OpenGL is incomplete");

@@ -19,7 +19,7 @@ class BrightnessTally {
   float highlight() const;
 
  private:
-  /// bins for each doubling of brightness; the first bin begins at 2^-kLeast
+  /// Bins for each doubling of brightness; the first bin begins at 2^-kLeast.
   static constexpr int kFinest = 8, kLeast = 12;
 
   double logarithms_ = 0;

@@ -12,15 +12,15 @@
 namespace sgm {
 namespace {
 
-constexpr int kSurroundings = 48;    // rays that measure the space around a point
-constexpr size_t kCandidates = 240;  // number of candidate places
-constexpr size_t kFinalists = 16;    // places whose views are compared roughly
-constexpr size_t kStudied = 3;       // places whose views are examined closely
+constexpr int kSurroundings = 48;    // number of rays that measure the space around a point
+constexpr size_t kCandidates = 240;  // number of places that are considered for the camera
+constexpr size_t kFinalists = 16;    // number of places whose views are compared roughly
+constexpr size_t kStudied = 3;       // number of places whose views are examined closely
 constexpr float kEyeHeight = 1.7f;   // metres above the floor
-constexpr float kFarthestLamp = 3;   // in typical distances of the view
+constexpr float kFarthestLamp = 3;   // maximum distance of a lamp, in typical distances of the view
 constexpr float kGoldenAngle = 2.39996323f;
 
-// Evenly spread directions (Fibonacci sphere).
+// Direction i of `count` evenly spread directions (Fibonacci sphere).
 glm::vec3 directionOf(int i, int count) {
   const float y = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
   const float r = std::sqrt(std::max(0.0f, 1 - y * y)), a = kGoldenAngle * static_cast<float>(i);
@@ -55,8 +55,8 @@ struct Place {
   float score = 0;
 };
 
-// p, moved vertically to eye height above the floor, to 30 % of the room's height if that is more, and at most to 60 %.
-// p itself if there is no floor or no roof.
+// The place p moved vertically to eye height above the floor; in a high room to 30 % of its height if that is more, and
+// at most to 60 %. Returns p if there is no floor or no roof.
 glm::vec3 standing(const RayCaster& mesh, glm::vec3 p, float far) {
   const auto floor = mesh.cast(p, {0, -1, 0}, far);
   const auto roof = mesh.cast(p, {0, 1, 0}, far);
@@ -81,14 +81,14 @@ std::vector<Place> placesInVoid(const RayCaster& mesh, float far) {
     const glm::vec3 p = standing(mesh, start + n * (0.5f * across->distance), far);
     const Space space = spaceAround(mesh, p, far);
     if (!inVoid(space)) continue;
-    // A region's cut sides are holes: prefer places where few rays escape.
+    // A region's cut sides are holes in the mesh: prefer places from which few rays escape through holes.
     places.push_back({p, space.openness + 2 * space.walls + 0.3f * std::log(space.clearance)});
   }
   std::ranges::stable_sort(places, std::greater{}, &Place::score);
   return places;
 }
 
-// Columns and rows of rays over the picture: few to compare views, more for the chosen one.
+// Numbers of columns and rows of rays over the picture: few to compare views, more to examine the chosen view.
 struct Grid {
   int columns, rows;
 };
@@ -98,7 +98,8 @@ struct Fan {
   std::vector<glm::vec3> directions;
   std::vector<float> distances;
   float median = 0;
-  float typical = 0;  // between median and upper quartile: frames are near, but what they frame matters
+  // Mean of median and upper quartile of the distances: the frame of a view is near, but the things behind it matter.
+  float typical = 0;
   float score = 0;
 };
 
@@ -134,7 +135,8 @@ Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Ca
   const float deep = std::log(std::max(sorted[sorted.size() * 9 / 10], 0.05f));
   const float nose = std::max(1.2f, 0.15f * fan.median);
   const auto close = std::ranges::count_if(sorted, [&](float distance) { return distance < nose; });
-  // Prefers deep, varied and level views with a near frame, and few rays lost through holes or on a wall right ahead.
+  // The score prefers deep, varied and level views with a near frame, and few rays that escape through holes or hit a
+  // wall right ahead.
   fan.score = 0.5f * mean + 0.7f * deep + 1.0f * spread - 4.0f * escaped / n - 2.5f * static_cast<float>(close) / n -
               0.8f * forward.y * forward.y;
   return fan;
@@ -145,7 +147,7 @@ struct Sight {
   Fan fan;
 };
 
-// The view with the best score among level ones all around a place.
+// The best of the horizontal views in all directions from a place.
 Sight glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
   Sight best;
   best.fan.score = -1e30f;
@@ -159,7 +161,7 @@ Sight glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraWish& wis
   return best;
 }
 
-// The best view from a place, after stepping back as far as the void allows.
+// The best view from a place. The camera steps back as far as the void allows.
 Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
   Sight best;
   best.fan.score = -1e30f;
@@ -184,8 +186,8 @@ Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, 
   return best;
 }
 
-// Hangs one lamp to the side, to show relief, and lamps where the view is deepest, to show places beyond the headlamp's
-// reach. All hang in the void, apart from each other.
+// Places one lamp to the side, to show relief, and lamps where the view is deepest, to show places beyond the
+// headlamp's reach. All lamps are in the void and apart from each other.
 std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Fan& fan,
                                    float far) {
   std::vector<RenderLamp> lamps;
@@ -195,7 +197,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     if (crowded) return false;
     const Space space = spaceAround(mesh, p, far);
     if (space.clearance < 0.35f || space.behind > 0.05f || space.walls < 0.5f) return false;
-    // No brighter than its own walls need.
+    // A lamp's reach is at most the typical distance of the walls around it.
     lamps.push_back({p, colour, std::clamp(std::exp(space.openness), 1.0f, reach)});
     return true;
   };
@@ -217,7 +219,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    // Near the part lit by earlier lamps: a separate lit island in the dark looks like a ball.
+    // The lamp is placed near the part lit by earlier lamps: a separate bright spot in the dark would look like a ball.
     const float away = std::min(0.80f * depth, kFarthestLamp * fan.typical);
     const float reach = std::clamp(0.30f * away, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * away, kColours[deep], reach, 0.5f * away)) ++deep;
@@ -225,7 +227,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
   return lamps;
 }
 
-// Whether rays from far away hit the shape's outer side; a cave in endless rock shows the backs of its walls.
+// Whether rays from far away hit the shape's outer side. For a cave in endless rock they hit the backs of its walls.
 bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   int front = 0, back = 0;
   constexpr int kRays = 192;
@@ -238,7 +240,7 @@ bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
   return front > back;
 }
 
-// Three quarters from above, or from below if it floats; near enough for the shape to fill the picture.
+// A view obliquely from above, or from below if the shape floats, near enough for the shape to fill the picture.
 View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const CameraWish& wish) {
   View view;
   view.camera.width = wish.width;
@@ -328,12 +330,12 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.background = light == Light::sun ? Background::sky : Background::cave;
   switch (light) {
     case Light::sun:
-      // Between walls there is little air to scatter light from the sky.
+      // Between walls, little air scatters light from the sky, so the haze is thinner.
       scene.fog_distance = (view.enclosed ? 120.0f : 25.0f) * view.depth;
       return;
     case Light::lamp:
       scene.lamps = view.lamps;
-      // Alone, it must light the whole view; otherwise only near places.
+      // Without other lamps, the headlamp must light the whole view; otherwise only near places.
       scene.headlamp.reach = std::clamp((view.lamps.empty() ? 0.90f : 0.30f) * view.depth, 1.2f, 30.0f);
       scene.fog_distance = std::max(4 * view.depth, 10.0f);
       return;

@@ -23,11 +23,11 @@ struct CameraWish {
 /// A camera, and properties of its view.
 struct View {
   RenderCamera camera;
-  /// the camera is inside a void with walls all around; otherwise it sees the shape from outside
+  /// The camera is inside a void with walls all around; otherwise it sees the shape from outside.
   bool enclosed = false;
   bool at_anchor = false;  ///< the camera is in the room or cave of a requested anchor
   float depth = 1;         ///< typical distance in metres of visible surfaces
-  /// lamps for Light::lamp: those already in the scene, otherwise lamps hung in the void further along the view
+  /// Lamps for Light::lamp: those already in the scene, otherwise lamps hung in the void further along the view.
   std::vector<RenderLamp> lamps;
 };
 

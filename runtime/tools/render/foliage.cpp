@@ -13,18 +13,18 @@ namespace {
 
 struct Kind {
   SurfacePattern pattern;
-  float far;  ///< metres
+  float far;  ///< metres from the camera beyond which this foliage is not drawn
 };
 constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy, 220};
 
-constexpr float kBladeWidth = 0.0052f;            ///< metres, near the camera
-constexpr float kTallest = 0.23f;                 ///< metres, of blades
+constexpr float kBladeWidth = 0.0052f;            ///< metres, width of a blade near the camera
+constexpr float kTallest = 0.23f;                 ///< metres, length of the tallest blades
 constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres by which leaves extend out of a crown's surface, and into
                                                   ///< it
 constexpr float kLeafLength = 0.062f;             ///< metres
 constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves if growthAt() is lower
-constexpr size_t kMostSprouts = size_t{6} << 20;  ///< of a picture
-constexpr float kSteepest = 0.72f;                ///< minimal upward component of a lawn's normal
+constexpr size_t kMostSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
+constexpr float kSteepest = 0.72f;                ///< minimum upward component of a lawn's normal
 
 bool grows(const Kind& kind, const RenderMaterial& material) {
   return material.pattern == kind.pattern && material.relief > 0;
@@ -42,8 +42,8 @@ bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
   return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
 }
 
-/// The noise of tufts and sprigs, with gaps: height of the tallest blades, 0..1; or for leaves -1..1, negative between
-/// sprigs.
+/// The noise that groups blades and leaves, with gaps between groups. For blades: the height of the tallest blades,
+/// 0..1. For leaves: -1..1, negative between sprigs.
 float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
   const float finest = frame.eye.w * glm::distance(position, glm::vec3(frame.eye));
   const float hollow = puffHollows(position + glm::vec3(frame.pattern_offset), 0.95f, finest);
@@ -51,7 +51,7 @@ float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
                                                 : std::clamp(0.9f - 2 * hollow, -1.0f, 1.0f);
 }
 
-/// Random numbers that depend only on a place, so that foliage stays fixed while the camera moves.
+/// A sequence of random numbers that depends only on a place, so that foliage stays fixed while the camera moves.
 class Dice {
  public:
   explicit Dice(glm::vec3 place) {
@@ -59,7 +59,7 @@ class Dice {
       state_ = (state_ ^ std::bit_cast<uint32_t>(place[axis])) * 0x9E3779B1u + 0x85EBCA6Bu;
   }
 
-  uint32_t lot() {  // Marsaglia 2003, "Xorshift RNGs", and a final multiplication
+  uint32_t lot() {  // xorshift (Marsaglia 2003, "Xorshift RNGs"), and a final multiplication
     state_ ^= state_ << 13u;
     state_ ^= state_ >> 17u;
     state_ ^= state_ << 5u;
@@ -77,7 +77,7 @@ class Sower {
  public:
   Sower(const RenderScene& scene, const Frame& frame) : scene_(scene), frame_(frame) {}
 
-  /// Adds a triangle's blades or leaves. grown: as from grownOn().
+  /// Adds the blades or leaves that grow on a triangle. grown: which of its materials they grow on, as from grownOn().
   void sow(const Kind& kind, int grown, const std::array<const RenderVertex*, 3>& corners,
            std::vector<Sprout>& sprouts) {
     const vec3 a = corners[0]->position, b = corners[1]->position - a, c = corners[2]->position - a;
@@ -124,7 +124,8 @@ class Sower {
   }
 
   float bladeWidth(float t) const { return std::max(kBladeWidth, 1.15f * frame_.eye.w * t); }
-  /// Blades per square metre. Far away the view is flat, so few blades cover the ground.
+  /// Number of blades per square metre at distance t. Far away the ground is seen at a flat angle, so few blades cover
+  /// it.
   float bladesAt(float t) const {
     const float near = 5500, own = kBladeWidth / bladeWidth(t);
     return near * own * own * std::clamp((kLawn.far - t) / (0.45f * kLawn.far), 0.0f, 1.0f);
@@ -164,9 +165,9 @@ class Sower {
     const float deep = dice.next();
     sprout.root += sprout.normal * (kReach * deep - kDepth * (1 - deep));
     const float growth = growthAt(kLeaves, sprout.root, frame_);
-    // A distant crown is a solid body of fewer, larger leaves.
+    // A distant crown is drawn as a solid body of fewer, larger leaves.
     const float far = glm::smoothstep(1.0f, 2.5f, leafLength(t) / kLeafLength);
-    // The rim is sparser than the middle.
+    // Crowns are sparser at their rim, as seen from the eye, than in the middle.
     const vec3 to_eye = (vec3(frame_.eye) - sprout.root) / t;
     const float rim = 1 - glm::smoothstep(0.1f, 0.7f, std::abs(glm::dot(sprout.normal, to_eye)));
     if (growth < kLeastGrowth + 0.35f * (rim - 0.6f) - 0.35f * far + 0.5f * dice.next() * dice.next()) return;
@@ -182,7 +183,7 @@ class Sower {
   const Frame& frame_;
 };
 
-/// Which of a triangle's materials are of a kind: 1 the first, 2 the second, 3 both, 0 neither.
+/// Which of a triangle's two materials grow this kind of foliage: 1 the first, 2 the second, 3 both, 0 neither.
 int grownOn(const Kind& kind, const RenderScene& scene, const Frame& frame, const RenderVertex& one) {
   if (!isNear(kind, one, frame)) return 0;
   return (grows(kind, one.material, scene) ? 1 : 0) + (grows(kind, one.second, scene) ? 2 : 0);
@@ -196,7 +197,7 @@ Foliage foliageOf(const RenderScene& scene, const Frame& frame) {
   foliage.constants.eye = frame.eye;
   foliage.constants.offset = glm::vec4(glm::vec3(frame.pattern_offset), kLawn.far);
   Sower sower(scene, frame);
-  // On average six triangles share a vertex, so cache the expensive noise by vertex.
+  // On average six triangles share a vertex, so the expensive noise is cached for each vertex.
   constexpr float kUnknown = -2;
   std::vector<float> growth(scene.vertices.size(), kUnknown);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {

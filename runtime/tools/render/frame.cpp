@@ -15,15 +15,17 @@
 namespace sgm {
 namespace {
 
-constexpr float kNear = 0.05f;                            // metres; nothing nearer is drawn
-constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, to keep float32 precise
+constexpr float kNear = 0.05f;  // metres from the camera; nothing nearer is drawn
+// Period of the patterns, which keeps coordinates small enough for float32.
+constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;
 
 float wrapped(int32_t units) {
   const int32_t rest = ((units % kPatternUnits) + kPatternUnits) % kPatternUnits;
   return static_cast<float>(rest) / static_cast<float>(kUnitsPerMetre);
 }
 
-// Infinite reversed depth: floats are densest near 0, which represents far distances.
+// The projection has an infinite far plane and reversed depth: float depths are densest near 0, which represents far
+// distances.
 glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   const auto row = [&](glm::vec3 axis, float scale) {
     return glm::vec4(axis * scale, -glm::dot(axis, camera.position) * scale);
@@ -37,8 +39,8 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-constexpr float kMeadow = 1e6f;   // in Frame::land, as in shaders/render/frame.glsl
-constexpr float kBeyond = 0.85f;  // of the extent of a world's own clouds, where the sky's clouds begin
+constexpr float kMeadow = 1e6f;   // value of Frame::land for a meadow, as in shaders/render/frame.glsl
+constexpr float kBeyond = 0.85f;  // share of the extent of a world's own clouds, beyond which the sky's clouds begin
 
 bool hasFairWeather(const RenderScene& scene) {
   const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };
@@ -68,7 +70,7 @@ Result<void> checkCamera(const RenderCamera& camera) {
 CameraAxes axesOf(const RenderCamera& camera) {
   CameraAxes axes{};
   axes.forward = glm::normalize(camera.target - camera.position);
-  // Straight up or down there is no horizontal right: use the world's x.
+  // If the camera looks straight up or down, no horizontal direction is to its right: use the world's x axis.
   const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
   axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
   axes.up = glm::cross(axes.right, axes.forward);
@@ -90,7 +92,8 @@ Frame frameOf(const RenderScene& scene) {
   frame.right = glm::vec4(axes.right * axes.half_width, 0);
   frame.up = glm::vec4(axes.up * axes.half_height, 0);
   frame.sun = glm::vec4(glm::normalize(scene.sun_direction), scene.ambient);
-  // On the helmet, a hand's breadth off the eye: near enough to light the whole view, far enough to show shadows.
+  // The headlamp is on the helmet, a hand's breadth off the eye: near enough to light the whole view, far enough to
+  // show shadows.
   const float off = 0.05f * std::max(scene.headlamp.reach, 1.0f);
   frame.lamp_position[0] = glm::vec4(camera.position + axes.up * off + axes.right * (0.8f * off), scene.headlamp.reach);
   frame.lamp_colour[0] = glm::vec4(scene.headlamp.colour, 0);

@@ -11,13 +11,13 @@
 namespace sgm {
 namespace {
 
-constexpr float kBorder = 0.06f;  // width of the border, as a share of the world's
-constexpr float kLeast = 0.05f;   // minimal share of ground in the border ahead of the camera
-constexpr float kEdge = 0.005f;   // of the world's width: surfaces this near to its end were cut off there
-constexpr float kAlive = 0.1f;    // minimal share of the ground where things grow, for such a land
-constexpr float kLevel = 0.7f;    // minimal cosine between ground's normal and the vertical
-constexpr float kBelow = 0.3f;    // metres, minimal height of the eye above ground
-constexpr float kAside = 0.35f;   // cosine of the widest horizontal angle from the camera's axis that counts as ahead
+constexpr float kBorder = 0.06f;  // width of the border as a share of the world's width
+constexpr float kLeast = 0.05f;   // minimum share of ground in the border ahead of the camera
+constexpr float kEdge = 0.005f;   // share of the world's width: surfaces this near to its end were cut off there
+constexpr float kAlive = 0.1f;    // minimum share of the ground on which things grow, for a land that is not bare
+constexpr float kLevel = 0.7f;    // minimum cosine between the ground's normal and the vertical
+constexpr float kBelow = 0.3f;    // metres, minimum height of the eye above the ground
+constexpr float kAside = 0.35f;   // cosine of the largest horizontal angle from the camera's axis that counts as ahead
 
 bool isBare(SurfacePattern pattern) {
   using enum SurfacePattern;
@@ -29,7 +29,7 @@ bool isAlive(SurfacePattern pattern) {
   return pattern == grassy || pattern == mossy || pattern == leafy;
 }
 
-/// Neither water nor coverings of man-made things are land.
+/// Whether a pattern counts as ground: neither water nor the coverings of man-made things do.
 bool isGround(SurfacePattern pattern) {
   using enum SurfacePattern;
   return pattern != water && pattern != plain && pattern != glass && pattern != metallic;
@@ -67,7 +67,8 @@ std::optional<Land> landAround(const RenderScene& scene) {
   const auto isCut = [&](glm::vec3 p) {
     return p.x < edge_lo.x || p.z < edge_lo.y || p.x > edge_hi.x || p.z > edge_hi.y;
   };
-  bool goes_on = false;  // an uncut shape, such as a ball, does not stand on land
+  // Whether the surface was cut off at the border: an uncut shape, such as a ball, does not stand on land.
+  bool goes_on = false;
   std::vector<Patch> patches;
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
     const RenderVertex& one = scene.vertices[scene.indices[i]];
@@ -84,7 +85,7 @@ std::optional<Land> landAround(const RenderScene& scene) {
     goes_on |= isCut(one.position) || isCut(b) || isCut(c);
     patches.push_back({one.position.y, size / 2, static_cast<uint32_t>(material)});
   }
-  // The area of the border ahead of the camera, by a grid of places over the world.
+  // The area of the part of the border that lies ahead of the camera, estimated on a grid of places over the world.
   constexpr int kGrid = 64;
   float border = 0;
   for (int i = 0; i < kGrid * kGrid; ++i) {

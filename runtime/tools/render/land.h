@@ -10,7 +10,7 @@ namespace sgm {
 
 /// A horizontal plane around the world.
 struct Land {
-  /// a value of `material`: meadows, used if the world has no ground of its own
+  /// A value of `material`: meadows, used if the world has no ground of its own.
   static constexpr uint32_t kMeadow = UINT32_MAX;
 
   float height = 0;       ///< metres from the scene's origin

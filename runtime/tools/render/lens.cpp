@@ -11,13 +11,14 @@
 namespace sgm {
 namespace {
 
-constexpr float kGlare = 0.045f;     // share of the light that the lens scatters
-constexpr float kBrightest = 24.0f;  // whites: limits glints of single pixels
-constexpr float kGrain = 0.010f;     // of a pixel in middle grey, sRGB
-/// Spread of the scattered light: shares of blurs, each twice as wide as the previous.
+constexpr float kGlare = 0.045f;  // share of the light that the lens scatters
+// Limit in multiples of white, so that glints of single pixels do not dominate the glare.
+constexpr float kBrightest = 24.0f;
+constexpr float kGrain = 0.010f;  // strength of the grain in a medium grey pixel, sRGB
+/// Distribution of the scattered light: shares of successive blurs, each twice as wide as the previous one.
 constexpr std::array kSpread = {0.16f, 0.18f, 0.17f, 0.15f, 0.13f, 0.11f, 0.10f};
 
-/// Light by pixel, of a picture or of a reduced one.
+/// Light of each pixel of a picture, or of a picture reduced in size.
 struct LightMap {
   LightMap(int w, int h) : width(w), height(h), light(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
 
@@ -45,7 +46,7 @@ LightMap halved(const LightMap& map) {
   return half;
 }
 
-/// Adds a map of half the size, smoothly enlarged.
+/// Adds a map of half the size, enlarged with smooth interpolation.
 void addDoubled(LightMap& map, const LightMap& half) {
   for (int y = 0; y < map.height; ++y) {
     const int row = y / 2, beside_row = y % 2 == 0 ? row - 1 : row + 1;
@@ -58,7 +59,7 @@ void addDoubled(LightMap& map, const LightMap& half) {
   }
 }
 
-/// The light that the lens scatters.
+/// The light that the lens scatters, as a map of its own.
 LightMap glareOf(LightMap light) {
   std::vector<LightMap> maps;
   maps.push_back(halved(light));
@@ -72,14 +73,14 @@ LightMap glareOf(LightMap light) {
   return light;
 }
 
-/// A pseudorandom number from 0 to 1 (O'Neill's PCG, as a hash).
+/// A pseudorandom number from 0 to 1 (O'Neill's PCG, used as a hash).
 float chance(uint32_t& state) {
   state = state * 747796405u + 2891336453u;
   const uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
   return static_cast<float>((word >> 22u) ^ word) * 0x1p-32f;
 }
 
-/// Clamped to 0..limit; NaN becomes 0, since it would spread over the whole picture.
+/// The colour with each channel clamped to 0..limit. NaN becomes 0, since it would spread over the whole picture.
 glm::vec3 held(const glm::vec3& c, float limit) {
   const auto one = [&](float v) { return v > 0 ? std::min(v, limit) : 0.0f; };
   return {one(c.x), one(c.y), one(c.z)};
@@ -109,7 +110,8 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
     for (int draw = 0; draw < 4; ++draw) grain += chance(state);
     for (int channel = 0; channel < 3; ++channel) {
       const float value = encodedSrgb(std::clamp(lit[channel], 0.0f, 1.0f));
-      // Grain shows in greys. Half a step of noise everywhere prevents banding of dark gradients.
+      // Grain is strongest in medium greys. Half a quantization step of noise everywhere prevents banding of dark
+      // gradients.
       const float rough = kGrain * 4 * value * (1 - value) * grain * 1.7f + (chance(state) - 0.5f) / 255;
       image.rgba[4 * i + static_cast<size_t>(channel)] =
           static_cast<uint8_t>(std::clamp(value + rough, 0.0f, 1.0f) * 255 + 0.5f);

@@ -8,9 +8,10 @@
 namespace sgm {
 namespace {
 
-constexpr std::array<float, 5> kSpline{1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};  // B3
+constexpr std::array<float, 5> kSpline{1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};  // B3 spline
 
-/// Weight of the light at b for the light at a: large if both lie on one plane and face the same way.
+/// The weight with which light at element b contributes to element a: large if both lie in one plane and face the same
+/// way.
 float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   const glm::vec4 &pa = guides.positions[a], &pb = guides.positions[b];
   if (pb.w < 0) return 0;
@@ -21,7 +22,8 @@ float kinship(const Guides& guides, size_t a, size_t b, float apart) {
   return f8 * f4 * std::exp(-off);
 }
 
-/// Calls body(at, tell) for each element with a surface; tell(add) calls add(neighbour, weight) for its neighbours.
+/// Calls body(at, tell) for each element with a surface. body may call tell(add), which calls add(neighbour, weight)
+/// for each of the element's neighbours.
 template <class Body>
 void overNeighbours(const Guides& guides, int step, float element, JobSystem& jobs, Body body) {
   parallelFor(jobs, guides.height, [&](size_t row) {
@@ -60,7 +62,7 @@ void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float eleme
         near += weight * light[other].lie.x;
         weights += weight;
       });
-      // The other members of `lie` have no noise, and sharp edges.
+      // Only lie.x has noise; the other members have none, and their sharp edges must stay.
       const glm::vec4 lie(near / weights, light[at].lie.y, light[at].lie.z, light[at].lie.w);
       next[at] = {sum.light / weights, sum.lean / weights, lie};
     });

@@ -41,7 +41,7 @@ struct LightPlanes {
   uint32_t soft_width = 0, soft_height = 0;
   std::vector<DirectLight> direct;
   std::vector<SoftLight> soft;
-  /// one for each pixel, for the clouds in front of its surface; empty if there are no clouds
+  /// One for each pixel, for the clouds in front of its surface; empty if there are no clouds.
   std::vector<VapourLight> vapour;
   /// Geometric mean of the brightness of all visible surfaces without clouds; 0 if none is visible.
   float brightness = 0;

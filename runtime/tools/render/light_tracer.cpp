@@ -23,37 +23,41 @@
 namespace sgm {
 namespace {
 
-constexpr int kSoftRays = 14;  // for each square of pixels; filtered later
-/// Rays to a light: the first ones suffice for places in full light or shade; the others resolve penumbras.
+constexpr int kSoftRays = 14;  // rays for each square of pixels; their noise is filtered later
+/// Numbers of rays to a light: the first rays suffice for places in full light or full shade; all of them resolve
+/// penumbras.
 constexpr int kFirstRays = 2, kAllRays = 8;
-constexpr int kBounces = 2;              // of a soft ray, before the remaining light is assumed to be even
-constexpr int kMostPanes = 2;            // that a ray passes before it hits another surface
-constexpr float kThroughPane = 0.8f;     // share of the light that lead and dirt transmit
-constexpr int kMirrorBounces = 2;        // of a ray from a mirror
-constexpr int kMirrorRays = 4;           // of a pixel: a single ray would alias edges in the mirror
-constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: slightly hazy
-constexpr float kLampRadius = 0.05f;     // in reaches
-constexpr float kFar = 1e5f;             // metres
-constexpr float kDirtReach = 0.9f;       // metres: surfaces with nearer surroundings catch dirt
-constexpr float kUnderLedge = 2.4f;      // metres of streaks below a ledge
-constexpr float kSplash = 1.5f;          // metres of splashing rain, and of rising damp
-constexpr float kWiderThanLedge = 0.4f;  // metres: minimal width of ground that splashes at a wall
-constexpr float kLedgeStep = 0.25f;      // metres of its tolerated height difference
+constexpr int kBounces = 2;    // reflections of a soft ray, after which the remaining light is assumed to be even
+constexpr int kMostPanes = 2;  // maximum number of panes that a ray passes before it hits another surface
+constexpr float kThroughPane = 0.8f;  // share of the light that lead and dirt of a stained window transmit
+constexpr int kMirrorBounces = 2;     // further reflections of a ray that a mirror has reflected
+constexpr int kMirrorRays = 4;  // rays of a pixel that shows a mirror: a single ray would alias edges in the reflection
+// Radius of the sun's disc at distance 1, larger than the real one, as in slight haze.
+constexpr float kSunRadius = 0.012f;
+constexpr float kLampRadius = 0.05f;  // radius of a lamp, as a share of its reach
+constexpr float kFar = 1e5f;          // metres, length of rays that go to infinity
+constexpr float kDirtReach = 0.9f;    // metres: surfaces with other surfaces nearer than this catch dirt
+constexpr float kUnderLedge = 2.4f;   // metres, length of rain streaks below a ledge
+constexpr float kSplash = 1.5f;       // metres, height reached by splashing rain and rising damp
+// metres: minimum width of ground at the foot of a wall from which rain splashes
+constexpr float kWiderThanLedge = 0.4f;
+constexpr float kLedgeStep = 0.25f;  // metres, height differences of the ground that are tolerated within that width
 
-/// A surface that a ray hits.
+/// The surface that a ray hits.
 struct MetSurface {
   vec3 position{0};
   vec3 normal{0};  ///< interpolated as for shading, unit length
-  vec3 start{0};   ///< start of secondary rays: off the triangle, to follow the curved surface
+  /// Starting point of further rays: moved off the triangle to the curved surface that the normals describe.
+  vec3 start{0};
   uint32_t triangle = 0;
   uint32_t material = 0;
-  uint32_t second = 0;  ///< material to blend with
+  uint32_t second = 0;  ///< index of the material to blend with
   float distance = -1;  ///< below 0: no surface
 
   bool isThere() const { return distance >= 0; }
 };
 
-/// Whether a pane is clear, so that the scene behind it is visible: see MaterialLook.
+/// Whether a pane is clear, so that the scene behind it is visible (kClearPane).
 bool isClear(const RenderMaterial& material) {
   return material.pattern == SurfacePattern::glass && material.relief == kClearPane;
 }
@@ -68,7 +72,7 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
-  /// vapour: the scene's clouds, or null.
+  /// vapour: the scene's clouds; null if there are none.
   LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
       : scene_(scene),
         frame_(frame),
@@ -79,7 +83,7 @@ class LightTracer {
     for (const RenderMaterial& one : scene.materials) has_water_ |= one.pattern == SurfacePattern::water;
   }
 
-  /// Through a pixel's first sample, or `off` pixels beside it.
+  /// The direction of the ray through a pixel's first sample, or `off` pixels beside it.
   vec3 directionAt(uint32_t x, uint32_t y, glm::vec2 off = glm::vec2(0)) const {
     const float first = 0.5f / static_cast<float>(scene_.supersample);
     const float u = (static_cast<float>(x) + first + off.x) / static_cast<float>(frame_.size.x) * 2 - 1;
@@ -87,7 +91,7 @@ class LightTracer {
     return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
   }
 
-  /// The visible surface: skips gaps in crowns.
+  /// The visible surface in a pixel. The ray passes through gaps in tree crowns.
   MetSurface seenAt(uint32_t x, uint32_t y) const {
     constexpr int kMostGaps = 6;
     constexpr float kBehind = 0.02f;  // metres
@@ -102,7 +106,7 @@ class LightTracer {
     return place;
   }
 
-  /// The clouds in front of a surface, or of the sky.
+  /// The clouds between the eye and a surface, or the sky.
   VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
     return vapour_->march(vec3(frame_.eye), directionAt(x, y), place.isThere() ? place.distance : kFar, x, y);
   }
@@ -118,11 +122,11 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (isMirror(place.material)) seen = mirrored(place, x, y);
-    // At the rim of a pane, blended paint must mirror as little as the pane does: otherwise the sky alone would shine
-    // in the pane.
+    // At the rim of a pane its material is blended with paint, which must then mirror as little as the pane does:
+    // otherwise the sky alone would shine in the pane.
     if (isClear(material(place.material)) || isClear(material(place.second))) {
       const uint32_t pane = isClear(material(place.material)) ? place.material : place.second;
-      // Reflection and transmission are one light here: the shader adds it unchanged.
+      // The shader adds this light unchanged, so reflection and transmission are combined here.
       const float facing = -dot(directionAt(x, y), place.normal);
       const float mirrors = 0.06f + 0.94f * std::pow(1 - std::clamp(facing, 0.0f, 1.0f), 5.0f);
       seen = mix(colourOf(pane) * seenThrough(place, x, y), seen, mirrors);
@@ -145,7 +149,7 @@ class LightTracer {
     for (int i = 0; i < kSoftRays; ++i) {
       const vec3 direction = cosineDirection(place.normal, points.next());
       float distance = kFar;
-      // A lamp seen at close range must not cause fireflies.
+      // The limit prevents fireflies, single bright pixels from rays that hit a lamp at close range.
       const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
       near += std::max(0.0f, 1 - distance / kDirtReach);
       sum += light;
@@ -158,7 +162,7 @@ class LightTracer {
     return result;
   }
 
-  /// The light that falls on a place.
+  /// The total light that falls on a place.
   vec3 lightOn(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
     vec3 light(soft.light);
     for (uint32_t i = 0; i < (sky_ ? 1 : frame_.counts.x); ++i) {
@@ -168,11 +172,11 @@ class LightTracer {
     return light;
   }
 
-  /// The visible brightness of a place of plain colour in a light.
+  /// The brightness with which a place of a plain colour appears in a light.
   float brightness(const MetSurface& place, vec3 light) const {
     const vec3 colour = colourOf(place.material);
     if (sky_) return luminance(light * colour);
-    // Under lamps, treat dark materials such as lava as dark, not as badly lit stone.
+    // Under lamps, dark materials such as lava are treated as dark, not as badly lit stone, so that they stay dark.
     constexpr float kStone = 0.3f;
     return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }
@@ -182,7 +186,7 @@ class LightTracer {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
-  /// Water, panes, and equally smooth paint.
+  /// Whether a material reflects like a mirror: water, panes, and equally smooth paint.
   bool isMirror(uint32_t index) const {
     constexpr float kSmooth = 0.1f;
     const RenderMaterial& look = material(index);
@@ -190,7 +194,8 @@ class LightTracer {
     return lacquer || isWater(index) || look.pattern == SurfacePattern::glass;
   }
 
-  /// The reflection in a pixel: the mean of rays through the whole pixel, each to its own place of the mirror.
+  /// The reflection in a pixel: the mean over rays through the whole pixel, each reflected at its own point of the
+  /// mirror.
   vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 63), turns(x, y, 64);
     const vec3 eye(frame_.eye);
@@ -198,7 +203,7 @@ class LightTracer {
     vec3 sum(0);
     for (int i = 0; i < kMirrorRays; ++i) {
       const vec3 through = directionAt(x, y, spread.next() - 0.5f);
-      // Its intersection with the mirror's plane, unless that is nearly edge-on.
+      // The point where the ray meets the mirror's plane, unless the plane is seen nearly edge-on.
       const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
       const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
       const vec3 at = place.position + beside + vec3(frame_.pattern_offset);
@@ -207,7 +212,7 @@ class LightTracer {
                           : pattern == SurfacePattern::water && sky_ ? rippledNormal(place.normal, at)
                                                                      : place.normal;
       vec3 back = glm::reflect(glm::normalize(place.position + beside - eye), normal);
-      // At grazing angles a bent normal would send the ray into the pane.
+      // At grazing angles, the distorted normal would reflect the ray into the pane; reflect it out again.
       if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
       sum += radiance(place.start + beside, back, turns, kMirrorBounces, nullptr, true);
     }
@@ -223,10 +228,10 @@ class LightTracer {
 
   bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
 
-  /// Panes that transmit rays.
+  /// Whether a material is a pane that transmits rays.
   bool isPane(uint32_t index) const { return isLeaded(index) || isClear(material(index)); }
 
-  /// The scene behind a pane, in a pixel: old glass bends and blurs it.
+  /// The scene behind a pane, as seen through a pixel. Old glass bends and blurs it.
   vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 66), turns(x, y, 67);
     const bool old = isLeaded(place.material);
@@ -245,8 +250,8 @@ class LightTracer {
 
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
 
-  /// The bed is assumed to slope like the shore: a third of the distance to the shore, as a mean over several
-  /// directions.
+  /// The depth of water at a place in metres. The bed is assumed to slope like the shore: the depth is a third of the
+  /// distance to the shore, averaged over several directions.
   float depthOf(const MetSurface& place, UnitPoints& points) const {
     constexpr int kWays = 8;
     constexpr float kFall = 0.33f, kDeepest = 8;
@@ -260,7 +265,7 @@ class LightTracer {
     return kWays / shallow;
   }
 
-  /// A surface above water is wet up to a height of kHigh, decreasing with height.
+  /// The wetness of a surface near water, 0..1: it decreases with the height above the water, to 0 at kHigh.
   float wetness(const MetSurface& place) const {
     constexpr float kHigh = 0.35f;  // metres
     const vec3 out = glm::normalize(vec3(place.normal.x, 0, place.normal.z) + vec3(1e-5f, 0, 0));
@@ -282,7 +287,7 @@ class LightTracer {
     for (int i = 0; i < 3; ++i) {
       const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
       place.normal += share[static_cast<size_t>(i)] * vertex.normal;
-      // Hanika, "Hacking the shadow terminator", 2021: the smooth surface bulges out of the triangle.
+      // Move the starting point outwards to the curved surface (Hanika, "Hacking the shadow terminator", 2021).
       const vec3 from_corner = place.position - vertex.position;
       lifted += share[static_cast<size_t>(i)] * std::min(0.0f, dot(from_corner, vertex.normal)) * vertex.normal;
     }
@@ -295,7 +300,8 @@ class LightTracer {
     return place;
   }
 
-  /// Start of the ray behind a window's surface: inside the pane, whose other side is then hit from inside.
+  /// Starting point of the ray that continues behind a window's surface: it lies inside the pane, so that the ray hits
+  /// the pane's other side from inside.
   static vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
 
   vec3 sunOn(vec3 n) const { return sunLight() * std::max(0.0f, dot(n, to_sun_)); }
@@ -309,7 +315,7 @@ class LightTracer {
     return vec3(frame_.lamp_colour[lamp]) * (fall * facing);
   }
 
-  /// The share of unblocked rays; reaches() casts the next one.
+  /// The share of rays to a light that nothing blocks. reaches() casts the next ray.
   template <class Reaches>
   static float shareOf(Reaches reaches) {
     int open = 0, cast = 0;
@@ -318,7 +324,7 @@ class LightTracer {
   }
 
   float sunShare(const MetSurface& place, UnitPoints& points) const {
-    // Surfaces that face away are dark, except translucent ones, which are lit from within.
+    // Surfaces that face away from the sun are dark, except translucent ones, which the sun lights from within.
     if (dot(place.normal, to_sun_) < -0.4f) return 0;
     const Across across(to_sun_);
     const float through = vapour_ ? vapour_->sunThrough(place.start) : 1;
@@ -340,7 +346,8 @@ class LightTracer {
     });
   }
 
-  /// Reflected light of the sun and all lamps on a mirrored place: choosing a lamp at random would cause noise.
+  /// The light of the sun and of all lamps that a mirrored place reflects. All lamps are summed, since choosing one at
+  /// random would cause noise.
   vec3 litByAll(const MetSurface& place, UnitPoints& turns) const {
     if (sky_) return lit(place, turns.next());
     vec3 sum(0);
@@ -356,7 +363,8 @@ class LightTracer {
     return sum;
   }
 
-  /// Reflected light of the sun, or of one lamp chosen with probability proportional to its unshadowed light.
+  /// The light that a place reflects: of the sun, or of one lamp that is chosen with probability proportional to its
+  /// unshadowed light.
   vec3 lit(const MetSurface& place, glm::vec2 turn) const {
     if (sky_) {
       const vec3 light = sunOn(place.normal);
@@ -376,7 +384,7 @@ class LightTracer {
     return vec3(0);
   }
 
-  /// The sky with fair-weather clouds: single ones in mirrors, otherwise their mean share.
+  /// The sky with fair-weather clouds. Mirrors show single clouds; elsewhere their mean coverage is used.
   vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const {
     vec3 sky = skyLight(direction, to_sun_);
     if (frame_.land.w > 0 && direction.y > 0) {
@@ -387,14 +395,14 @@ class LightTracer {
     return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
   }
 
-  /// How much a ledge keeps rain off a wall, 0..1.
+  /// How much a ledge above a wall keeps rain off, 0..1.
   float ledgeOver(const MetSurface& place) const {
     if (std::abs(place.normal.y) > 0.5f) return 0;
     const auto over = mesh_.castFronts(place.start, glm::normalize(vec3(0, 1, 0) + 0.12f * place.normal), kUnderLedge);
     return over ? 1 - over->distance / kUnderLedge : 0;
   }
 
-  /// Nearness of a wall's foot, 0..1: of a flat surface before it that is wider than a ledge.
+  /// Nearness of a wall's foot, 0..1: of a flat surface at the wall that is wider than a ledge.
   float footUnder(const MetSurface& place) const {
     if (std::abs(place.normal.y) > 0.7f) return 0;
     const vec3 down(0, -1, 0);
@@ -405,7 +413,8 @@ class LightTracer {
     return beside && beside->distance > under->distance - kLedgeStep ? 1 - under->distance / kSplash : 0;
   }
 
-  /// distance: set to the distance of the first hit, if any. mirrored: the ray is visible in a pane.
+  /// The radiance that arrives along a ray. distance: is set to the distance of the first hit, if any. mirrored: the
+  /// ray is visible in a mirror, so clouds must be distinct.
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
                 bool mirrored = false) const {
     vec3 sum(0), weight(1);
@@ -418,7 +427,7 @@ class LightTracer {
       }
       if (distance && i == 0 && place.isThere()) *distance = place.distance;
       if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(frame_.sun.w));
-      // Ambient light is full in the open, and less in narrow clefts.
+      // Ambient light is full in open places, and less in narrow clefts.
       const float wide = place.distance / (place.distance + 0.7f);
       sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
       weight *= colourOf(place.material);

@@ -59,7 +59,7 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// Vertex attributes of a pipeline, by corner or by instance.
+/// The vertex attributes of a pipeline; one set for each vertex or for each instance.
 struct Drawn {
   VkVertexInputBindingDescription binding;
   std::array<VkVertexInputAttributeDescription, 6> attributes;
@@ -75,11 +75,11 @@ constexpr Drawn kTriangles{{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX
                              {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
                              {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}},
                            VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-                           // A solid's inner side is never visible from the void. From outside, culling opens a cave
-                           // like a doll's house.
+                           // The side of a surface that faces the solid is never visible from the void, so it is
+                           // culled. From outside, culling opens a cave like a doll's house.
                            VK_CULL_MODE_BACK_BIT};
 
-/// Sprouts are visible from both sides.
+/// Sprouts are not culled, since both of their sides are visible.
 constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          {{{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, root)},
                            {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, normal)},
@@ -90,7 +90,7 @@ constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
                          VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
                          VK_CULL_MODE_NONE};
 
-/// Draws into reversed depth and both planes, with these two shaders.
+/// A pipeline that draws into the reversed depth buffer and into both planes with these two shaders.
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
                                     const Drawn& drawn, std::span<const uint32_t> vertex_code,
                                     std::span<const uint32_t> fragment_code) {

@@ -1,6 +1,6 @@
 #include "tools/render/image.h"
 
-// The writer's functions stay private to this file, since a program that embeds us may bring its own stb.
+// Stb's functions are static in this file, because a program that links us may contain its own copy of stb.
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #pragma GCC diagnostic push

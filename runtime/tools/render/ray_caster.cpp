@@ -19,7 +19,7 @@ bool meetsFront(const RTCFilterFunctionNArguments& at) {
   return ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z < 0;
 }
 
-// Embree calls these filters for each hit of a one-sided ray.
+// Filter of rays that hit front sides only: rejects hits on the back of a triangle. Embree calls filters for each hit.
 void dropBack(const RTCFilterFunctionNArguments* at) {
   if (!meetsFront(*at)) at->valid[0] = 0;
 }
@@ -27,7 +27,7 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) at->valid[0] = 0;
 }
 
-/// A ray to a light, with the data of its filter.
+/// A ray to a light, with the data that its filter needs.
 struct LightRay {
   RTCIntersectContext context;  // first, since Embree passes on a pointer to it
   const RayCaster* mesh;
@@ -35,7 +35,7 @@ struct LightRay {
   glm::vec3 offset;
 };
 
-// The same for light that may pass between sprigs of crowns, and through panes.
+// Filter of rays to a light: rejects hits on the front of a triangle, in gaps between sprigs of crowns, and on panes.
 void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
@@ -50,7 +50,7 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
     at->valid[0] = 0;
     return;
   }
-  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above the second is a gap
+  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; where the noise is above kGap, there is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
   if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
@@ -98,7 +98,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
     caster.lo_ = glm::min(caster.lo_, vertices[index].position);
     caster.hi_ = glm::max(caster.hi_, vertices[index].position);
   }
-  // One thread builds the tree, so that it and each picture are reproducible.
+  // One thread builds the tree, so that the tree, and with it each picture, is reproducible.
   const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
   if (!device) return kNoMemory;
   caster.scene_.reset(rtcNewScene(device));
@@ -110,7 +110,7 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
                                3 * sizeof(uint32_t), indices.size() / 3);
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(caster.scene_.get(), mesh);
-    // Embree calls filters of rays only if the scene enables them.
+    // Embree calls the filters of single rays only if the scene enables them.
     const RTCSceneFlags closed = gaps == Gaps::closed ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(caster.scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | closed));
   }

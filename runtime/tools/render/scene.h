@@ -22,7 +22,7 @@ struct RenderVertex {
   glm::vec3 position{0};
   glm::vec3 normal{0};
   uint32_t material = 0;  ///< index into RenderScene::materials, clamped to the last one
-  /// index of a second material to blend with; as the first, the same at all corners of a triangle
+  /// Index of a second material to blend with; as the first, the same at all corners of a triangle.
   uint32_t second = 0;
   float share = 0;  ///< share of the second material at this vertex, 0..1
   /// Texture coordinates, drawn as a checkerboard. If they are equal at all corners of a triangle, it has no texture.

@@ -24,7 +24,7 @@ Result<std::vector<uint32_t>> specialized(std::span<const uint32_t> code, uint32
         .RegisterPass(spvtools::CreateDeadBranchElimPass())
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false);  // glslang made it, and the tests use validation layers
+    options.set_run_validator(false);  // glslang has generated this code, and the tests use validation layers
     std::vector<uint32_t> made;
     if (!optimizer.Run(code.data(), code.size(), &made, options)) {
       return Error{Code::unsupported,

@@ -18,15 +18,15 @@ namespace sgm {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr int kCoarser = 2;  // cells between lattice points of light
+constexpr int kCoarser = 2;  // density cells from one lattice point of light to the next
 constexpr float kStep = 0.5f, kOpaque = 0.004f;
-constexpr float kForward = 0.82f;  // mean cosine of the scattering angle of droplets
+constexpr float kForward = 0.82f;  // mean cosine of the scattering angle of droplets (g)
 constexpr int kOctaves = 7;
-constexpr float kKept = 0.82f;  // of all octaves, so that a cloud emits no more light than it receives
-/// Noise between these limits moves the outline inwards and outwards, and rims thin out over kEdge.
+constexpr float kKept = 0.82f;  // total weight of all octaves, so that a cloud emits no more light than it receives
+/// The noise moves the boundary between these limits inwards and outwards; rims become thin over the width kEdge.
 constexpr float kThinnest = 0.05f, kErosion = 0.92f, kEdge = 0.24f;
-constexpr float kDeepest = 0.78f;  // of creases: deeper ones would be dark dots between three puffs
-constexpr float kPuff = 9;         // cells: the period of the largest detail
+constexpr float kDeepest = 0.78f;  // limit of creases: deeper ones would appear as dark dots between three puffs
+constexpr float kPuff = 9;         // cells, period of the largest puffs
 
 vec3 withoutZeros(vec3 d) {
   for (int axis = 0; axis < 3; ++axis)
@@ -34,13 +34,13 @@ vec3 withoutZeros(vec3 d) {
   return d;
 }
 
-/// Phase function of Henyey and Greenstein 1941.
+/// The phase function of Henyey and Greenstein (1941). cosine: of the scattering angle; g: its mean.
 float phase(float cosine, float g) {
   const float s = 1 + g * g - 2 * g * cosine;
   return (1 - g * g) / (4 * kPi * s * std::sqrt(s));
 }
 
-/// Mean radiance of the upper or lower half of sky and land.
+/// The mean radiance of the upper hemisphere (up = 1, sky) or the lower one (up = -1, land).
 vec3 meanLight(vec3 to_sun, float up) {
   constexpr int kRings = 8, kAround = 16;
   vec3 sum(0);
@@ -54,7 +54,7 @@ vec3 meanLight(vec3 to_sun, float up) {
   return sum / static_cast<float>(kRings * kAround);
 }
 
-/// High up the sun is whiter than on the ground, and clouds light each other white.
+/// Makes a light whiter: high up the sun is whiter than on the ground, and clouds scatter each other's light.
 vec3 whitened(vec3 light) { return mix(light, vec3(dot(light, vec3(0.2126f, 0.7152f, 0.0722f))), 0.55f); }
 
 }  // namespace
@@ -108,7 +108,7 @@ const Vapour::Stuff& Vapour::stuffAt(vec3 place) const {
   return stuffs_[std::min<size_t>(density_.materialAt(place), stuffs_.size() - 1)];
 }
 
-/// In mean free paths, in steps that grow with the distance.
+/// The optical depth from a place along a direction, integrated in steps that grow with the distance.
 float Vapour::opticalDepth(vec3 place, vec3 direction) const {
   const vec3 d = withoutZeros(direction);
   const float end = density_.crossing(place, d).y;
@@ -133,7 +133,7 @@ void Vapour::light(JobSystem& jobs) {
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const glm::ivec3 point = glm::ivec3(x, y, z) * kCoarser;
-        // Light is interpolated between lattice points.
+        // Only lattice points near cells with density are computed, since light is interpolated between lattice points.
         bool seen = false;
         for (int i = 0; i < 8 && !seen; ++i) {
           const glm::ivec3 away = (glm::ivec3(i & 1, i >> 1 & 1, i >> 2) * 2 - 1) * kCoarser;
@@ -162,7 +162,7 @@ void Vapour::light(JobSystem& jobs) {
   });
 }
 
-// The outline with puffs in it, down to a size of `footprint`, in cells.
+// The density at a place: the boundary displaced by puffs that are not smaller than `footprint`, in cells.
 float Vapour::densityAt(vec3 place, float footprint) const {
   const Stuff& stuff = stuffAt(place);
   const float outline = density_.outlineAt(place);
@@ -184,13 +184,13 @@ glm::vec4 Vapour::litAt(vec3 place) const {
   return glm::mix(glm::mix(along(0), along(row), f.y), glm::mix(along(slice), along(slice + row), f.y), f.z);
 }
 
-/// Radiance that a place sends along a ray. Sunlight is a sum over octaves of scattering, of which the first is single
-/// scattering. Light scattered repeatedly goes farther and loses its direction: each octave stands for more scattering,
-/// with a share of the previous extinction and mean cosine (Wrenninge, Kulla and Lundqvist 2013, "Oz: the great and
-/// volumetric"). The share passed on to the next octave is that which does not escape.
+/// Radiance that a place scatters into a ray. Sunlight is a sum over octaves of scattering; the first octave is single
+/// scattering. Light that is scattered repeatedly goes farther and loses its direction, so each further octave has a
+/// share of the previous octave's extinction and mean cosine (Wrenninge, Kulla and Lundqvist 2013, "Oz: the great and
+/// volumetric"). The energy passed on to the next octave is the share that does not escape from the cloud.
 vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
   const glm::vec4 lit = litAt(place);
-  // Near the place, light crosses puffs that the lattice does not resolve.
+  // Near the place, the light crosses puffs that are smaller than the lattice resolves: sample these directly.
   constexpr std::array kNear{0.6f, 1.9f, 4.0f}, kLong{1.2f, 1.5f, 2.8f};
   float near = 0;
   for (size_t i = 0; i < kNear.size(); ++i)
@@ -246,7 +246,7 @@ float Vapour::sunThrough(vec3 position) const {
   const glm::vec2 ends = density_.crossing(place, d);
   if (ends.y <= std::max(ends.x, 0.0f)) return 1;
   const float depth = opticalDepth(place + d * std::max(ends.x, 0.0f), to_sun_);
-  // Forward-scattered light still arrives.
+  // The second term stands for forward-scattered light, which still arrives through thick clouds.
   return 0.75f * std::exp(-depth) + 0.25f / (1 + 0.25f * depth);
 }
 

@@ -60,7 +60,7 @@ class Vapour {
 
   VapourDensity density_;
   Lattice light_lattice_;
-  /// for each lattice point: optical depth towards the sun; unobstructed shares upwards, downwards and on all sides
+  /// For each lattice point: optical depth towards the sun; unobstructed shares upwards, downwards and on all sides.
   std::vector<glm::vec4> lit_;
   std::vector<uint8_t> detail_;
   std::vector<Stuff> stuffs_;  ///< indexed by material

@@ -13,11 +13,11 @@ namespace sgm {
 
 /// Optical properties of the fog.
 struct VolumeMedium {
-  /// extinction coefficient at density 1, per metre, at least 0; the mean free path is 1 / extinction
+  /// Extinction coefficient at density 1, per metre, at least 0; the mean free path is 1 / extinction.
   float extinction = 0.05f;
   float albedo = 1.0f;   ///< share of the extinguished light that is scattered, not absorbed, 0 to 1
   float forward = 0.8f;  ///< mean cosine of the scattering angle (g), above -1 and below 1
-  /// number of octaves that approximate multiple scattering, up to 32; 1: single scattering only
+  /// Number of octaves that approximate multiple scattering, up to 32; 1: single scattering only.
   uint32_t octaves = 5;
 };
 

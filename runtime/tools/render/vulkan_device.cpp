@@ -17,7 +17,7 @@ bool loadDrawing(const vulkan::InstanceTable& instance, VkDevice device, Drawing
   return complete;
 }
 
-// Devices that are too old are omitted, so that indices count usable ones.
+// The devices with Vulkan 1.2. Older devices are omitted, so that indices count usable devices only.
 Result<std::vector<VkPhysicalDevice>> usableDevices(const vulkan::Instance& instance) {
   auto all = instance.devices();
   if (!all) return all.error();

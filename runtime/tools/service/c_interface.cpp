@@ -1,4 +1,4 @@
-// Implements sgm_service.h with Service.
+// Implements the C interface sgm_service.h with the class Service.
 
 #include <sgm/sgm_service.h>
 
@@ -53,14 +53,14 @@ sgm_result fail(sgm_error* out, sgm_result code, std::string_view message) {
     *out = SGM_ERROR_INIT;
     out->code = code;
     size_t size = std::min<size_t>(message.size(), SGM_MESSAGE_SIZE - 1);
-    // Do not cut a UTF-8 character.
+    // Do not cut the message within a UTF-8 character.
     while (size < message.size() && size > 0 && (static_cast<unsigned char>(message[size]) & 0xC0u) == 0x80u) --size;
     std::memcpy(out->message, message.data(), size);
   }
   return code;
 }
 
-/// Runs an entry point; no exception leaves the library.
+/// Runs the body of an interface function. No exception leaves the library: each becomes a result code.
 template <class Work>
 sgm_result guarded(sgm_error* error, const Work& work) {
   try {
@@ -80,7 +80,7 @@ std::string textOr(const char* text, const char* otherwise) { return text != nul
 Result<ServiceSettings> settingsOf(const sgm_service_desc& desc) {
   ServiceSettings settings;
   settings.access.address = textOr(desc.address, "127.0.0.1");
-  // A token read from an empty file must not disable access control.
+  // An empty token is rejected: a token read from an empty file must not disable access control.
   if (desc.token != nullptr && *desc.token == '\0') return wrong("desc.token is empty: use NULL to require no token");
   settings.access.token = textOr(desc.token, "");
   if (desc.host_name_count > 0 && desc.host_names == nullptr)

@@ -13,12 +13,14 @@
 namespace sgm::service {
 namespace {
 
-/// Age from which a world's sample counts as stale. Worlds of an idle engine are sampled too.
+/// Age from which a world's sample counts as stale. Worlds of an idle engine are sampled too, so their samples do not
+/// age.
 constexpr std::chrono::seconds kStale{10};
-/// A connection of the work port needs up to two files: itself and its upload. Including connections that are turned
-/// away, and those of operators, at least half of the process's files are left to the engine.
+/// Limits of the work port's connections. A connection needs up to two files: its socket and its upload. With the
+/// connections that are turned away, and those of the operations port, at least half of the process's files remain for
+/// the engine.
 constexpr uint32_t kWorkConnections = 2048, kWorkShare = 5;
-/// There are few operators.
+/// Limits of the operations port, which has few clients.
 constexpr uint32_t kOperationsConnections = 64, kOperationsShare = 16;
 
 http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t port, const char* thread_name) {
@@ -30,7 +32,7 @@ http::ServerSettings serverSettings(const ServiceSettings& settings, uint16_t po
   return server;
 }
 
-/// The detail of a problem.
+/// The member "detail" of a problem in JSON.
 std::string detailOf(const MastersAnswer& said) {
   const auto problem = nlohmann::json::parse(said.json == nullptr ? "" : *said.json, nullptr, false);
   const bool told = problem.is_object() && problem.contains("detail") && problem["detail"].is_string();
@@ -39,14 +41,14 @@ std::string detailOf(const MastersAnswer& said) {
 
 }  // namespace
 
-/// In the order of their dependencies: the last one is destroyed first.
+/// The parts of the service, in the order of their dependencies: members are destroyed in reverse order.
 struct Service::Parts {
   ServiceSettings settings;
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   Access access;
   Reports reports;
   std::unique_ptr<WatchedWorlds> worlds;
-  /// Set once both servers exist: handlers are called from the first request on.
+  /// Set once both servers exist. Until then they are null, since handlers may be called from the first request on.
   std::atomic<const http::Server*> work_server{nullptr}, operations_server{nullptr};
   std::unique_ptr<Masters> masters;
   std::unique_ptr<Inspector> inspector;
@@ -56,7 +58,8 @@ struct Service::Parts {
 
   Parts(const ServiceSettings& with, Access allowed) : settings(with), access(std::move(allowed)) {}
   ~Parts() {
-    // Each server reports on the other, and both on the inspector, whose threads call back: stop both first.
+    // Each server's handler uses the other server and the inspector, and the inspector's threads call back into
+    // handlers: stop both servers before destroying anything.
     for (const auto& server : {work_owner.get(), operations_owner.get()})
       if (server != nullptr) server->stop(std::chrono::milliseconds(0));
     inspector.reset();
@@ -84,7 +87,8 @@ struct Service::Parts {
     const Result<void> takes = inspector->wouldTake();
     const bool full = !takes && takes.error().code == Code::limit;
     all.push_back({"validator", takes || full, false, takes ? "accepts uploads" : takes.error().message});
-    // If the base has been damaged or repaired since, the next check shows it.
+    // Start reading the reference histograms again, so that the next check shows if the database has been damaged or
+    // repaired since.
     masters->read([](const MastersAnswer&) {});
     const MastersAnswer said = masters->last();
     if (said.status != 0)

@@ -1,4 +1,4 @@
-// The command `sgm`.
+// The entry point of the command `sgm`, and its signal handler.
 
 #include <csignal>
 #include <cstdio>
@@ -13,8 +13,8 @@ namespace {
 
 using sgm::cli::Exit;
 
-/// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal); but first removes
-/// unfinished files, and defers the signal while work must not be interrupted.
+/// Ends the process by the signal, as if it were not handled (a shell then reports 128 + the signal), but first removes
+/// unfinished files. Defers the signal while work must not be interrupted.
 void endBy(int signal) {
   if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();
@@ -23,7 +23,7 @@ void endBy(int signal) {
 }
 
 void handleSignals() {
-  // Then exceeding the file size limit is a failed write, which cleans up after itself.
+  // With SIGXFSZ ignored, exceeding the file size limit is a failed write, after which the writer removes its file.
   std::signal(SIGXFSZ, SIG_IGN);
   // If the caller ignores it, the system would forget how child processes end.
   std::signal(SIGCHLD, SIG_DFL);
@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     sgm::cli::complain(Exit::input, e.what());
   }
-  // Output may have been lost (a full disk behind a redirection).
+  // Output may have been lost, for example on a full disk to which it is redirected.
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
     status = sgm::cli::complain(Exit::file, "cannot write to standard output");
   }

@@ -1,4 +1,4 @@
-// Stub without the metrics service (SGM_TOOLS=core).
+// Replaces the metrics service in a build without it (SGM_TOOLS=core).
 
 #include "tools/support/serving.h"
 

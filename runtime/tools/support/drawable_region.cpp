@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The message for a region without the wanted anchor.
+/// The error message if the region has no anchor with the wanted name, kind or tag.
 std::string noAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted) {
   Suggestion suggestion(wanted);
   std::set<std::string> known;

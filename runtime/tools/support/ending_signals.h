@@ -27,7 +27,7 @@ class EndingSignals {
 
  private:
   friend class Uninterrupted;
-  // values of state_; a positive value is the number of the deferred signal
+  // Values of state_; a positive value is the number of the deferred signal.
   static constexpr int kOpen = 0, kHeld = -1, kEnding = -2;
 
   std::atomic<int> state_{kOpen};

@@ -15,11 +15,12 @@
 namespace sgm::cli {
 namespace {
 
-constexpr float kNearOwnSurface = 0.3f;  // cells, from a use's own surface
-constexpr size_t kMostTargets = 12;      // examined
-constexpr size_t kFewestTriangles = 6;   // of a use that is recognizable in a picture
+// Cells, maximum distance of a triangle from the surface of the use to which it belongs.
+constexpr float kNearOwnSurface = 0.3f;
+constexpr size_t kMostTargets = 12;     // maximum number of uses that are examined
+constexpr size_t kFewestTriangles = 6;  // minimum number of triangles with which a use is recognizable in a picture
 
-/// The drawn mesh, and the conversion of its places to the world.
+/// The drawn mesh of a region, and the conversion of its places to the world.
 struct DrawnRegion {
   const Region& region;
   std::span<const RenderVertex> vertices;
@@ -29,7 +30,7 @@ struct DrawnRegion {
   glm::vec3 middle(size_t triangle) const {
     return (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0f;
   }
-  /// Towards the void; not a unit vector.
+  /// The triangle's normal, which points to the void; not a unit vector.
   glm::vec3 facing(size_t triangle) const {
     return glm::cross(corner(triangle, 1) - corner(triangle, 0), corner(triangle, 2) - corner(triangle, 0));
   }
@@ -48,11 +49,11 @@ struct DrawnRegion {
   }
 };
 
-/// A use with the part of the mesh that shows it.
+/// A use, and the part of the mesh that shows it.
 struct ShownUse {
   const RuleUse* use = nullptr;
   FrameTarget target;
-  bool hollow = false;  ///< a void that its surface encloses
+  bool hollow = false;  ///< the use's surface encloses a void
 };
 
 std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds) {
@@ -66,18 +67,18 @@ std::vector<uint32_t> trianglesIn(const DrawnRegion& drawn, const IntBox& bounds
   return triangles;
 }
 
-/// The part of a mesh that shows a use.
+/// The triangles of the mesh that show a use.
 struct OwnSurface {
   std::vector<uint32_t> triangles;
-  bool hollow = false;  ///< the void lies within the use's shapes
+  bool hollow = false;  ///< the void lies within the use's shapes, not outside
 };
 
-/// The triangles that lie on the use's own surface, within a fraction of a cell. All of them if hardly any does: then
-/// an enclosing rule has moved its surface.
+/// Selects the triangles that lie on the use's own surface, within a fraction of a cell. If hardly any triangle does,
+/// an enclosing rule has displaced the surface; then all triangles are selected.
 Result<OwnSurface> ownOf(const DrawnRegion& drawn, const RuleUse& use, int level,
                          const std::vector<uint32_t>& triangles) {
   const float cell = static_cast<float>(metres(drawn.region.cell));
-  std::vector<Int3> points;  // on each triangle, on its void's side, and in its solid
+  std::vector<Int3> points;  // three points for each triangle: on it, on its void side, and on its solid side
   IntBox box;
   for (const uint32_t triangle : triangles) {
     const glm::vec3 facing = drawn.facing(triangle), middle = drawn.middle(triangle);
@@ -120,7 +121,8 @@ Result<std::optional<ShownUse>> showUse(const DrawnRegion& drawn, const RuleUse&
   return std::optional(std::move(shown));
 }
 
-/// The uses that lie entirely in the region, if there are any; large ones in its middle first.
+/// The uses to examine: those that lie entirely in the region, if there are any; large uses in the region's middle
+/// first.
 std::vector<const RuleUse*> inOrder(const std::vector<RuleUse>& uses, const IntBox& extent, int32_t cell) {
   std::vector<const RuleUse*> whole;
   for (const RuleUse& use : uses)
@@ -221,7 +223,7 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   wish.width = size.width;
   wish.height = size.height;
   wish.fov_degrees = static_cast<float>(options.fov);
-  // An error counts as rock.
+  // If the field cannot be evaluated at a place, the place counts as rock.
   const Result<std::optional<FramedView>> framing = frameTargets(vertices, indices, targets, wish, [&](glm::vec3 p) {
     const Int3 at = drawn.units(p);
     const Result<std::vector<float>> value = survey::valuesAt(*region.world, region.level, {at, at}, {&at, 1});

@@ -15,7 +15,7 @@ namespace sgm::cli {
 struct FramedUse {
   std::string path;
   IntBox bounds;  ///< bounds of the use's shapes, units
-  /// whether the use is a hollow that encloses the camera; otherwise `seen` and `fill` are valid:
+  /// Whether the use is a hollow that encloses the camera; otherwise `seen` and `fill` are valid:
   bool inside = false;
   double seen = 0;  ///< share of the use's surfaces facing the camera that nothing hides
   double fill = 0;  ///< share of the picture's height or width that the use fills

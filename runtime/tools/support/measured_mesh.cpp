@@ -20,7 +20,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-/// Fills the values from the front of the bytes. False if there are too few bytes.
+/// Moves values from the front of the bytes into `values`. Returns false if there are too few bytes.
 template <class T>
 bool take(std::string_view& bytes, std::vector<T>& values) {
   const size_t size = values.size() * sizeof(T);
@@ -39,7 +39,7 @@ bool isGrammarFile(const std::string& path) {
 }
 
 Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind) {
-  // The only limit of a file's contents is the memory of the process.
+  // The numbers of points and triangles are not limited: only the memory of the process limits a file's contents.
   asset::MeshLimits limits;
   limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
   limits.farthest = 1e12;
@@ -52,7 +52,7 @@ Result<asset::TriangleMesh> readMeshFile(const std::string& file) {
   // Pipes are refused, because reading them might block.
   const Result<std::string> bytes = readFile(file, UINT64_MAX);
   if (!bytes) return bytes.error();
-  // If the name does not tell the kind, the bytes may.
+  // If the file's name does not tell its format, the bytes may.
   const Result<asset::MeshFileKind> named = asset::meshFileKind(std::string_view(file));
   Result<asset::TriangleMesh> mesh =
       readMeshBytes(std::as_bytes(std::span(*bytes)), named ? std::optional(*named) : std::nullopt);

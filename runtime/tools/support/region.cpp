@@ -20,18 +20,19 @@ namespace {
 
 constexpr size_t kMostNotes = 10;
 constexpr const char* kEndless = "the grammar's world is endless: choose a part with --region x0,y0,z0:x1,y1,z1";
-constexpr uint64_t kChosenChunks = 4096;               // maximum for a region that the user has not chosen
-constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view requests
-constexpr double kNearestSeen = kUnitsPerMetre;        // from a camera: nearer surfaces may look coarser
+constexpr uint64_t kChosenChunks = 4096;  // maximum number of chunks of a region that the user has not chosen
+constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view may request, units
+// Minimum distance from the camera, in units, for which a view sets cell sizes: nearer surfaces may look coarser.
+constexpr double kNearestSeen = kUnitsPerMetre;
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
 struct ChosenWorld {
   WorldFieldSettings settings;
-  std::optional<IntBox> region;  ///< nullopt in an endless world if the plan chooses
+  std::optional<IntBox> region;  ///< nullopt in an endless world for which the plan chooses the region
 };
 
-/// The world that the options choose for a compiled grammar.
+/// The world settings and the region that the options give for a compiled grammar.
 Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, const WorldOptions& options,
                                 const RegionPlan& plan) {
   ChosenWorld chosen;
@@ -57,7 +58,8 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   return chosen;
 }
 
-/// Lets the plan choose the region if the options do not, with cells that fit it if the options do not give them.
+/// If the options give no region, lets the plan choose it. If they also give no cell size, chooses one that fits the
+/// region.
 Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, const RegionPlan& plan) {
   if (chosen.region) return {};
   const Result<IntBox> region = plan.choose(WorldField(chosen.settings, std::pmr::new_delete_resource()));
@@ -74,7 +76,7 @@ Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, cons
   return {};
 }
 
-/// Loads the grammar once all checks of the command line alone have passed; errors have been printed.
+/// Loads the grammar after all checks that need only the command line. Errors have been printed when it returns.
 LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) {
   const auto refused = [](Exit status) {
     LoadedGrammar none;
@@ -103,7 +105,7 @@ sgm_backend backendNamed(const std::string& name) {
 }
 
 std::string pipelineFolder() {
-  // Relative paths are ignored (XDG Base Directory Specification).
+  // Relative paths in these variables must be ignored (XDG Base Directory Specification).
   const auto absolute = [](const char* variable) {
     const char* text = std::getenv(variable);
     return text != nullptr && *text == '/' ? std::string(text) : std::string();
@@ -139,7 +141,7 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
-/// Reports cells whose edges --sharp left rounded.
+/// Prints a note about cells in which --sharp left edges rounded.
 void noteRounded(const std::string& file, uint64_t rounded) {
   if (rounded == 0) return;
   fmt::print(stderr, "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
@@ -334,7 +336,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
-  // For an empty mesh, the caller prints the reason.
+  // If the mesh is empty, the caller prints the reason.
   if (!made->meshed.mesh.indices.empty()) sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }

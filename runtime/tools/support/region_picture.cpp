@@ -16,7 +16,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Drawable vertices. The renderer counts from the mesh's origin, as the mesh does.
+/// Converts a mesh's vertices for the renderer, with positions relative to the mesh's origin.
 std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   std::vector<RenderVertex> vertices(mesh.positions.size());
   for (size_t i = 0; i < vertices.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
-/// The mesh as it is drawn. Vertices between charts or pairs of materials are duplicated.
+/// Adds the mesh as it is drawn. Vertices at borders between charts or pairs of materials are duplicated.
 void addMesh(const Region& region, bool uv, RegionScene& drawn) {
   const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
   const Unwrapped& seen = region.texture ? region.texture->unwrapped : *region.blends;
@@ -53,7 +53,7 @@ glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) 
   return point;
 }
 
-/// Whether a place is so near the region's border that the border hides its surroundings.
+/// Whether a place is so near the region's border that the border would be visible around it.
 bool isByBorder(const IntBox& extent, Int3 place) {
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t margin = (int64_t{extent.hi[axis]} - extent.lo[axis]) / 8;
@@ -62,7 +62,7 @@ bool isByBorder(const IntBox& extent, Int3 place) {
   return false;
 }
 
-/// The view that the options request, or an automatic one.
+/// The view of the camera that the options give; otherwise an automatic view.
 Result<View> viewOf(const RenderOptions& options, const Region& region, const RegionScene& drawn) {
   const PictureSize size = *readSize(options.size);
   if (!options.camera.empty()) {
@@ -87,10 +87,10 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
   return chooseCamera(drawn.vertices, drawn.indices, wish);
 }
 
-/// Lamps at the region's anchors of kind `light` that shine into the picture, sorted by distance from the camera.
+/// Lamps at the region's anchors of kind `light` that light visible places, sorted by distance from the camera.
 std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& camera) {
-  constexpr float kReach = 1.5f;    // metres: of a lantern's flame
-  constexpr float kBehind = -3.0f;  // metres: lanterns up to this far behind the camera light what it sees
+  constexpr float kReach = 1.5f;    // metres, reach of a lantern
+  constexpr float kBehind = -3.0f;  // metres: a lantern up to this far behind the camera lights visible places
   const glm::vec3 colour(1.0f, 0.76f, 0.50f), forward = glm::normalize(camera.target - camera.position);
   std::vector<RenderLamp> lamps;
   for (const Anchor& anchor : region.anchors) {
@@ -105,13 +105,13 @@ std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& cam
   return lamps;
 }
 
-/// Without a pattern, which would hide the edges.
+/// Materials for wires: the surface has no pattern, which would hide the edges.
 constexpr RenderMaterial kUnderWires{SurfacePattern::plain, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
 constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
 
-/// Adds the mesh's edges as ribbons that face the camera, of constant width in the picture.
+/// Adds the mesh's edges as ribbons that face the camera and have a constant width in the picture.
 void addWires(const Region& region, const RenderCamera& camera, RegionScene& drawn) {
-  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
+  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: half width, and displacement towards the camera
   constexpr float kShare = 0.035f;                // maximal share of the visible edge, to each side: small triangles
                                                   // stay light
   const WorldMesh& mesh = region.meshed.mesh;
@@ -134,7 +134,7 @@ void addWires(const Region& region, const RenderCamera& camera, RegionScene& dra
   for (const auto& [a, b] : edges) {
     const glm::vec3 ends[] = {place(a), place(b)};
     const glm::vec3 side = glm::cross(ends[1] - ends[0], camera.position - ends[0]);
-    if (glm::length(side) == 0) continue;  // seen end-on
+    if (glm::length(side) == 0) continue;  // the edge is seen end-on
     const float seen = glm::length(side) / glm::distance(camera.position, ends[0]);
     const auto first = static_cast<uint32_t>(drawn.vertices.size());
     for (const glm::vec3& end : ends) {
@@ -150,7 +150,7 @@ void addWires(const Region& region, const RenderCamera& camera, RegionScene& dra
   }
 }
 
-/// The region's world for computing daylight, also beyond the region's border.
+/// The region's world for measuring daylight; it includes what lies beyond the region's border.
 LitWorld litWorld(const Region& region) {
   const Program& program = *region.program;
   LitWorld world = LitWorld::of(program.domain.solid, program.domain.infinite && program.domain.axes[1]);
@@ -184,7 +184,8 @@ Result<Outlook> lookOutFor(const Region& region, const View& view) {
 
 Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density, const Region& region,
                          const View& view) {
-  // A third of the light crosses an edge on the shortest path, so edges of all sizes look soft.
+  // Optical depth along the shortest path across an edge of the density: a third of the light crosses it, so edges of
+  // all sizes look soft.
   constexpr double kEdgeDepth = 1.1;
   const DensityGrid& grid = density.grid;
   VolumeScene scene;
@@ -194,7 +195,7 @@ Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density,
     scene.corner[axis] = static_cast<float>(metres(grid.origin[axis]) - metres(region.meshed.mesh.origin[axis]));
   }
   scene.spacing = static_cast<float>(metres(grid.spacing));
-  // The integral of density over an edge is half the edge's width.
+  // The integral of the density across an edge is half the edge's width.
   scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
   scene.camera = view.camera;
   RenderScene lit;
@@ -294,14 +295,14 @@ Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region) 
       if (!outlook) return outlook.error();
       if (!outlook->buried) drawn.daylight = outlook->daylight;
     }
-    // A camera in the rock sees a model that is cut open.
+    // A camera in the rock sees the model cut open, which the sun lights.
     drawn.light = wanted ? *wanted : drawn.daylight ? lightAt(*drawn.daylight) : Light::sun;
   }
   drawn.scene.vertices = drawn.vertices;
   drawn.scene.indices = drawn.indices;
   drawn.scene.materials = drawn.materials;
   drawn.scene.origin = region.meshed.mesh.origin;
-  // The grammar's lamps replace the explorer's lamps, and the headlamp is dimmed.
+  // If the grammar has lamps, they replace the explorer's lamps, and the headlamp is dimmed.
   std::vector<RenderLamp> lamps = builtLamps(region, drawn.view.camera);
   const bool lit = !lamps.empty();
   if (lit) drawn.view.lamps = std::move(lamps);

@@ -19,7 +19,7 @@ struct ServingOptions {
   std::vector<std::string> hosts;  ///< further names of this machine that clients may use
   std::string masters;             ///< file of reference histograms; empty: the built-in ones
   std::string upload_folder;
-  /// limits of one upload's size, and of the memory of the process that inspects it, MB
+  /// Limits of one upload's size, and of the memory of the process that inspects it, MB.
   uint64_t upload_mb = 64, memory_mb = 2048;
   uint32_t seconds = 60, jobs = 2, waiting = 16;
 };

@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Applies `make` to the text of a file; imports come from its folder.
+/// Applies `make`, a function of the compiler, to the text of a file. Imports are searched in the file's folder.
 template <class Made>
 Result<Made> readAnd(Made (*make)(std::string_view, std::string_view, const CompileOptions&), const std::string& file) {
   Result<std::string> text = readGrammarText(file);

@@ -12,13 +12,13 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kTile = 32;          // columns on an edge of a tile, which is compiled at once
-constexpr int kBrick = 8;          // samples on an edge of a brick, which is evaluated at once
-constexpr float kDeep = 2;         // steps: depths in the subject are clipped to this
-constexpr float kPassable = 1;     // metres
-constexpr float kRockBetween = 1;  // metres, between two passages one above the other
+constexpr int kTile = 32;          // columns along an edge of a tile, for which one field program is compiled
+constexpr int kBrick = 8;          // samples along an edge of a brick, which is evaluated in one call
+constexpr float kDeep = 2;         // steps: depths inside the subject are clipped to this value
+constexpr float kPassable = 1;     // metres, minimum height of a stretch into which a person fits
+constexpr float kRockBetween = 1;  // metres of rock between two passages one above the other, so that both are drawn
 
-/// Samples a box, x fastest, then z, then y. For one thread.
+/// Samples a box; x varies fastest, then z, then y. Used by one thread.
 class TileFill {
  public:
   TileFill(Int3 origin, int32_t step, std::array<int, 3> size)
@@ -26,7 +26,7 @@ class TileFill {
 
   void fill(const ProgramView& view) { fillPart(view, {}, size_, 0); }
 
-  /// In steps, clipped to kDeep, negative in the solid.
+  /// The field's value in steps, clipped to kDeep; negative in the solid.
   float at(int x, int y, int z) const { return values_[index(x, y, z)]; }
 
  private:
@@ -75,7 +75,7 @@ class TileFill {
       }
     }
     bestKernels().samples(view, {x_.data(), y_.data(), z_.data(), points}, evaluation_, q_.data());
-    // Integers, so that a sample on the surface is void, as in meshes.
+    // Values are compared as integers, so that a sample exactly on the surface is void, as in meshes.
     const float steps = 1 / (view.q_scale * static_cast<float>(step_));
     points = 0;
     for (int y = 0; y < count[1]; ++y)
@@ -95,7 +95,7 @@ class TileFill {
   std::array<int32_t, size_t{kBrick} * kBrick * kBrick> x_{}, y_{}, z_{}, q_{};
 };
 
-/// A column's stretches, and its part in a plan.
+/// The stretches of one column, and its values for a plan.
 struct Column {
   std::vector<Stretch> stretches;
   uint32_t shown = kNone;
@@ -103,7 +103,8 @@ struct Column {
   uint32_t floor_label = 0, ceiling_label = 0;
 };
 
-/// value(i): the field at sample i from below, in steps, positive in the subject.
+/// Finds the stretches of a column. value(i): the field at sample i, counted from below, in steps, positive inside the
+/// subject.
 template <class Value>
 Column readColumn(int samples, float bottom, float step, const Value& value) {
   Column column;
@@ -143,7 +144,7 @@ Column readColumn(int samples, float bottom, float step, const Value& value) {
   return column;
 }
 
-/// The samples of one tile of columns.
+/// The lattice of samples of one tile of columns.
 struct Lattice {
   Int3 origin;
   int32_t step = 0;

@@ -25,10 +25,10 @@ struct Columns {
   Subject subject = Subject::hollow;
   IntBox extent;     ///< box of the samples, units; there are samples at lo and at hi
   int32_t step = 0;  ///< distance between neighbouring samples on every axis, units
-  /// for each column, the largest depth inside the subject, in steps, at most 2; negative if the column is outside it
+  /// For each column, the largest depth inside the subject, in steps, at most 2; negative if the column is outside it.
   Grid widest;
   Grid under;  ///< the same for the part of the subject below the shown stretch, if rock separates the two
-  /// index in `stretches` of each column's first stretch; the last element is the number of stretches
+  /// Index in `stretches` of each column's first stretch; the last element is the number of stretches.
   std::vector<uint32_t> first;
   std::vector<Stretch> stretches;  ///< the stretches of all columns, in each column from below
   std::vector<uint32_t> shown;     ///< for each column, the index of the stretch that a plan shows; kNone: none

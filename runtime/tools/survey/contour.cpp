@@ -8,7 +8,7 @@
 namespace sgm::survey {
 namespace {
 
-/// An edge of the grid: twice the index of its first point, plus 1 if it runs along y.
+/// The number of a grid edge: twice the index of its first point, plus 1 if it runs along y.
 using Edge = size_t;
 
 struct Segment {
@@ -40,8 +40,9 @@ class Marcher {
     }
     const Edge top = along(x, y), right = down(x + 1, y), bottom = along(x, y + 1), left = down(x, y);
     const std::array edges{top, right, bottom, left};
-    // Edge i lies between corners i and i + 1. Around the cell, a line enters where values rise and leaves where they
-    // fall; with two of each, the mean decides which corners are connected.
+    // Edge i lies between corners i and i + 1. Around the cell, a contour enters where values rise above the level and
+    // leaves where they fall below it. If there are two rises and two falls, the mean of the corners decides which are
+    // connected.
     std::array<Edge, 2> rising{}, falling{};
     size_t rises = 0, falls = 0;
     std::array<size_t, 2> rise_at{}, fall_at{};
@@ -74,7 +75,7 @@ class Marcher {
     return edge % 2 == 0 ? Point{x + share, y} : Point{x, y + share};
   }
 
-  /// Joins segments end to end. Each edge has at most one outgoing and one incoming segment.
+  /// Joins segments end to end. At most one segment starts and at most one ends at each edge.
   std::vector<Line> joined() const {
     std::unordered_map<Edge, size_t> came;
     for (size_t i = 0; i < segments_.size(); ++i) came[segments_[i].to] = i;
@@ -101,7 +102,7 @@ class Marcher {
   const Grid& grid_;
   float level_;
   std::vector<Segment> segments_;
-  std::unordered_map<Edge, size_t> next_;  ///< by the edge where a segment starts
+  std::unordered_map<Edge, size_t> next_;  ///< index of the segment that starts at an edge
 };
 
 }  // namespace
@@ -117,7 +118,7 @@ float Grid::between(Point p) const {
 std::vector<Line> contours(const Grid& grid, float level) { return Marcher(grid, level).lines(); }
 
 std::vector<Line> areasAbove(const Grid& grid, float level) {
-  // A frame of lower values closes the rings, a thousandth of a step outside the border.
+  // A frame of much lower values closes the rings, a thousandth of a step outside the border.
   Grid framed(grid.width + 2, grid.height + 2, level - 1e6f);
   for (int y = 0; y < grid.height; ++y)
     for (int x = 0; x < grid.width; ++x) framed.at(x + 1, y + 1) = grid.at(x, y);

@@ -24,7 +24,7 @@ inline constexpr Ink kBlack{}, kWhite{255, 255, 255};
 
 /// Lines drawn with one pen, or areas filled with one colour.
 struct Mark {
-  /// name of the mark's meaning, such as "wall", used as the class of its SVG element; a string literal
+  /// Name of the mark's meaning, such as "wall", used as the class of its SVG element; a string literal.
   std::string_view name;
   std::vector<Line> lines;  ///< for an area: rings, closed automatically, filled by the even-odd rule
   bool filled = false;

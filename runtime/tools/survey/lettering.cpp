@@ -110,7 +110,7 @@ constexpr std::array<std::string_view, 95> kGlyphs{{
     R"(F^IUISJPLONOPPTSVTXTZS[Q RISJQLPNPPQTTVUXUZT[Q[O)",
 }};
 
-constexpr double kCapital = 21, kBaseline = 9;  // in the glyphs' own unit
+constexpr double kCapital = 21, kBaseline = 9;  // height of capitals, and y of the baseline, in the units of the glyphs
 
 std::string_view glyphFor(char letter) {
   const auto index = static_cast<size_t>(static_cast<unsigned char>(letter)) - 32;
@@ -119,7 +119,7 @@ std::string_view glyphFor(char letter) {
 
 double edge(char letter) { return letter - 'R'; }
 
-/// One character for each code point of UTF-8.
+/// The text with one character for each code point: '?' for characters beyond ASCII.
 std::string plain(std::string_view text) {
   std::string out;
   for (const char c : text)

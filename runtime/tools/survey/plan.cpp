@@ -12,12 +12,14 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kHidden{70, 70, 70};
-constexpr double kLetters = 8, kSmall = 7, kGap = 5;              // pixels
-constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;  // pixels
+constexpr double kLetters = 8, kSmall = 7, kGap = 5;  // pixels: heights of letters, and space around them
+// pixels: minimum distance between any labels, and between labels of equal height
+constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;
 constexpr size_t kMostLabels = 24;
-constexpr double kLeastLead = 1.5;  // metres of border that a passage crosses
+// metres: minimum length of the border that a passage must cross to count as continuing
+constexpr double kLeastLead = 1.5;
 
-/// Approximate distances to the walls, in steps, which are only printed.
+/// Approximate distances to the walls, in steps; they only serve to choose places for labels.
 Grid distancesToWalls(const Grid& widest) {
   Grid distance(widest.width, widest.height, 0);
   const auto from = [&](int x, int y, int dx, int dy, float step) {
@@ -68,7 +70,7 @@ void drawWater(const Columns& columns, const MaterialSigns& signs, const Placeme
   }
 }
 
-/// Draws the outlines of passages below the shown ones.
+/// Draws the outlines of passages that lie below the shown ones as dashed lines.
 void drawUnder(const Columns& columns, const Placement& place, Drawing& drawing) {
   Mark mark{"under", {}, false, kHidden, 0.9, {5, 3}, {}};
   const double least = 4 / metres(columns.step);  // metres of outline
@@ -82,14 +84,14 @@ void drawWalls(const Columns& columns, const Placement& place, Drawing& drawing)
   for (const Line& line : contours(columns.widest, 0)) {
     const double length = lengthOf(line) * place.scale;
     if (length < 3) continue;
-    // Small rings are pillars, or too small for the pen.
+    // Small closed lines are pillars, or niches too small for the thick pen: draw them with the thin pen.
     (line.front() == line.back() && length < 60 ? pillar : wall).lines.push_back(place.at(line));
   }
   for (Mark* mark : {&wall, &pillar})
     if (!mark->lines.empty()) drawing.marks.push_back(std::move(*mark));
 }
 
-/// Draws question marks where the subject continues beyond the region's border.
+/// Draws a question mark at each place where a passage continues beyond the region's border.
 void drawLeads(const Columns& columns, const Placement& place, Lettered& lettered, PlanFigures& figures,
                Drawing& drawing) {
   const Grid& widest = columns.widest;
@@ -107,7 +109,7 @@ void drawLeads(const Columns& columns, const Placement& place, Lettered& lettere
       open.lines.push_back({place.at(at(first)), place.at(at(i - 1))});
       const Point a = place.at(at(first)), b = place.at(at(i - 1));
       const Point middle{(a.x + b.x) / 2 + 10 * outward.x, (a.y + b.y) / 2 + 10 * outward.y};
-      // Open ground beyond the region gets no question mark.
+      // In an open world, ground beyond the region gets no question mark.
       if (columns.subject == Subject::hollow && lettered.take(middle, 10, 12))
         drawing.marks.push_back(lettering("?", {middle.x, middle.y + kLetters / 2}, kLetters + 1, Align::middle));
     }
@@ -134,7 +136,7 @@ void drawCircled(const std::string& number, Point middle, double radius, Drawing
   drawing.marks.push_back(lettering(number, {middle.x, middle.y + kSmall / 2}, kSmall, Align::middle));
 }
 
-/// Draws letters on a white border, which interrupts lines.
+/// Draws letters with a white border around them, which interrupts lines behind.
 void drawOnWhite(Mark letters, Drawing& drawing) {
   Mark ground = letters;
   ground.name = "halo";
@@ -145,7 +147,7 @@ void drawOnWhite(Mark letters, Drawing& drawing) {
   drawing.marks.push_back(std::move(letters));
 }
 
-/// Draws heights of floors and of water, and in circles the passage's height, where there is room.
+/// Draws heights of floors and of water, and the height of the passage in a circle, where there is room.
 void drawHeights(const Columns& columns, const MaterialSigns& signs, const Placement& place, Lettered& lettered,
                  Drawing& drawing) {
   const bool hollow = columns.subject == Subject::hollow;
@@ -245,7 +247,7 @@ PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const P
     if (!area.lines.empty()) drawing.marks.push_back(std::move(area));
   }
   Lettered lettered;
-  Drawing letters;  // drawn last, above all lines
+  Drawing letters;  // marks that are drawn last, above all lines
   drawWater(columns, signs, place, figures, drawing);
   drawHeights(columns, signs, place, lettered, letters);
   figures.interval = drawRelief(columns, signs, place, lettered, drawing);

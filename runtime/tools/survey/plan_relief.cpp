@@ -1,4 +1,4 @@
-// A plan's floors and ceilings: contours, hachures, steps, and signs of dripstone.
+// Draws the floors and ceilings of a plan: contours, hachures, steps, and signs for dripstone.
 
 #include <fmt/core.h>
 
@@ -14,14 +14,15 @@ namespace {
 
 constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
 constexpr double kMostLevels = 14;
-constexpr double kSteep = 0.75;        // metres per metre; steeper floors have hachures
-constexpr double kCeilingStep = 1.6;   // metres per metre; steeper ceilings count as steps
-constexpr double kFloorAbove = 1.8;    // metres
-constexpr double kHachureGap = 6;      // pixels along a contour
-constexpr int kMainEvery = 5;          // contours
-constexpr double kLeastApart = 4;      // pixels between contours; on cliffs only main contours are drawn
+constexpr double kSteep = 0.75;       // slope from which floors get hachures (rise over run)
+constexpr double kCeilingStep = 1.6;  // slope from which ceilings count as steps (rise over run)
+constexpr double kFloorAbove = 1.8;   // metres
+constexpr double kHachureGap = 6;     // pixels along a contour from one hachure to the next
+constexpr int kMainEvery = 5;         // number of contours from one main contour to the next
+// Minimum distance in pixels between contours; on cliffs only main contours are drawn.
+constexpr double kLeastApart = 4;
 constexpr double kLongestHachure = 7;  // pixels
-constexpr double kFlowstone = 6;       // m2; larger areas are outlined
+constexpr double kFlowstone = 6;       // m2; larger areas of flowstone are outlined
 
 double niceInterval(double range) {
   for (const double interval : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0})
@@ -29,7 +30,7 @@ double niceInterval(double range) {
   return 200;
 }
 
-/// The slope of a grid of heights in metres per metre, as a vector that points uphill.
+/// The slope of a grid of heights at a point (rise over run), as a vector that points uphill.
 Point slopeAt(const Grid& heights, Point p, double step) {
   constexpr double kReach = 1;
   const auto at = [&](double dx, double dy) { return static_cast<double>(heights.between({p.x + dx, p.y + dy})); };
@@ -38,7 +39,8 @@ Point slopeAt(const Grid& heights, Point p, double step) {
   return std::isnan(slope.x) || std::isnan(slope.y) ? Point{} : slope;
 }
 
-/// Draws ticks down the slope along a contour. A tick needs floor uphill of it, since a passage's walls are steep too.
+/// Draws hachures down the slope along a contour. A hachure needs floor uphill of it, since a passage's walls are steep
+/// too.
 void hachure(const Line& line, const Grid& heights, const Grid& within, double step, double interval,
              const Placement& place, Mark& ticks) {
   double since = kHachureGap / 2;
@@ -51,7 +53,7 @@ void hachure(const Line& line, const Grid& heights, const Grid& within, double s
     if (steepness < kSteep) continue;
     const double uphill = kFloorAbove / step / steepness;
     if (!(within.between({line[i].x + uphill * slope.x, line[i].y + uphill * slope.y}) > 0)) continue;
-    // Not longer than to the next contour.
+    // A hachure must not reach the next contour.
     const double apart = interval / steepness / step * place.scale, length = std::min(kLongestHachure, 0.8 * apart);
     if (length < 2) continue;
     const Point from = place.at(line[i]);
@@ -59,7 +61,7 @@ void hachure(const Line& line, const Grid& heights, const Grid& within, double s
   }
 }
 
-/// Draws a number in the middle of a contour, if there is room.
+/// Draws the height of a contour at its middle, if there is room.
 void letter(const Line& line, double level, const Placement& place, Lettered& lettered, Drawing& letters) {
   if (lengthOf(line) * place.scale < 90) return;
   const Point middle = place.at(line[line.size() / 2]);
@@ -80,7 +82,7 @@ void drawFloors(const Columns& columns, Grid heights, const Grid& within, double
   float low = 1e9f, high = -1e9f;
   for (const float height : heights.values)
     if (!std::isnan(height)) low = std::min(low, height), high = std::max(high, height);
-  // Lines must reach the walls, which clip them.
+  // Extend the heights beyond the floor, so that contours reach the walls, where they are clipped.
   spread(heights, 1);
   Mark contour{"contour", {}, false, kContour, 0.5, {}, {}}, main{"main_contour", {}, false, kContour, 0.9, {}, {}};
   Mark ticks{"hachure", {}, false, kBlack, 0.7, {}, {}};
@@ -95,7 +97,7 @@ void drawFloors(const Columns& columns, Grid heights, const Grid& within, double
   };
   for (int i = first; i <= last; ++i) {
     const bool is_main = i % kMainEvery == 0;
-    // Slightly beside the level, since flat floors often lie at whole metres.
+    // The contour is slightly above its nominal level, since flat floors often lie exactly at whole metres.
     for (const Line& whole : contours(heights, static_cast<float>(i * interval + 0.01))) {
       for (const Line& line :
            partsOf(smoothed(whole), [&](const Point& p) { return inside(p) && (is_main || isClear(p)); })) {
@@ -123,7 +125,7 @@ void drawCeilings(const Columns& columns, double interval, const Placement& plac
   soften(heights, 2);
   Mark steps{"ceiling_step", {}, false, kCeiling, 0.8, {4, 3}, {}};
   const double step = metres(columns.step);
-  // Walls are steep too: a step has passage on both sides.
+  // Walls are steep too: a place counts as a step only if there is passage on both sides.
   const auto isStep = [&](const Point& p) {
     const Point slope = slopeAt(heights, p, step);
     const double steepness = std::hypot(slope.x, slope.y);
@@ -143,7 +145,7 @@ void drawCeilings(const Columns& columns, double interval, const Placement& plac
   if (!steps.lines.empty()) drawing.marks.push_back(std::move(steps));
 }
 
-/// Connected groups of the wanted columns.
+/// The connected groups of the wanted columns, as lists of column indices.
 std::vector<std::vector<size_t>> groupsOf(const Grid& grid, const std::vector<bool>& wanted) {
   std::vector<std::vector<size_t>> groups;
   std::vector<bool> seen(wanted.size());
@@ -175,7 +177,7 @@ double drawRelief(const Columns& columns, const MaterialSigns& signs, const Plac
   Grid within = columns.widest;
   std::vector<float> known;
   for (size_t i = 0; i < heights.values.size(); ++i) {
-    // Water is level; the floor below it is not drawn.
+    // Water is level, and the floor below it is not drawn: exclude these columns.
     if (columns.subject == Subject::hollow && signs.isWater(columns.floor_label[i])) within.values[i] = -1;
     if (!std::isnan(heights.values[i])) known.push_back(heights.values[i]);
   }
@@ -204,7 +206,7 @@ size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const P
     if (!taken.take(p, 2 * kSize + 3, 2 * kSize + 3)) return false;
     Mark& mark = up && down ? both : up ? standing : hanging;
     mark.lines.push_back({{p.x, p.y - (up ? kSize : 0)}, {p.x, p.y + (down ? kSize : 0)}});
-    // The legs of a stalagmite point down, the arms of a stalactite up.
+    // A sign's legs point down for a stalagmite, and its arms point up for a stalactite.
     for (const double side : {-0.7, 0.7}) {
       if (up) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y + kSize}});
       if (down) mark.lines.push_back({{p.x, p.y}, {p.x + side * kSize, p.y - kSize}});

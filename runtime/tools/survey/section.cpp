@@ -11,11 +11,11 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kBeyond{240, 240, 240}, kOutline{150, 150, 150}, kGuide{215, 215, 215};
-constexpr double kStrip = 9;       // pixels of water drawn under its surface
-constexpr int kAround = 4;         // samples around the drawn part
+constexpr double kStrip = 9;       // pixels, height of the strip of water that is drawn under its surface
+constexpr int kAround = 4;         // samples of margin around the drawn part
 constexpr double kTickGap = 7;     // pixels
 constexpr double kTick = 6;        // pixels
-constexpr double kHeightGap = 36;  // minimal distance in pixels of two heights
+constexpr double kHeightGap = 36;  // minimum distance in pixels between two height labels
 
 void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Drawing& drawing) {
   const double metre = place.scale / slice.step;
@@ -42,7 +42,7 @@ void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Dr
   for (Mark& mark : letters.marks) drawing.marks.push_back(std::move(mark));
 }
 
-/// Samples of water, as a grid for contours.
+/// The samples that are water, as a grid for contours: 1 in water, otherwise -1.
 Grid waterOf(const Slice& slice, const MaterialSigns& signs) {
   Grid water(slice.depth.width, slice.depth.height, -1);
   for (size_t i = 0; i < water.values.size(); ++i)
@@ -50,7 +50,7 @@ Grid waterOf(const Slice& slice, const MaterialSigns& signs) {
   return water;
 }
 
-/// Whether water is next to a place of the profile.
+/// Whether water is next to a place on the outline.
 bool isByWater(const Grid& water, Point p) {
   const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
   for (int dy = 0; dy <= 1; ++dy)
@@ -59,7 +59,7 @@ bool isByWater(const Grid& water, Point p) {
   return false;
 }
 
-/// Draws short strokes into the rock, which lies left or right of the line.
+/// Draws short strokes from a line into the rock, which lies on its left or right.
 void tick(const Line& line, bool left, Mark& ticks) {
   double since = kTickGap / 2;
   const double side = left ? 1 : -1;
@@ -70,7 +70,7 @@ void tick(const Line& line, bool left, Mark& ticks) {
     for (; length > 0 && at <= length; at += kTickGap) {
       const Point along{(b.x - a.x) / length, (b.y - a.y) / length}, into{side * along.y, -side * along.x};
       const Point from{a.x + at * along.x, a.y + at * along.y};
-      // Slanted, like hachures for rock.
+      // The strokes are slanted, as hachures for rock usually are.
       ticks.lines.push_back({from,
                              {from.x + kTick * (0.8 * into.x + 0.6 * side * along.x),
                               from.y + kTick * (0.8 * into.y + 0.6 * side * along.y)}});
@@ -79,7 +79,7 @@ void tick(const Line& line, bool left, Mark& ticks) {
   }
 }
 
-/// The part of a slice in the crop.
+/// The part of a slice's grid within the crop.
 Grid cropped(const Grid& grid, const Crop& crop) {
   Grid part(crop.right - crop.left + 1, crop.bottom - crop.top + 1, 0);
   for (int y = 0; y < part.height; ++y)
@@ -147,7 +147,7 @@ SectionFigures drawSection(const Slice& slice, const Crop& crop, const MaterialS
     }
     for (const Line& part : partsOf(line, isWet)) {
       shore.lines.push_back(within.at(part));
-      // The field does not show the water's depth, since water also fills the rock: draw a strip instead.
+      // The field does not show the water's depth, since the water's shape also fills the rock below: draw a strip.
       Line strip = shore.lines.back();
       for (size_t i = strip.size(); i-- > 0;) strip.push_back({strip[i].x, strip[i].y + kStrip});
       body.lines.push_back(std::move(strip));

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kMargin = 40, kFooter = 110, kCaption = 24, kBetween = 56, kHeights = 34;  // pixels
 constexpr double kTitle = 15, kText = 8, kAbove = 20;
-constexpr double kAroundPlan = 2;  // metres around the drawn part
+constexpr double kAroundPlan = 2;  // metres of margin around the drawn part
 
-/// The drawn part of the plan's columns.
+/// The part of the plan's columns that is drawn.
 Crop planCrop(const Columns& columns) {
   const Grid& widest = columns.widest;
   Crop crop{widest.width, -1, widest.height, -1};
@@ -33,20 +33,20 @@ Crop planCrop(const Columns& columns) {
 }
 
 struct Extent {
-  double wide = 0, high = 0;  ///< metres
+  double wide = 0, high = 0;  ///< size of a plan or section, metres
 };
 
 Extent extentOf(const Crop& crop, double step) {
   return {std::max(1, crop.right - crop.left) * step, std::max(1, crop.bottom - crop.top) * step};
 }
 
-/// Places of the parts.
+/// The scale, and the places of plan and section on the sheet.
 struct Layout {
   double scale = 0;     ///< pixels per metre
   Point plan, section;  ///< upper left corners
 };
 
-/// The arrangement with the larger scale: one below the other, or side by side.
+/// Arranges plan and section one below the other or side by side, whichever gives the larger scale.
 Layout arrange(const SheetWish& wish, const Extent* plan, const Extent* section) {
   const double wide = wish.width - 2 * kMargin, high = wish.height - 2 * kMargin - kFooter - kCaption;
   Layout layout;
@@ -102,7 +102,7 @@ void drawScaleBar(const Layout& layout, Point at, Drawing& drawing) {
       lettering(fmt::format("{:g} m", length), {at.x + kParts * part, at.y - 5}, kText - 1, Align::middle));
 }
 
-/// North is -z, and east is +x.
+/// Draws the north arrow. North is -z, and east is +x.
 void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back({"north", {{{at.x, at.y + 40}, {at.x, at.y}}}, false, kBlack, 1.2, {}, {}});
   drawing.marks.push_back(
@@ -117,7 +117,7 @@ void drawNorth(Point at, Drawing& drawing) {
   drawing.marks.push_back(lettering("N", {at.x, at.y - 12}, kText + 2, Align::middle));
 }
 
-/// Draws the section's line into the plan, with its letters.
+/// Draws the section's line into the plan, with letters at both ends.
 void drawCutLine(const Columns& columns, const Slice& slice, const Crop& crop, const Placement& place,
                  Drawing& drawing) {
   const double length = slice.line.length();
@@ -155,7 +155,7 @@ std::string legend(const Columns& columns, const SheetFigures& figures, bool pla
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// Wraps the text at spaces to lines of that width.
+/// Wraps a text at spaces into lines of at most that width.
 std::vector<std::string> wrapped(const std::string& text, double height, double width) {
   std::vector<std::string> lines{""};
   for (size_t at = 0; at < text.size();) {

@@ -8,11 +8,11 @@
 namespace sgm::survey {
 namespace {
 
-constexpr int kBlock = 32;  // samples on an edge of a block, which is compiled at once
+constexpr int kBlock = 32;  // samples along an edge of a block, for which one field program is compiled
 constexpr float kDeepest = 2;
 constexpr double kWorldEnd = 2'097'151;  // metres
 
-/// The part of the line within the columns' extent.
+/// The part of the line within the columns' extent; nullopt if they do not meet.
 std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {
   double from = 0, to = 1;
   const double starts[] = {line.x0, line.z0}, ways[] = {line.x1 - line.x0, line.z1 - line.z0};
@@ -85,8 +85,8 @@ Result<void> readBlock(const WorldField& world, int level, int left, int top, Sl
   return {};
 }
 
-/// The middle of the first interval with nearly the best area. Areas near the region's border do not count, because it
-/// may cut a passage along its length.
+/// Index of the middle of the first interval whose areas are nearly the largest. Areas near the region's border do not
+/// count, because the border may cut a passage lengthwise.
 double middleOfBest(const std::vector<double>& areas) {
   constexpr double kAsGood = 0.97;
   const size_t edge = areas.size() / 12, end = areas.size() - edge;

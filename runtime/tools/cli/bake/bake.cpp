@@ -1,4 +1,5 @@
-// sgm bake: meshes a region of a world at some levels ahead of time, into a store that worlds stream from.
+// Sgm bake: meshes a region of a world at several levels of detail ahead of time, into a store from which worlds
+// stream.
 
 #include <fmt/core.h>
 
@@ -24,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Report {
-  size_t tiles = 0, made = 0, made_before = 0;  ///< of this shard
+  /// Numbers of tiles of this shard: in all, made now, and made by an earlier call.
+  size_t tiles = 0, made = 0, made_before = 0;
   std::optional<store::Merged> merged;
   uint64_t index_bytes = 0;
   bool there_before = false;
@@ -108,7 +110,7 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
              baked.measured.sound() ? "no defects" : "with defects: the manifest lists them");
 }
 
-/// Bakes the tiles; finished ones count as done.
+/// Bakes the tiles with indices from `first` to `last`. Tiles that were finished before count as done.
 Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::TileKey>& tiles,
                          const std::vector<uint64_t>& costs, size_t first, size_t last) {
   Report report;
@@ -189,7 +191,7 @@ Exit bake(const BakeOptions& options) {
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
     const Result<Report> baked = bakeTiles(*bakery, tiles, *costs, first, last);
     if (!baked) {
-      // Another worker may have baked the same tiles, and merged them meanwhile.
+      // If another process has baked and merged the same tiles meanwhile, this is not an error.
       const Result<bool> there = isThere();
       return there && *there ? finish() : complain(baked.error());
     }

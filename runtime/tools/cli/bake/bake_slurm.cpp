@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slurm's controller serves many users, so poll it rarely.
+/// Pause between queries: Slurm's controller serves many users, so it must not be queried often.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
 void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState& state, bool there) {
@@ -60,7 +60,7 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
-/// For an error of a Slurm command; if the command is missing, adds the alternatives.
+/// The error of a Slurm command; if that command is missing, the message also names alternatives to --slurm.
 Error withoutSlurm(const Error& error) {
   if (error.code != Code::unsupported) return error;
   return {Code::io, error.message +

@@ -1,5 +1,5 @@
 #pragma once
-// sgm bake --slurm: submits a bake as jobs of the cluster manager Slurm, and shows its progress.
+// Sgm bake --slurm: submits a bake as jobs of the cluster manager Slurm, and shows its progress.
 
 #include <functional>
 

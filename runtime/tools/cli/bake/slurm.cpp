@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Quoted for a POSIX shell.
+/// The word quoted for a POSIX shell.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -66,7 +66,7 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   command.push_back(script.string());
   const Result<std::string> said = outputOrError(command);
   if (!said) return said.error();
-  // "NUMBER", or "NUMBER;CLUSTER" with several clusters; a site may add other lines.
+  // Sbatch prints "NUMBER", or "NUMBER;CLUSTER" with several clusters; the site's configuration may print other lines.
   std::istringstream lines(*said);
   for (std::string words; std::getline(lines, words);) {
     const std::string number = words.substr(0, words.find(';'));
@@ -75,7 +75,7 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   return Error{Code::io, "sbatch printed no job number: " + *said};
 }
 
-/// States of tasks and jobs, from lines "NUMBER_TASK STATE".
+/// Job or task numbers and their states, from lines "NUMBER_TASK STATE".
 using States = std::vector<std::pair<std::string, std::string>>;
 
 Result<States> statesFrom(const std::vector<std::string>& command) {
@@ -91,7 +91,7 @@ Result<States> statesFrom(const std::vector<std::string>& command) {
     std::string job, how;
     if (!(words >> job >> how)) continue;
     job = job.substr(0, job.find('_'));
-    // Skip warnings.
+    // Lines that do not begin with a number are warnings of Slurm.
     if (isNumber(job)) states.emplace_back(job, how);
   }
   return states;
@@ -130,7 +130,8 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
     own.push_back(log(what + ".txt"));
     return submit(bake, what, line, own);
   };
-  // Cancel jobs that nothing follows, or that are not recorded: they would collide with those of the next call.
+  // Cancel submitted jobs if a following job could not be submitted, or their numbers could not be written to a file:
+  // otherwise they would collide with the jobs of the next call.
   const auto giveUp = [&](const Error& error) {
     for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
       if (!job.empty()) (void)runSlurm({"scancel", job});
@@ -157,7 +158,7 @@ Result<SlurmState> stateOf(const SlurmJobs& jobs) {
   if (!ended) ended = statesFrom({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
   SlurmState state;
   state.ended = queue->empty();
-  // The queue comes last, because its states are current.
+  // The queue's states are applied last, because they are more recent than the accounting's.
   for (const States* states : std::initializer_list<const States*>{ended ? &*ended : nullptr, &*queue}) {
     for (size_t i = 0; states != nullptr && i < states->size(); ++i) {
       const auto& [job, how] = (*states)[i];

@@ -1,4 +1,4 @@
-// sgm store: lists and verifies a store of baked worlds, compares two bakes, and removes unused files.
+// Sgm store: lists and verifies a store of baked worlds, compares two baked worlds, and removes unused files.
 
 #include <fmt/core.h>
 
@@ -30,7 +30,8 @@ Result<void> checkFolder(const store::Folder& folder) {
   return folder.check();
 }
 
-/// The worlds whose names begin with `name` (all if it is empty), including unreadable ones.
+/// Opens the worlds whose names begin with `name` (all worlds if `name` is empty); the result contains an error for
+/// each world that cannot be read.
 Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& folder, const std::string& name) {
   if (Result<void> can = store::available(); !can) return can.error();
   if (Result<void> good = checkFolder(folder); !good) return good.error();
@@ -46,7 +47,7 @@ Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& fo
                            folder.root().string(), worlds.size(), name)};
 }
 
-/// The only world that matches.
+/// The only world whose name begins with `name`. It is an error if there are none or several.
 Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string& name) {
   Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, name);
   if (!worlds) return worlds.error();
@@ -56,7 +57,7 @@ Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string&
                            folder.root().string(), worlds->size())};
 }
 
-/// Prints problems to stderr.
+/// Prints each problem to stderr.
 void tell(const store::Problems& problems) {
   for (const std::string& problem : problems.told) fmt::print(stderr, "sgm: error: {}\n", problem);
   if (problems.count > problems.told.size())
@@ -65,7 +66,7 @@ void tell(const store::Problems& problems) {
 
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
 
-/// The origin in a world's manifest; nullopt if it cannot be read.
+/// The member "origin" of a world's manifest; nullopt if it cannot be read.
 std::optional<Json> originOf(const fs::path& manifest) {
   constexpr uint64_t kMostManifest = uint64_t{64} << 20;
   const Result<std::string> text = readFile(manifest, kMostManifest);
@@ -91,7 +92,7 @@ std::optional<Json> originOf(const fs::path& manifest) {
   return origin;
 }
 
-/// Bakes some chunks of the world of the options again, and compares. Adds the result to `json`.
+/// Bakes some chunks of the world of the options again, and compares them with the store's. Adds the result to `json`.
 Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, Json& json) {
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
@@ -187,7 +188,7 @@ Exit storeVerify(const StoreVerifyOptions& options) {
   }
   Exit status = Exit::done;
   Json json = Json::object();
-  // Report wrong options before reading everything.
+  // Report wrong options before reading the whole store.
   if (!options.file.empty()) status = bakeAgain(options, folder, json);
   if (status == Exit::usage || status == Exit::backend) return status;
   Json all = Json::array();

@@ -17,12 +17,15 @@
 namespace sgm::cli {
 namespace {
 
-/// Times in milliseconds, and the results.
+/// The results for one instruction set and number of threads. Times are in milliseconds.
 struct Row {
   std::string set;
   unsigned threads = 0;
-  double first = 0, median = 0;             ///< of all chunks: without cached derivations, and with them
-  double chunk_median = 0, chunk_most = 0;  ///< of chunks with a surface, one by one; only with one thread
+  /// Times for all chunks: the first run, which derives the cells, and the median of later runs, with derived cells
+  /// cached.
+  double first = 0, median = 0;
+  /// Times of single chunks with a surface: median and maximum; only with one thread.
+  double chunk_median = 0, chunk_most = 0;
   size_t chunks = 0, surfaces = 0, triangles = 0;
   ContentHash hash;
 };
@@ -33,7 +36,7 @@ double medianOf(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// One instruction set with a number of threads.
+/// Measures one instruction set with one number of threads.
 class Contest {
  public:
   Contest(const OpenedWorld& opened, const BenchChunksOptions& options, std::string set, unsigned threads)
@@ -53,7 +56,8 @@ class Contest {
     backend_ = std::move(*backend);
     const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world_, region, options_.level, options_.max_chunks);
     if (!keys) return keys.error();
-    for (const ChunkKey& key : *keys) requests_.push_back({key, 0, Neighbourhood{}, false, false});  // as a world asks
+    // The same requests as a streamed world makes.
+    for (const ChunkKey& key : *keys) requests_.push_back({key, 0, Neighbourhood{}, false, false});
 
     Result<double> took = meshAll();
     if (!took) return took.error();
@@ -159,7 +163,7 @@ Exit benchChunks(const BenchChunksOptions& options) {
     for (const unsigned count : threads) {
       Result<Row> row = Contest(opened, options, set.kernels->name, count).run(opened.region);
       if (!row) return complain(row.error());
-      // With one processor, this is the same row again.
+      // On a machine with one processor, the row for all processors repeats the row for one thread.
       if (count != 1 && row->threads == 1) continue;
       rows.push_back(std::move(*row));
     }

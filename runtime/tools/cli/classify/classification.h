@@ -16,7 +16,7 @@ struct Classified {
   measure::MasterLimits limits;  ///< the limits used, and the key of all histograms
   measure::Histogram histogram;
   std::string from;  ///< origin of the reference histograms: the database's path, or "built in"
-  /// the nearest reference histogram of each class by mse, in the order of said.classes
+  /// The nearest reference histogram of each class by mse, in the order of said.classes.
   std::vector<measure::Master> nearest;
 };
 

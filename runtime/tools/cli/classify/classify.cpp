@@ -1,4 +1,4 @@
-// sgm classify: tells whether a mesh is a cave, a cloud, a building, or none of these.
+// Sgm classify: classifies a mesh as a cave, a cloud, a building, or unknown.
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The printed report of a mesh.
+/// Classifies a mesh, and returns the text to print.
 Result<std::string> reportOf(const asset::TriangleMesh& mesh, const ClassifyOptions& options,
                              const masters::OpenedBase& base, double density, Json json) {
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
@@ -62,7 +62,7 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
     if (base && !base->notice.empty()) fmt::print(stderr, "sgm: warning: {}\n", base->notice);
     return base;
   }
-  // Unlike the default base, a file that the user names is never moved aside.
+  // Unlike the default database, a file that the user names is never renamed, even if it is damaged.
   masters::ReadBase read = masters::readBase(file);
   if (read.damage == masters::Damage::none) return masters::OpenedBase{std::move(*read.set), file, {}};
   const bool io = read.damage == masters::Damage::io;

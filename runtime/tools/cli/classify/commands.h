@@ -12,7 +12,7 @@
 namespace sgm::cli {
 
 struct ClassifyOptions : WorldOptions {
-  /// a file of reference histograms; empty: the default database, or the built-in ones if it does not exist
+  /// A file of reference histograms; empty: the default database, or the built-in ones if it does not exist.
   std::string masters;
   std::string mode = "curvature";
   SandboxOptions sandbox;  ///< for the reading of mesh files
@@ -25,7 +25,7 @@ struct InspectOptions {
   std::string masters;     ///< a file of reference histograms; empty: the built-in ones
   uint64_t memory = 2048;  ///< address space limit of this process, MB
   uint64_t seconds = 60;
-  /// lists or replaces the reference histograms instead of inspecting an upload
+  /// Lists or replaces the reference histograms instead of inspecting an upload.
   bool list_masters = false, store_masters = false;
   std::string region, cell, seed;  ///< options for a grammar, as the client sent them; empty: not sent
   std::vector<std::string> sets;

@@ -1,5 +1,5 @@
-// sgm inspect: the process that reads uploads of the metrics service. It limits itself before it reads, opens no file
-// but the base of reference histograms, and writes its result once, at the end.
+// Sgm inspect: the process that reads uploads of the metrics service. It restricts itself before it reads, opens no
+// file but the database of reference histograms, and writes its result once, at the end.
 
 #include "tools/cli/classify/inspect.h"
 
@@ -49,7 +49,7 @@ std::string framed(const InspectAnswer& answer) {
 
 InspectAnswer answerOf(const InspectOptions& options) {
   if (options.list_masters) return {listedMasters(options), {}};
-  // Open the base before reading untrusted input.
+  // Open the database of reference histograms before reading untrusted input.
   std::optional<Result<masters::OpenedBase>> base;
   if (!options.store_masters) base = inspectedBase(options.masters);
   const Result<std::string> input = readOpenFile(kStandardInput, "standard input", UINT64_MAX);

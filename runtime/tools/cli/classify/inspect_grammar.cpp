@@ -14,7 +14,8 @@
 namespace sgm::cli {
 namespace {
 
-/// The maximum of `sgm classify` without a region; here also for a given region.
+/// Maximum number of chunks. `sgm classify` has the same maximum if no region is given; here it also applies to a given
+/// region.
 constexpr uint64_t kMostChunks = 4096;
 
 Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics) {
@@ -45,7 +46,7 @@ InspectProblem wrongGrammar(const std::vector<Diagnostic>& diagnostics) {
   return problem;
 }
 
-/// Adapts messages to parameters of a request: "--cell: 0 is ..." becomes "cell: 0 is ...".
+/// Adapts a message about an option to the parameter of a request: "--cell: 0 is ..." becomes "cell: 0 is ...".
 Error ofParameters(Error error) {
   for (size_t at = 0; (at = error.message.find("--", at)) != std::string::npos;) error.message.erase(at, 2);
   return error;
@@ -93,7 +94,7 @@ InspectedGrammar meshUploadedGrammar(std::span<const std::byte> text, const Insp
   };
   const Result<WorldOptions> world = worldOptions(options);
   if (!world) return refuse(world.error());
-  // Without a resolver, only the standard library can be imported.
+  // No import resolver is passed, so a grammar can import only the standard library.
   const CompileResult compiled =
       compileGrammar({reinterpret_cast<const char*>(text.data()), text.size()}, options.name, CompileOptions{});
   if (!compiled.program) {

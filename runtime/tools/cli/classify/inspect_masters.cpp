@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Lossless: numbers survive a round trip.
+/// The key as JSON; unlike toJson(), its numbers keep all digits.
 Json keyJson(const measure::MasterKey& key) {
   return {{"mode", measure::nameOf(key.mode)},
           {"bins", key.bins},

@@ -17,12 +17,12 @@ namespace {
 
 using measure::MeshMeasures;
 
-/// A mesh, and facts about its source.
+/// The mesh of an upload, and what is known about its source.
 struct Subject {
   asset::TriangleMesh mesh;
-  std::optional<measure::Cut> cut;  ///< of a region
-  double density = 0;               ///< of a region: cells per metre
-  Json known, more;                 ///< members of the measures, and of the report
+  std::optional<measure::Cut> cut;  ///< for a region: the box at whose faces the mesh may be cut
+  double density = 0;               ///< for a region: grid cells per metre
+  Json known, more;                 ///< additional members for the object "measures", and for the report itself
 };
 
 Json previewJson(const Preview& preview, size_t of_triangles) {
@@ -51,7 +51,7 @@ std::string nameOf(const InspectOptions& options) {
   return options.name.empty() ? "upload." + options.kind : options.name;
 }
 
-/// JSON pointer into a glTF file, if the message names a place; otherwise empty.
+/// The JSON pointer to a place in a glTF file that the message names; empty if it names none.
 std::string placeOf(const std::string& message) {
   constexpr std::string_view kAccessor = "accessor ";
   const std::string_view pointer = asset::pointerIn(message);
@@ -62,7 +62,7 @@ std::string placeOf(const std::string& message) {
 
 InspectAnswer refused(const InspectProblem& problem) { return {toJson(problem), {}}; }
 
-/// Error: that of the machine, not of the upload.
+/// Measures and classifies a mesh, and makes its preview. The only errors are the machine's (memory), not the upload's.
 InspectAnswer judged(const Subject& subject, const InspectOptions& options, const Result<masters::OpenedBase>& base,
                      const Stopwatch& watch) {
   const asset::TriangleMesh& mesh = subject.mesh;
@@ -71,7 +71,7 @@ InspectAnswer judged(const Subject& subject, const InspectOptions& options, cons
   measure::MeshSettings settings;
   settings.cut = subject.cut;
 
-  // The three are independent of each other.
+  // The three tasks are independent of each other.
   std::optional<Result<MeshMeasures>> measures;
   std::optional<Result<Classified>> classified;
   Preview preview;

@@ -1,4 +1,4 @@
-// sgm masters: makes the reference histograms that `classify` compares with, and lists them.
+// Sgm masters: builds the reference histograms with which `classify` compares meshes, and lists them.
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-/// The classes of a key's reference histograms, and their numbers.
+/// The classes that have reference histograms of a key, with the number of histograms of each class.
 std::vector<std::pair<std::string, size_t>> classesOf(const std::vector<measure::Master>& masters) {
   std::vector<std::pair<std::string, size_t>> classes;
   for (const measure::Master& master : masters) {
@@ -68,7 +68,7 @@ Exit buildMasters(const MastersBuildOptions& options) {
   if (out.empty() && options.emit.empty()) {
     return complain(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: name the database with --out");
   }
-  // Report an unwritable file before the work.
+  // Report an unwritable file before the long work.
   if (!out.empty()) {
     if (options.out.empty()) {
       if (const Result<masters::OpenedBase> there = mastersOf({}); !there) return complain(there.error());

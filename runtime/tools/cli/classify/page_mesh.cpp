@@ -12,14 +12,14 @@ namespace {
 
 using Position = std::array<float, 3>;
 
-/// `measure`, too, treats places farther out as non-finite.
+/// Coordinates beyond this count as non-finite, as in `sgm measure`.
 constexpr double kFarthest = 1e37;
 
 bool isPlace(const asset::Point& p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Keeps every n-th triangle, for a mesh that cannot be simplified.
+/// Keeps every n-th triangle of a mesh that simplification cannot reduce to kMostPreviewTriangles.
 void thinOut(std::vector<uint32_t>& indices) {
   const size_t count = indices.size() / 3, step = (count + kMostPreviewTriangles - 1) / kMostPreviewTriangles;
   size_t kept = 0;
@@ -30,7 +30,7 @@ void thinOut(std::vector<uint32_t>& indices) {
 }
 
 /// Merges points at the same place. Otherwise the simplifier would treat them as the two sides of a seam, which it must
-/// not move, and could collapse no edge of a mesh whose triangles share no points.
+/// not move, and it could not collapse any edge of a mesh whose triangles share no points.
 void weld(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   std::vector<uint32_t> remap(positions.size());
   const size_t count = meshopt_generateVertexRemap(remap.data(), indices.data(), indices.size(), positions.data(),
@@ -46,7 +46,7 @@ Position cross(const Position& a, const Position& b, const Position& c) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// For each point, weighted by area.
+/// For each point, the sum of its triangles' normals, weighted by their areas.
 std::vector<Position> normalsOf(const std::vector<uint32_t>& indices, const std::vector<Position>& positions) {
   std::vector<Position> normals(positions.size(), Position{});
   for (size_t i = 0; i < indices.size(); i += 3) {
@@ -57,7 +57,7 @@ std::vector<Position> normalsOf(const std::vector<uint32_t>& indices, const std:
   return normals;
 }
 
-/// Drops triangles that the simplifier has folded over: other triangles show the surface there.
+/// Drops triangles that the simplifier has turned over: other triangles cover the surface there.
 void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& positions,
                 const std::vector<Position>& normals) {
   size_t kept = 0;
@@ -72,8 +72,8 @@ void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& pos
   if (kept > 0) indices.resize(kept);
 }
 
-/// Collapses edges first, which rarely flips a triangle. Clustering of points, which flips some into specks, is for
-/// meshes with too many parts to keep each.
+/// Collapses edges first, which rarely turns a triangle over. If the mesh has too many separate parts to keep each, its
+/// points are then clustered, which collapses some parts to specks.
 void simplify(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
   constexpr size_t kMost = 3 * kMostPreviewTriangles;
   constexpr float kAnyError = 1;

@@ -18,7 +18,7 @@ struct FlyOptions : WorldOptions {
   uint64_t teleports = 0;
   double edits = 0;      ///< number of digs per second of the path
   bool animate = false;  ///< animates parameters during the flight
-  /// names of the parameters to animate; empty: all that the grammar declares animated
+  /// Names of the parameters to animate; empty: all that the grammar declares animated.
   std::vector<std::string> animated;
   bool check = false, unpaced = false, compare = false;
   bool measure = false;  ///< measures every meshed chunk

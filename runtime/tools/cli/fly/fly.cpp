@@ -35,7 +35,7 @@ template <class T, auto End>
 using Owner = std::unique_ptr<T, EndWith<End>>;
 
 struct Scene {
-  /// suppresses the world's warnings while the command reports them as an error
+  /// Suppresses the world's warnings while the command itself reports the same problem as an error.
   std::atomic<bool> quiet = false;
   Owner<sgm_runtime, sgm_runtime_destroy> runtime;
   Owner<sgm_grammar, sgm_grammar_destroy> grammar;
@@ -53,13 +53,13 @@ Exit reportError(const sgm_error& error) {
   return complain(status, error.message);
 }
 
-/// Prints warnings of the world: a damaged journal, an unwritable folder.
+/// Prints warnings of the world to stderr: a damaged journal, an unwritable folder.
 void tellWarning(void* scene, sgm_log_level level, const char* message) {
   if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
     std::fprintf(stderr, "sgm: warning: %s\n", message);
 }
 
-/// Makes the journal hold all edits. The caller prints the error.
+/// Writes all edits to the journal. On failure, the caller prints the error.
 Result<void> keepEdits(Scene& scene) {
   scene.quiet = true;
   sgm_error error = SGM_ERROR_INIT;
@@ -68,7 +68,7 @@ Result<void> keepEdits(Scene& scene) {
   return {};
 }
 
-/// Builds the scene of the options through the public interface, after messages of the grammar have been printed.
+/// Makes the scene of the options through the public interface, and prints the grammar's messages.
 Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
@@ -117,13 +117,13 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
 
   sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
   world_desc.top_level = options.top_level;
-  // A margin for chunks that arrive while the viewer moves on.
+  // The margin lets chunks that arrive while the viewer moves on still lie within options.finest.
   world_desc.finest_distance = options.finest + options.finest_margin;
   world_desc.view_distance = options.view;
   world_desc.mesh_bytes = options.mesh_mb << 20;
   world_desc.collider_distance = kWalkableDistance;
   if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
-  // The second flight meshes everything itself.
+  // The second flight must mesh all chunks itself, to be comparable.
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
   std::vector<const char*> stores;
   for (const std::string& store : options.stores) stores.push_back(store.c_str());
@@ -133,7 +133,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   }
   if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
   if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
-  // The second flight is not measured.
+  // Measures are reported for the first flight only.
   if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
   sgm_world* world = nullptr;
   if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportError(error);
@@ -148,9 +148,9 @@ Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
   return FlightPath::automatic(scene.field.get(), scene.grammar.get(), flight);
 }
 
-/// The hash of level 0 around the flight's end.
+/// The hash of the level-0 chunks around the flight's last place.
 Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
-  // The box, grown to whole chunks, must stay in the world.
+  // The box, extended to whole chunks, must not exceed the world's limits.
   const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;
   int32_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -184,7 +184,7 @@ struct FlightResult {
   Exit status = Exit::done;
 };
 
-/// Returns the text as a name under which the service can watch a world: other characters become '_'.
+/// Makes a name under which the service can watch a world: other characters than those allowed become '_'.
 std::string worldName(std::string_view text) {
   constexpr size_t kLongest = 64;
   std::string name(text.substr(0, kLongest));
@@ -196,8 +196,8 @@ std::string worldName(std::string_view text) {
   return name.empty() ? "world" : name;
 }
 
-/// Starts a service that watches the scene's world, and prints its address to stderr: standard output is for the
-/// report.
+/// Starts a service that watches the scene's world, and prints its address to stderr, because standard output is for
+/// the report.
 Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   Result<Serving> serving = Serving::start(options.serving);
   if (!serving) return serving;
@@ -207,7 +207,7 @@ Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   return serving;
 }
 
-/// pictures: null for the second flight, by distance.
+/// Flies once. pictures: null for the second flight, in which the distance alone selects level 0.
 FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Scene scene;
   const bool serves = options.serve && pictures != nullptr;
@@ -249,7 +249,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
-  // Before all that may fail: the dug edits exist only here.
+  // Write the journal before everything else that may fail, since the dug edits exist only in this process.
   const Result<void> kept = keepEdits(scene);
   if (!kept && !report) return {{}, complain(kept.error())};
   if (signals && signals->came() && !report) {

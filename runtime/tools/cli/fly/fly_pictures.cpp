@@ -9,11 +9,12 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kFramesAPicture = 2;  // in the video
-constexpr uint64_t kFramesALook = 60;    // at the light
-constexpr double kLeap = 20;             // metres from one frame to the next; the fastest flight stays below
+constexpr uint64_t kFramesAPicture = 2;  // frames of the flight for each picture of the video
+constexpr uint64_t kFramesALook = 60;    // frames from one measurement of the light to the next
+// Metres from one frame to the next that count as a teleport; the fastest flight stays below.
+constexpr double kLeap = 20;
 
-/// The world, with its edits and parameters, for computing light.
+/// The world, with its edits and animated parameters, for measuring daylight.
 LitWorld litWorld(const FlownScene& scene) {
   sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
   sgm_grammar_domain(scene.grammar, &domain);
@@ -48,11 +49,11 @@ bool FlyPictures::inSheet(uint64_t frame) const {
 
 bool FlyPictures::inVideo(uint64_t frame) const { return video_ != nullptr && frame % kFramesAPicture == 0; }
 
-/// At fixed frames, so that the same flight has the same light on a sheet and in a video.
+/// Measures the light at fixed frames, so that the same flight has the same light on a sheet and in a video.
 Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const FlightPlace& place) {
   const bool leapt = last_ && glm::distance(last_->position, place.position) > kLeap;
   last_ = place;
-  // Between looks, lamp and haze change gradually.
+  // Between measurements, the reach of the lamp and the haze change gradually.
   depth_ += (seen_depth_ - depth_) / static_cast<double>(kFramesALook);
   if (frame % kFramesALook != 0 && !leapt) return {};
   CameraPlace camera;
@@ -63,10 +64,10 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   camera.aspect = static_cast<double>(wish.width) / wish.height;
   LitWorld world = litWorld(scene);
   const std::optional<Light> wanted = lightNamed(options_.light);
-  if (wanted || options_.levels) world.roofless = false;  // without --light auto, it does not matter
+  if (wanted || options_.levels) world.roofless = false;  // the daylight is not used then, so it need not be measured
   const Result<Outlook> outlook = lookOut(world, camera);
   if (!outlook) return outlook.error();
-  // Inside rock, keep the previous light.
+  // If the camera is inside rock, keep the previous light.
   if (outlook->buried && frame > 0) return {};
   seen_depth_ = outlook->depth;
   if (leapt || frame == 0) depth_ = seen_depth_;

@@ -54,7 +54,7 @@ class FlyPictures {
   std::vector<Image> images_;
   Light light_ = Light::sun;  ///< light of the current picture
   SteadyLight steady_;
-  /// typical distance to visible surfaces, metres: at the last measurement, and the smoothed value used for drawing
+  /// Typical distance to visible surfaces, metres: at the last measurement, and the smoothed value used for drawing.
   double seen_depth_ = 1, depth_ = 1;
   std::optional<FlightPlace> last_;
   PictureLights lights_;

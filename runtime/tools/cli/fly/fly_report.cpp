@@ -8,7 +8,7 @@
 namespace sgm::cli {
 namespace {
 
-/// Frames of changes until a dig is drawn: the one in preparation, and the next.
+/// Maximum number of changed pictures until a dig is drawn: the one in preparation when it was made, and the next.
 constexpr double kMostDigFrames = 2;
 
 double shareOf(uint64_t part, uint64_t whole) {

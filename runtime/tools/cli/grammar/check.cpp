@@ -1,4 +1,4 @@
-// sgm check: checks grammars, and whether their worlds meet their expectations.
+// Sgm check: checks grammars, and, with --expect, whether their worlds satisfy their expectations.
 
 #include <fmt/core.h>
 
@@ -15,9 +15,9 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostSeeds = 10;  ///< named in one line
+constexpr size_t kMostSeeds = 10;  ///< maximum number of seeds that a message names
 
-/// Resources of --expect, shared by all files.
+/// Resources for --expect, shared by all checked files.
 struct Workshop {
   std::unique_ptr<JobSystem> jobs;
   std::unique_ptr<Backend> backend;
@@ -62,7 +62,7 @@ Json describe(const Program& program) {
           {"tags", std::move(tags)}};
 }
 
-/// "2 statements fail", "fails with seeds 2, 7, of 10 from 0 on".
+/// Texts such as "2 statements fail" or "fails with seeds 2, 7, of 10 from 0 on".
 std::string failureText(const ExpectationSummary& summary, const CheckOptions& options) {
   if (options.seeds == 1)
     return summary.failed == 1 ? "1 statement fails" : fmt::format("{} statements fail", summary.failed);
@@ -73,7 +73,7 @@ std::string failureText(const ExpectationSummary& summary, const CheckOptions& o
   return text + fmt::format(", of {} from {} on", options.seeds, options.seed);
 }
 
-/// "ok", "ok, 2 warnings", "ok, its 2 expectations hold with 10 seeds".
+/// Texts such as "ok", "ok, 2 warnings" or "ok, its 2 expectations hold with 10 seeds".
 std::string successText(const CheckResult& checked, const ExpectationSummary* summary, uint64_t seeds) {
   std::string text = checked.library ? "ok, a library without a start" : "ok";
   const std::vector<Diagnostic>& said = checked.compiled.diagnostics;

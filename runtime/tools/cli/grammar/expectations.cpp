@@ -31,7 +31,7 @@ std::string valueText(Measure measure, const Measured& measured) {
 }
 
 struct MeasuredSpread {
-  size_t count = 0;  ///< of the measured values
+  size_t count = 0;  ///< number of measured values
   double least = 0, mean = 0, most = 0;
 };
 
@@ -80,7 +80,8 @@ struct Said {
   }
 };
 
-/// "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ...", for measures that count pieces. nullopt if there are none.
+/// For measures that count pieces, text such as "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ..."; nullopt if there are
+/// no pieces.
 std::optional<std::string> piecesText(const Measured& measured) {
   constexpr size_t kMostNamed = 4;
   const std::vector<MeasuredPiece>& pieces = measured.pieces;
@@ -116,7 +117,7 @@ Diagnostic diagnosticOf(const Said& said) {
     const Error& error = *said.outcome.error;
     d.message = fmt::format("`{}` cannot be evaluated: {}", measure, error.message);
     if (error.line > 0) d.notes.push_back(fmt::format("at line {}, column {}", error.line, error.column));
-    // A failed evaluation may have no region.
+    // If the evaluation failed, the region may be unknown.
     if (!said.outcome.region.empty()) d.notes.push_back(said.where());
     return d;
   }
@@ -238,7 +239,7 @@ ExpectationSummary sayExpectations(const CompileResult& compiled, const WorldOpt
       } else if (said.outcome.holds()) {
         print(said);
       } else {
-        // Keeps the order of the file if both streams go to one place.
+        // Keeps the messages in the order of the statements if stdout and stderr go to the same place.
         std::fflush(stdout);
         fmt::print(stderr, "{}", renderDiagnostic(diagnosticOf(said), program.modules[0].text));
       }

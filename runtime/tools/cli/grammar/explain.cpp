@@ -1,4 +1,4 @@
-// sgm explain: tells which rules made a place.
+// Sgm explain: reports which rules made the surface or solid at a place.
 
 #include "query/explain.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNearSurface = 64 * kUnitsPerMetre;
 
-/// The word of the language.
+/// The word for a kind of shape in the grammar language.
 std::string_view wordFor(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::sphere:
@@ -83,7 +83,7 @@ std::string measureText(const ExplainedNode& node) {
   }
 }
 
-/// The findings at one place.
+/// The explanation of one place.
 struct Answer {
   const Program& program;
   std::string_view file;
@@ -159,7 +159,7 @@ std::string labelText(const Answer& answer) {
   return text;
 }
 
-/// Explains why the place is solid or open.
+/// Explains in one line why the place is solid or void.
 std::string reason(const Answer& answer) {
   const Explanation& found = answer.found;
   if (found.nodes.empty()) return "no shape is near, the domain decides";
@@ -230,7 +230,7 @@ Exit explain(const ExplainOptions& options) {
       p[axis] = saturate(static_cast<int64_t>(std::llround((**surface).position[static_cast<size_t>(axis)])));
     Result<Answer> answer = answerAt(p);
     if (!answer) return complain(answer.error());
-    // Material and tag are those of the surface, on whichever side the rounded place lies.
+    // The place is rounded to units and may lie on either side of the surface; report the surface's material and tag.
     answer->found.material = (**surface).material;
     answer->found.tag = (**surface).tag;
     there.emplace(std::move(*answer));

@@ -1,4 +1,4 @@
-// sgm fmt: the canonical layout of a grammar.
+// Sgm fmt: formats grammars in the canonical layout.
 
 #include <fmt/core.h>
 

@@ -72,7 +72,7 @@ void printDevice(const cuda::DeviceInfo& device) {
              lack.empty() ? "usable, exact" : "not usable: " + lack);
 }
 
-/// Prints a list of devices, or the error.
+/// Prints a list of devices, or the error that prevented listing them.
 template <class Device>
 void printDevices(const char* kind, const Result<std::vector<Device>>& devices) {
   fmt::print("\n{} devices:\n", kind);

@@ -1,4 +1,5 @@
-// sgm measure: measures a mesh file or a grammar's region, and tells whether it is the surface of a solid.
+// Sgm measure: measures a mesh file or a region of a grammar's world, and checks whether the mesh is the surface of a
+// solid.
 
 #include <fmt/core.h>
 
@@ -28,19 +29,19 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// The mesh to measure, with its sections.
+/// The mesh to measure, with the sections that go into its report.
 struct Subject {
   const asset::TriangleMesh& mesh;
-  std::optional<measure::Cut> cut;                        ///< of a region
-  Json json;                                              ///< facts about its source
-  std::string text;                                       ///< the same as text, after its name
-  std::string_view unit;                                  ///< as for textOf()
+  std::optional<measure::Cut> cut;  ///< for a region: the box at whose faces the mesh may be cut
+  Json json;                        ///< properties of the mesh's source
+  std::string text;                 ///< the same properties as text, printed after the mesh's name
+  std::string_view unit;            ///< as for textOf()
   std::vector<std::pair<std::string, Section>> sections;  ///< optional sections, by their names in JSON
 };
 
 constexpr char kSound = '+', kUnsound = '-';
 
-/// The output, after kSound or kUnsound.
+/// Measures the mesh and returns the text to print, which begins with kSound or kUnsound.
 Result<std::string> reportOf(const Subject& subject, const MeasureOptions& options, JobSystem& jobs,
                              const Stopwatch& watch) {
   measure::MeshSettings settings = settingsOf(options);
@@ -72,7 +73,7 @@ Exit printed(const Result<std::string>& report, bool strict) {
   return strict && report->front() == kUnsound ? Exit::input : Exit::done;
 }
 
-/// other: mesh of the file of --against.
+/// Measures the distance to another mesh. other: mesh of the file that --against names.
 Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh other, const MeasureOptions& options,
                         JobSystem& jobs) {
   for (measure::Point& p : other.points) p = p + (other.origin - mesh.origin);
@@ -110,7 +111,7 @@ Result<std::string> measureFile(const MeasureOptions& options) {
   return reportOf(subject, options, **jobs, watch);
 }
 
-/// Compares each level of the region, extended to whole chunks, with the next one.
+/// Measures the distance between each two successive levels of the region, extended to whole chunks.
 Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world, Backend& backend, JobSystem& jobs,
                          const Region& region) {
   Section all;
@@ -138,7 +139,7 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
   return all;
 }
 
-/// The sources of the region's mesh.
+/// The seed, cell size and region from which the mesh was made.
 std::string textOf(const WorldOptions& options, const Region& region) {
   const IntBox& extent = region.meshed.extent;
   return fmt::format(", seed {}, cells of {} m, region {},{},{}:{},{},{} m", options.seed, metres(region.cell),

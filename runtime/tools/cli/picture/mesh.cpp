@@ -22,10 +22,10 @@ namespace {
 
 struct Summary {
   Measures measures;
-  double volume = 0, void_volume = 0;  ///< by the divergence theorem
-  double cubes = 0, void_cubes = 0;    ///< by equation 8
+  double volume = 0, void_volume = 0;  ///< computed by the divergence theorem
+  double cubes = 0, void_cubes = 0;    ///< computed by equation 8 of the paper, from cubes
   std::vector<std::string> files;
-  uint64_t bytes = 0;  ///< of all files
+  uint64_t bytes = 0;  ///< total of all files
 };
 
 void printJson(const MeshOptions& options, const Region& region, const Summary& summary) {
@@ -75,7 +75,7 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
              region.device);
 }
 
-/// Measures the region; volumes are those inside of it.
+/// Measures the region. Volumes are those of the solid and of the void inside the region.
 Result<void> measureRegion(const WorldField& world, const Region& region, const MeshOptions& options,
                            Summary& summary) {
   const IntBox& extent = region.meshed.extent;
@@ -96,7 +96,7 @@ Exit mesh(const MeshOptions& options) {
   if (options.uv && !options.out.empty() && !MeshFile::holdsTexture(options.out)) {
     return complain(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
   }
-  // Open the file first: an error must show before a long meshing.
+  // Open the file before the long meshing, so that its errors are reported at once.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
     Result<MeshFile> opened = MeshFile::create(options.out, &unfinished_files);

@@ -18,7 +18,7 @@ std::string cornerText(Int3 corner) {
   return fmt::format("{:.10f},{:.10f},{:.10f}", metres(corner.x), metres(corner.y), metres(corner.z));
 }
 
-/// The options, with the camera that was chosen in a region of equal cells, and with that region.
+/// The options with the region, and with the camera that was chosen in it with cells of equal size.
 Result<RenderOptions> withCamera(const RenderOptions& options, const Region& region) {
   const Result<RegionScene> scene = sceneOf(options, region);
   if (!scene) return scene.error();
@@ -27,15 +27,15 @@ Result<RenderOptions> withCamera(const RenderOptions& options, const Region& reg
   settled.fov = scene->view.camera.fov_degrees;
   settled.region = cornerText(region.meshed.extent.lo) + ':' + cornerText(region.meshed.extent.hi);
   settled.frame.clear();
-  if (scene->view.at_anchor) settled.at.clear();  // the camera stands there
+  if (scene->view.at_anchor) settled.at.clear();  // the camera already stands at that anchor
   settled.cell = metres(region.cell);
   settled.density.reset();
   settled.level = 0;
   return settled;
 }
 
-/// Meshes the region of the options. If cells are to be small near a camera that the options do not give, first chooses
-/// the camera with equal cells, then meshes the region again.
+/// Meshes the region of the options. If --pixels requires small cells near a camera that the options do not give, first
+/// meshes with equal cells to choose the camera, then meshes the region again.
 RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;
@@ -43,7 +43,7 @@ RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& d
   if (!settled) return {std::nullopt, complain(settled.error())};
   options = std::move(*settled);
   RegionPlan plan = picturePlan(options, density);
-  plan.notes = false;  // already printed
+  plan.notes = false;  // the first meshing has already printed the notes
   Result<Region> again = meshProgram(made.region->program, options, plan);
   if (!again) return {std::nullopt, complain(again.error())};
   made.region = std::move(*again);
@@ -58,7 +58,7 @@ Exit render(const RenderOptions& asked) {
   if (!hasExtension(options.out, ".png"))
     return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   if (!options.seeds.empty()) return drawSeeds(options);
-  // Open the device and the file first: an error must show before a long meshing.
+  // Open the device and the file before the long meshing, so that their errors are reported at once.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);

@@ -19,20 +19,20 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int kLeastWidth = 64, kLeastHeight = 36;  // pixels of a picture
+constexpr int kLeastWidth = 64, kLeastHeight = 36;  // minimum size of each picture, pixels
 
-/// A seed's place on the sheet.
+/// The picture of one seed on the sheet.
 struct SeedPicture {
   uint64_t seed = 0;
   Image image;
   std::optional<Error> error;
   size_t triangles = 0;
-  std::string path;  ///< of the use that --frame shows
+  std::string path;  ///< path of the rule use that --frame shows
 };
 
 int columnsFor(size_t count) { return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))); }
 
-/// Size of the picture in one of `columns` columns, with room for the sheet's margins.
+/// Size of each picture on a sheet with `columns` columns, which leaves space for the sheet's margins.
 PictureSize pictureSize(const PictureSize& sheet, int columns) {
   constexpr int kMargins = 8;
   const int width = (sheet.width - kMargins) / columns - kMargins;
@@ -54,7 +54,7 @@ Result<void> drawSeed(const Renderer& renderer, const std::shared_ptr<const Prog
   return {};
 }
 
-/// The error as wrapped text, on grey.
+/// A grey picture with the error message as wrapped text.
 Image failedPicture(const PictureSize& size, const Error& error) {
   constexpr uint8_t kGrey = 64;
   constexpr survey::Ink kPale{220, 200, 190};
@@ -83,7 +83,7 @@ Image failedPicture(const PictureSize& size, const Error& error) {
   return image;
 }
 
-/// Draws the number into a corner: white with a dark edge, legible on every picture.
+/// Draws the seed's number into a corner: white with a dark edge, legible on every picture.
 void stamp(Image& image, uint64_t seed) {
   const double height = std::clamp(image.height / 18.0, 6.0, 18.0);
   const survey::Point at{0.8 * height, image.height - 0.8 * height};
@@ -95,7 +95,7 @@ void stamp(Image& image, uint64_t seed) {
   survey::drawOnto(image, {edge, letters});
 }
 
-/// Prints each error once, with all its seeds. Returns the status of the first.
+/// Prints each different error once, with all seeds that had it. Returns the exit status of the first error.
 Exit tellFailures(const std::vector<SeedPicture>& pictures) {
   Exit status = Exit::done;
   std::vector<bool> told(pictures.size());

@@ -24,7 +24,7 @@ std::string boxText(const IntBox& box) {
                      metres(box.lo.y), metres(box.hi.y), metres(box.lo.z), metres(box.hi.z));
 }
 
-/// The samples, and the drawing.
+/// The samples of the survey, and the drawing made of them.
 struct Survey {
   survey::Columns columns;
   std::optional<survey::Slice> slice;

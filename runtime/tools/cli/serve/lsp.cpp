@@ -1,4 +1,4 @@
-// sgm lsp: the language server over standard input and output.
+// Sgm lsp: runs the language server on standard input and output.
 
 #include <fmt/core.h>
 
@@ -17,11 +17,11 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // of a message
-constexpr size_t kMostHeaderBytes = 64 << 10;        // of all header lines of a message
-constexpr int kDeepest = 256;                        // nesting of arrays and objects
+constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // limit of a message
+constexpr size_t kMostHeaderBytes = 64 << 10;        // limit of all header lines of a message
+constexpr int kDeepest = 256;                        // limit of nested arrays and objects
 
-/// Whether arrays and objects are nested too deeply: the JSON library copies and prints values by recursion, and its
+/// Whether arrays and objects are nested too deeply: the JSON library copies and prints values recursively, and the
 /// stack is limited. For text that is not JSON, the result is arbitrary.
 bool isTooDeep(std::string_view json) {
   int depth = 0;
@@ -42,12 +42,13 @@ bool isTooDeep(std::string_view json) {
   return false;
 }
 
-/// Reads messages: headers, an empty line, then Content-Length bytes. next() returns nullopt at the end of the input.
+/// Reads messages in the protocol's framing: header lines, an empty line, then as many bytes as Content-Length states.
+/// next() returns nullopt at the end of the input.
 class MessageReader {
  public:
   explicit MessageReader(std::istream& in) : in_(in) {}
 
-  /// The bytes of the next message; empty if it is too large.
+  /// The bytes of the next message; an empty text if it is too large.
   std::optional<std::string> next() {
     const std::optional<uint64_t> length = headers();
     if (!length) return std::nullopt;
@@ -60,7 +61,7 @@ class MessageReader {
     if (static_cast<uint64_t>(in_.gcount()) != *length) return std::nullopt;
     return bytes;
   }
-  /// Whether the input went on with something other than a message.
+  /// Whether the input contained something that is not a message, after which no further message can be found.
   bool lost() const { return lost_; }
 
  private:
@@ -91,7 +92,7 @@ class MessageReader {
     return std::nullopt;
   }
 
-  /// False at the end of the input, or after too many header bytes.
+  /// Reads one header line. Returns false at the end of the input, or after too many header bytes.
   bool headerLine(std::string& line, size_t& left) {
     line.clear();
     for (char c = 0; left > 0 && in_.get(c); --left) {
@@ -106,7 +107,7 @@ class MessageReader {
 };
 
 bool send(const nlohmann::json& message) {
-  // An editor's text may not be valid UTF-8.
+  // Invalid UTF-8 is replaced, because an editor's text may contain it.
   const std::string bytes = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   fmt::print("Content-Length: {}\r\n\r\n{}", bytes.size(), bytes);
   return std::fflush(stdout) == 0;

@@ -26,7 +26,7 @@ std::string urlOf(const std::string& address, uint16_t port) {
                                                 : fmt::format("http://[{}]:{}", address, port);
 }
 
-/// Each client needs a descriptor, and shells allow as few as 1,024.
+/// Raises the limit of open files: each client needs a descriptor, and shells set limits as low as 1,024.
 void allowManyFiles() {
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;

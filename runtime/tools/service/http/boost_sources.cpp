@@ -1,4 +1,4 @@
-// The compiled parts of Asio and Beast, which every file would otherwise compile again.
+// Compiles the separately compiled parts of Asio and Beast once, instead of in every file.
 
 #include <boost/asio/impl/src.hpp>
 #include <boost/beast/src.hpp>

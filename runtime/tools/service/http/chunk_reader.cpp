@@ -8,10 +8,10 @@ namespace sgm::service::http {
 
 namespace {
 
-/// Limit of the extensions and trailers of one body.
+/// Limit of the total bytes of chunk extensions and trailers in one body.
 constexpr uint32_t kMostBeside = 4096;
 
-/// Hexadecimal digits of 64 bits.
+/// Maximum number of hexadecimal digits of a chunk size: 64 bits.
 constexpr uint32_t kMostDigits = 16;
 
 Problem badChunk() { return {400, "bad_request", "The chunks of the body are not valid HTTP.", {}}; }
@@ -62,7 +62,7 @@ std::optional<Problem> ChunkReader::take(char c) {
       state_ = State::after_size;
       [[fallthrough]];
     case State::after_size:
-      // Spaces may only precede an extension: other parsers may treat other uses differently.
+      // Spaces are accepted only before an extension: parsers may disagree about other spaces.
       if (c == ';')
         state_ = State::extension;
       else if (c != ' ' && c != '\t')

@@ -30,9 +30,9 @@ Response unavailable(const char* code, const char* detail) {
   return response;
 }
 
-/// Enables TCP keep-alive. A closed client looks like one that has only finished sending, and a host without power like
-/// an idle one. When probed, the former's system resets the connection once it has forgotten it, and the latter does
-/// not answer.
+/// Enables TCP keep-alive, to detect clients that are gone. A client that has closed its socket looks like a client
+/// that has only finished sending, and a host without power looks like an idle one. When it is probed, the first
+/// client's system resets the connection once it has forgotten it, and the second does not answer.
 void askWhetherThere(net::ip::tcp::socket& socket) {
   ErrorCode ignored;
   socket.set_option(net::socket_base::keep_alive(true), ignored);
@@ -40,8 +40,8 @@ void askWhetherThere(net::ip::tcp::socket& socket) {
   const auto set = [&](int option, int value) {
     ::setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
   };
-  set(TCP_KEEPIDLE, 30);   // seconds
-  set(TCP_KEEPINTVL, 15);  // seconds
+  set(TCP_KEEPIDLE, 30);   // seconds without data before the first probe
+  set(TCP_KEEPINTVL, 15);  // seconds between probes
   set(TCP_KEEPCNT, 4);
 #endif
 }
@@ -52,7 +52,8 @@ ReaderLimits readerLimits(const ServerSettings& settings) {
 
 }  // namespace
 
-/// Keeps the connection alive until the call. When out of memory, closes the connection, which would otherwise hang.
+/// Wraps a callback, and keeps the connection alive until it is called. If memory runs out, the connection is closed,
+/// because it would otherwise hang.
 template <class Call>
 auto Connection::guarded(Call call) {
   return [self = shared_from_this(), call](const ErrorCode& error, auto...) {
@@ -98,11 +99,12 @@ void Connection::close() noexcept {
   loop_.forget(shared_from_this(), turned_away_);
 }
 
-/// A phase's time starts at its beginning; the client's activity does not extend it.
+/// Starts a phase of the connection. Its time limit counts from here; activity of the client does not extend it.
 void Connection::enter(Phase phase, std::chrono::milliseconds time) {
   phase_ = phase;
   deadline_ = Clock::now() + time;
-  // A later deadline is checked when the timer for the earlier one fires, so most requests never set the timer.
+  // If the new deadline is later than the timer, it is checked when the timer fires, so most requests never set the
+  // timer.
   if (deadline_ < alarm_) setAlarm();
 }
 
@@ -132,8 +134,8 @@ void Connection::onTooSlow() {
   send(makeResponse(Problem{408, "timeout", "The request took too long to arrive.", {}}), true);
 }
 
-/// Waits for a reset, also while nothing is read or written. A half-closed connection does not count. Urgent data
-/// causes the same event until it is read, so a client that sends it is no longer watched.
+/// Waits until the client resets the connection, also while nothing is read or written. A half-closed connection stays
+/// open. Urgent data causes the same event until it is read, so a client that sends urgent data is no longer watched.
 void Connection::watch() {
   socket_.async_wait(net::socket_base::wait_error, guarded([this](const ErrorCode& error) {
                        pollfd ended{socket_.native_handle(), 0, 0};
@@ -190,7 +192,7 @@ void Connection::read(std::string_view bytes) {
   }
 }
 
-/// False if the request has been answered.
+/// Passes the request's head to the handler. Returns false if the request has been answered already.
 bool Connection::admit() {
   Admission admission;
   try {
@@ -223,7 +225,8 @@ void Connection::work() {
   try {
     loop_.handler.answer(reader_.request(), std::move(body_), std::move(reply));
   } catch (...) {
-    // The reply was destroyed in the call, or its owner will answer.
+    // If the handler threw, the reply was destroyed in the call, which sends a 500, or the owner of the reply will
+    // answer.
   }
 }
 

@@ -18,7 +18,7 @@ namespace sgm::service::http {
 
 class Connection final : public Answered, public std::enable_shared_from_this<Connection> {
  public:
-  /// loop must outlive the connection. The connection does nothing before start() or turnAway().
+  /// Loop must outlive the connection. The connection does nothing before start() or turnAway().
   Connection(Loop& loop, boost::asio::ip::tcp::socket socket);
 
   void start();
@@ -59,10 +59,10 @@ class Connection final : public Answered, public std::enable_shared_from_this<Co
   boost::asio::steady_timer timer_;
   Phase phase_ = Phase::idle;
   Clock::time_point deadline_ = Clock::time_point::max();
-  /// time at which the timer fires and checks deadline_; never later than deadline_
+  /// Time at which the timer fires and checks deadline_; never later than deadline_.
   Clock::time_point alarm_ = Clock::time_point::max();
   std::shared_ptr<std::atomic<bool>> gone_ = std::make_shared<std::atomic<bool>>(false);
-  /// number of the current wait for bytes; a completed wait with another number was cancelled, and is ignored
+  /// Number of the current wait for bytes; a completed wait with another number was cancelled, and is ignored.
   uint32_t turn_ = 0;
   RequestReader reader_;
   std::string kept_;  ///< bytes that were read after the current request; they belong to the next request

@@ -27,7 +27,7 @@ class Body {
 
 /// The handler's decision on a request, made after its head has arrived and before its body.
 struct Admission {
-  /// the answer to a rejected request, sent immediately; if a body follows, the connection closes afterwards
+  /// The answer to a rejected request, sent immediately; if a body follows, the connection closes afterwards.
   std::optional<Response> refusal;
   std::unique_ptr<Body> body;  ///< receives the body; null: a body is not accepted, and gives a 413
   uint64_t most_bytes = 0;     ///< limit of the decoded body; a larger body gives a 413

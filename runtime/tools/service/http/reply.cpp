@@ -9,20 +9,20 @@
 
 namespace sgm::service::http {
 
-/// An answer in transit, with memory for Asio's posted call.
+/// An answer on its way to the server's thread, with memory for the call that Asio posts.
 struct Letter {
   explicit Letter(std::weak_ptr<Answered> receiver) : to(std::move(receiver)) {}
 
   std::weak_ptr<Answered> to;
   std::optional<Response> response;
   alignas(std::max_align_t) std::array<std::byte, 256> room{};
-  bool room_taken = false;  ///< no lock: Asio allocates before it passes on the call, so one thread at a time reads
-                            ///< this
+  /// No lock: Asio allocates before it passes on the call, so only one thread at a time uses this.
+  bool room_taken = false;
 };
 
 namespace {
 
-/// Allocates in a letter's own memory, or on the heap if that is too small.
+/// Allocates in a letter's own memory, or on the heap if that memory is too small or in use.
 template <class T>
 struct LetterAllocator {
   using value_type = T;
@@ -62,7 +62,8 @@ struct Delivery {
   std::shared_ptr<Letter> letter;
 };
 
-/// Shared by the copies of a Reply: posts the letter once, without an answer if all copies are destroyed.
+/// Shared by all copies of a Reply. Posts the letter once: with the answer, or without one when all copies are
+/// destroyed.
 class Ticket {
  public:
   Ticket(std::shared_ptr<Mailbox> mailbox, std::shared_ptr<Letter> letter)

@@ -50,14 +50,15 @@ namespace {
 namespace net = boost::asio;
 using Tcp = net::ip::tcp;
 
-/// Maximum of clients beyond the limit that get an answer concurrently. Others are just closed.
+/// Maximum number of clients beyond the limit that concurrently get an answer (503). Further clients are closed without
+/// an answer.
 constexpr size_t kMostTurnedAway = 64;
-/// But at most an eighth of the limit, to keep descriptors free, and at least this many.
+/// That number is also at most an eighth of the limit, to keep descriptors free, but at least this many.
 constexpr size_t kLeastTurnedAway = 8;
 
 size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMostTurnedAway); }
 
-/// Reserve for the moment when the process cannot open more files: releasing it allows the server to accept and close
+/// A reserved descriptor. When the process cannot open more files, releasing it allows the server to accept and close
 /// the next client, which would otherwise wait.
 class SpareDescriptor {
  public:
@@ -66,12 +67,12 @@ class SpareDescriptor {
   SpareDescriptor(const SpareDescriptor&) = delete;
   SpareDescriptor& operator=(const SpareDescriptor&) = delete;
 
-  /// Opens it again after another thread took the descriptor. False if that fails.
+  /// Reserves the descriptor again if it was released. Returns false if that fails.
   bool reopen() {
     if (descriptor_ < 0) descriptor_ = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     return descriptor_ >= 0;
   }
-  /// False if there was none.
+  /// Releases the descriptor. Returns false if there was none.
   bool giveUp() {
     const bool had = descriptor_ >= 0;
     if (had) ::close(descriptor_);
@@ -83,10 +84,10 @@ class SpareDescriptor {
   int descriptor_ = -1;
 };
 
-/// Clients accepted before other work gets a turn.
+/// Number of clients that are accepted before other events are processed.
 constexpr int kClientsAtOnce = 16;
 
-/// Pause before the next try when memory or file descriptors for another client are missing.
+/// Pause before the next attempt if memory or file descriptors for another client are missing.
 constexpr std::chrono::milliseconds kAcceptPause{50};
 
 class LoopServer final : public Server {
@@ -117,7 +118,7 @@ class LoopServer final : public Server {
   net::steady_timer pause_{loop_.context}, grace_{loop_.context};
   net::executor_work_guard<net::io_context::executor_type> work_{loop_.context.get_executor()};
   uint16_t port_ = 0;
-  bool accepting_ = false;  ///< whether a wait for the next client, or for the end of a pause, is pending
+  bool accepting_ = false;  ///< whether a wait for the next client, or for the end of kAcceptPause, is pending
   std::mutex stop_mutex_;
   std::thread thread_;
 };
@@ -154,8 +155,9 @@ Result<void> LoopServer::run() {
   return {};
 }
 
-/// Runs until the server stops, or memory runs out outside of a connection's own calls. Then the connections continue;
-/// if there was no memory to wait for the next client, that is tried again.
+/// Processes events until the server stops, or memory runs out outside of a connection's own calls. In that case,
+/// connections continue after the next call; if there was no memory to wait for the next client, the wait is tried
+/// again.
 void LoopServer::turn() try {
   if (accepting_) {
     loop_.context.run();
@@ -166,8 +168,8 @@ void LoopServer::turn() try {
 } catch (...) {
 }
 
-/// Waits first, and accepts in a separate call: if memory ran out inside async_accept(), its handler would never be
-/// called.
+/// Waits for the next client first, and accepts it in a separate call: if memory ran out inside async_accept(), its
+/// handler would never be called.
 void LoopServer::accept() {
   acceptor_.async_wait(net::socket_base::wait_read, [this](const boost::system::error_code&) {
     accepting_ = false;
@@ -183,7 +185,7 @@ void LoopServer::accept() {
   accepting_ = true;
 }
 
-/// False if the system has no resources for another client now.
+/// Accepts the clients that wait. Returns false if the system has no resources for another client now.
 bool LoopServer::welcomeAll() {
   for (int i = 0; i < kClientsAtOnce; ++i) {
     Tcp::socket socket(loop_.context);
@@ -201,7 +203,7 @@ bool LoopServer::welcomeAll() {
   return true;
 }
 
-/// False if the client still waits.
+/// Accepts and closes the next client. Returns false if the client still waits.
 bool LoopServer::closeNext() {
   if (!spare_.giveUp()) {
     spare_.reopen();
@@ -235,7 +237,7 @@ void LoopServer::welcome(Tcp::socket socket) try {
     connection->close();
   }
 } catch (...) {
-  // Out of memory for this client; its socket is closed.
+  // There is no memory for this client; its socket is closed.
 }
 
 ServerCounts LoopServer::counts() const {
@@ -262,7 +264,7 @@ void LoopServer::stop(std::chrono::milliseconds grace) {
   loop_.connections.clear();
 }
 
-/// call may close the connection that it gets.
+/// Calls `call` for every connection. `call` may close the connection that it is given.
 void LoopServer::forEach(auto call) {
   for (auto at = loop_.connections.begin(); at != loop_.connections.end();) {
     const std::shared_ptr<Connection> connection = *at++;

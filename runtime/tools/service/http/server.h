@@ -24,7 +24,7 @@ struct ServerSettings {
   size_t fields = 64;
   std::chrono::milliseconds head_time{10000};  ///< limit from the first byte to the end of the head
   std::chrono::milliseconds body_time{30000};  ///< limit from the end of the head to the end of the body
-  /// limit between two requests of a connection, and before its first byte
+  /// Limit between two requests of a connection, and before its first byte.
   std::chrono::milliseconds idle_time{15000};
   std::chrono::milliseconds work_time{600000};  ///< limit for the handler to reply; afterwards the client gets a 503
   std::chrono::milliseconds write_time{30000};  ///< limit for a client to receive its answer
@@ -45,7 +45,7 @@ uint32_t connectionsWithin(uint32_t most, uint32_t share);
 struct ServerCounts {
   uint64_t connections = 0;  ///< number of open connections
   uint64_t accepted = 0;     ///< number of connections since the start, without those turned away
-  /// number of clients rejected because of ServerSettings::connections, or for lack of a file descriptor
+  /// Number of clients rejected because of ServerSettings::connections, or for lack of a file descriptor.
   uint64_t turned_away = 0;
   std::array<uint64_t, 600> answers{};  ///< number of answers by status
 };

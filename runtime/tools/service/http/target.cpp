@@ -12,7 +12,7 @@ namespace {
 
 Problem badTarget(const char* detail) { return {400, "bad_request", detail, {}}; }
 
-/// nullopt for an invalid escape, or if the result is not UTF-8 without control characters.
+/// Decodes percent escapes. nullopt for an invalid escape, or if the result is not UTF-8 without control characters.
 std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostMastersJobs = 64;
 
-/// Only the variables that the process needs to find its libraries.
+/// The environment of the processes: only the variables with which they find their libraries.
 std::vector<std::string> environmentOfChildren() {
   std::vector<std::string> kept{"LC_ALL=C"};
   for (const char* name : {"PATH", "LD_LIBRARY_PATH"})
@@ -33,17 +33,17 @@ std::vector<std::string> environmentOfChildren() {
   return kept;
 }
 
-/// Calls a callback; its exceptions must not end the host.
+/// Calls a callback of the user, and ignores its exceptions, which must not end the host program.
 template <class... Arguments>
 void call(const std::function<void(Arguments...)>& function, std::type_identity_t<Arguments>... arguments) {
   try {
     if (function) function(std::move(arguments)...);
   } catch (...) {
-    // There is no memory to inform the caller.
+    // There is no memory left to report the failure to the caller.
   }
 }
 
-/// The result of `say`, or `otherwise` if it throws.
+/// Returns the result of `say`, or `otherwise` if `say` throws.
 template <class Say>
 Inspection saidOr(Inspection& otherwise, const Say& say) noexcept {
   try {
@@ -76,8 +76,8 @@ class ProcessInspector final : public Inspector {
     Upload upload;
     std::function<void()> began;
     std::function<void(Inspection)> done;
-    Inspection out_of_memory;  ///< made in advance
-    bool stopped = false;      ///< the inspector is ending: do not inspect
+    Inspection out_of_memory;  ///< the answer if memory runs out, made in advance
+    bool stopped = false;      ///< the inspector is ending: the upload is not inspected
   };
   struct MastersJob {
     std::string json;
@@ -166,7 +166,8 @@ Result<void> ProcessInspector::inspect(Upload upload, std::function<void()> bega
     if (const Result<void> takes = wouldTakeLocked(program_runs); !takes) return takes;
     waiting_.push_back(std::move(job));
   } catch (const std::bad_alloc&) {
-    return Error{Code::limit, "out of memory"};  // short enough for the string's own buffer
+    // The text fits into the string's own buffer, so no memory is allocated.
+    return Error{Code::limit, "out of memory"};
   }
   changed_.notify_all();
   return {};
@@ -199,8 +200,8 @@ InspectorCounts ProcessInspector::counts() const {
   return counts;
 }
 
-/// Waits for the next job. nullopt once the inspector is ending and the queue is empty. The caller destroys the job
-/// outside the lock: it may hold the last descriptor of a large file.
+/// Waits for the next job. Returns nullopt when the inspector is ending and the queue is empty. The caller must destroy
+/// the job outside the lock, because the job may hold the last descriptor of a large file, whose deletion takes time.
 template <class AnyJob>
 std::optional<AnyJob> ProcessInspector::take(std::deque<AnyJob>& waiting) {
   std::unique_lock lock(mutex_);
@@ -236,7 +237,7 @@ void ProcessInspector::workOnMasters() {
     call(job->done, saidOr(job->out_of_memory, [&] { return job->stopped ? stoppedProblem() : judgeMasters(*job); }));
 }
 
-/// Called before `done`, so that a client with an answer finds it counted.
+/// Counts a finished inspection. Called before `done`, so that a client that has its answer finds it counted.
 void ProcessInspector::count(const Inspection& said, double seconds) {
   const std::lock_guard lock(mutex_);
   --counts_.running;

@@ -29,8 +29,8 @@ struct InspectorSettings {
 struct Inspection {
   /// HTTP status: 200 for success, 422 for a bad upload, 500 for a failure, 503 if it was not inspected
   int status = 200;
-  /// a valid JSON object: the members of a report ("valid", "measures", ...) if status is 200, otherwise a problem;
-  /// empty if there was no memory for it
+  /// A valid JSON object: the members of a report ("valid", "measures", ...) if status is 200, otherwise a problem;
+  /// empty if there was no memory for it.
   std::string json;
   std::string preview;  ///< the simplified mesh for the page's preview; empty: none
   bool valid = false;   ///< value of the report's member "valid"
@@ -38,7 +38,7 @@ struct Inspection {
 
 struct InspectorCounts {
   unsigned running = 0, waiting = 0;  ///< current numbers of uploads
-  /// numbers since creation; refused: status 422, failed: status 500
+  /// Numbers since creation; refused: status 422, failed: status 500.
   uint64_t valid = 0, invalid = 0, refused = 0, failed = 0;
   /// Cumulative counts of inspections that took at most 2^(i - 8) s, from 4 ms to 128 s; longer ones are in no bucket.
   /// seconds_sum includes all inspections counted above.

@@ -24,7 +24,7 @@ T numberAt(std::string_view bytes, size_t at) {
   return value;
 }
 
-/// The next of the answer's two parts. nullopt if it is incomplete.
+/// Takes the next of the output's two parts (JSON and preview). nullopt if the part is incomplete.
 std::optional<std::string_view> takePart(std::string_view& left) {
   if (left.size() < sizeof(uint64_t)) return std::nullopt;
   const uint64_t size = numberAt<uint64_t>(left, 0);
@@ -44,13 +44,13 @@ bool isPreview(std::string_view bytes) {
   return true;
 }
 
-/// The text of a member's value; empty if there is none.
+/// The JSON text of the named member's value; empty if there is no such member.
 std::string_view valueOf(const std::vector<JsonMember>& members, std::string_view name) {
   const auto found = std::ranges::find(members, name, &JsonMember::name);
   return found == members.end() ? std::string_view() : found->value;
 }
 
-/// The status of a problem that the process may return; nullopt for anything else.
+/// The status of a problem, if it is one that the process may return; nullopt for any other JSON.
 std::optional<int> problemStatus(const std::vector<JsonMember>& members, Answer wanted) {
   for (const char* member : {"type", "title", "code", "detail"})
     if (!valueOf(members, member).starts_with('"')) return std::nullopt;
@@ -76,7 +76,7 @@ Inspection tooMuchSaid(size_t most) {
   return limitReached("the answer is larger than " + std::to_string(most >> 20) + " MB, the limit of the service");
 }
 
-/// nullopt if it is not a valid answer of the wanted kind.
+/// Parses the process's output. nullopt if it is not a valid answer of the wanted kind.
 std::optional<Inspection> soundAnswer(std::string_view output, Answer wanted) {
   const std::optional<std::string_view> text = takePart(output), preview = takePart(output);
   if (!text || !preview || !output.empty()) return std::nullopt;
@@ -135,7 +135,7 @@ Inspection outOfMemoryProblem() noexcept {
     said.json = R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"validator_limit",)"
                 R"("detail":"the service is out of memory: send the request again later"})";
   } catch (const std::bad_alloc&) {
-    // No memory even for this: return the status alone.
+    // There is no memory even for the problem's text: return the status alone.
   }
   return said;
 }

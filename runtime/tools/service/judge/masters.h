@@ -24,7 +24,7 @@ class Masters {
  public:
   using Told = std::function<void(const MastersAnswer&)>;
 
-  /// inspector must outlive this object, but must have ended its threads before, since these call the `told` functions.
+  /// Inspector must outlive this object, but must have ended its threads before, since these call the `told` functions.
   explicit Masters(Inspector& inspector) : inspector_(inspector) {}
 
   void read(Told told);

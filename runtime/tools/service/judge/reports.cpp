@@ -64,7 +64,7 @@ std::string nowText() {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &at)};
 }
 
-/// Members that a report sets itself.
+/// Names of the members that a report sets itself, in addition to those from the inspection.
 constexpr std::array<std::string_view, 8> kHeadNames{"id",       "name",  "kind",  "bytes",
                                                      "received", "state", "valid", "seconds"};
 
@@ -81,16 +81,16 @@ struct KeptReport {
   uint64_t bytes = 0;
   ReportState state = ReportState::waiting;
   Clock::time_point began{};
-  std::optional<double> seconds;  ///< duration of the inspection
+  std::optional<double> seconds;  ///< duration of the inspection; nullopt until it has ended
   std::optional<bool> valid;
-  std::string text;           ///< complete, once it is finished
-  std::string out_of_memory;  ///< the text for lack of memory, made in advance
+  std::string text;           ///< the complete report as JSON, once the inspection has ended
+  std::string out_of_memory;  ///< the report's text if memory runs out, made in advance
   std::shared_ptr<const std::string> preview;
 
   bool finished() const { return state != ReportState::waiting && state != ReportState::running; }
   size_t size() const { return text.size() + (preview ? preview->size() : 0); }
 
-  /// The object in lists.
+  /// The report's object in the list of reports.
   std::string head() const {
     const std::string_view judged = valid.value_or(false) ? "true" : "false";
     const std::array<std::string, kHeadNames.size()> values{jsonString(id),
@@ -109,7 +109,8 @@ struct KeptReport {
 
 namespace {
 
-/// The page's reference to the preview, with the mesh's data in `said`.
+/// The member "preview": the URL of the preview, with the mesh's data from the inspection; "null" if there is no
+/// preview.
 std::string previewText(const KeptReport& report, std::string_view said) {
   if (!report.preview || !said.starts_with('{')) return "null";
   std::string text = "{";
@@ -119,7 +120,8 @@ std::string previewText(const KeptReport& report, std::string_view said) {
   return text + "}";
 }
 
-/// The inspection's members after the report's own. Joined as text, since values would need many times its memory.
+/// The finished report: its own members, then the inspection's members. Joined as text, since parsed JSON would need
+/// many times the memory.
 std::string finishedText(const KeptReport& report, std::string_view said) {
   std::string text = report.head();
   text.pop_back();
@@ -154,7 +156,7 @@ void fill(KeptReport& report, Inspection inspection) {
   report.text = finishedText(report, inspection.json);
 }
 
-/// Allocates nothing.
+/// Sets the report's state to failed for lack of memory. Allocates nothing.
 void failForMemory(KeptReport& report) noexcept {
   report.state = ReportState::failed;
   report.text = std::move(report.out_of_memory);
@@ -167,7 +169,7 @@ std::string outOfMemoryText(KeptReport report) {
 
 }  // namespace
 
-/// Newest first.
+/// The kept reports, newest first.
 struct Reports::Kept {
   mutable std::mutex mutex;
   std::list<KeptReport> reports;
@@ -176,7 +178,8 @@ struct Reports::Kept {
     return std::find_if(reports.begin(), reports.end(), [&](const KeptReport& report) { return report.id == id; });
   }
 
-  /// Removes the oldest finished reports, except `wanted`, until the rest is within the limits.
+  /// Removes the oldest finished reports, except `wanted`, until the kept reports are within the limits. Returns the
+  /// removed ones.
   std::list<KeptReport> takeSurplus(const KeptReport* wanted) {
     size_t bytes = 0;
     for (const KeptReport& report : reports) bytes += report.size();
@@ -230,7 +233,7 @@ std::string Reports::finish(const std::string& id, Inspection inspection) {
       if (found == kept_->reports.end()) return {};
       report = *found;
     }
-    // Outside the lock: it takes some milliseconds.
+    // Done outside the lock, because it takes some milliseconds.
     fill(report, std::move(inspection));
     report.out_of_memory = {};
     std::string text = report.text;

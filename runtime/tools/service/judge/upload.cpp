@@ -12,7 +12,7 @@ namespace {
 
 struct KindName {
   UploadKind kind;
-  std::string_view name;  ///< ending of a file's name, after a dot
+  std::string_view name;  ///< ending of a file's name, without its dot
 };
 constexpr KindName kNames[] = {
     {UploadKind::glb, "glb"}, {UploadKind::obj, "obj"},     {UploadKind::ply, "ply"},

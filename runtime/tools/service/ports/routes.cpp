@@ -3,7 +3,7 @@
 namespace sgm::service {
 namespace {
 
-/// Removes and returns the text up to the next '/'.
+/// Removes and returns the text before the next '/', and removes that '/' too.
 std::string_view takeSegment(std::string_view& path) {
   const size_t end = path.find('/');
   const std::string_view segment = path.substr(0, end);

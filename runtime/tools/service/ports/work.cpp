@@ -21,7 +21,8 @@ using http::Request;
 using http::Response;
 
 constexpr uint64_t kMostMastersBytes = uint64_t{4} << 20;
-/// Maximum of sets of reference histograms that are being received or wait to be written, since they are in memory.
+/// Maximum number of sets of reference histograms that are being received or wait to be written, since they are held in
+/// memory.
 constexpr uint64_t kMastersAtOnce = 4;
 constexpr size_t kLongestName = 255;
 
@@ -51,7 +52,8 @@ const EmbeddedFile* fileNamed(std::string_view name) {
   return nullptr;
 }
 
-/// The page's file for a path; null if there is none. The interface description does not belong to the page.
+/// The embedded file for a path of the page; null if there is none. The description of the interface is embedded too,
+/// but is not part of the page.
 const EmbeddedFile* pageFile(std::string_view path) {
   const std::string_view name = path == "/" ? "index.html" : path.substr(1);
   return name.ends_with(".json") ? nullptr : fileNamed(name);
@@ -85,7 +87,7 @@ Response responseOf(const MastersAnswer& said) {
   return response;
 }
 
-/// The answer for a failed inspection. Never throws: without memory, the text is omitted.
+/// The answer that reports a failed inspection. Never throws: without memory, the answer has no text.
 Response problemOf(const Inspection& said) noexcept {
   Response response;
   response.status = said.status;
@@ -99,7 +101,7 @@ Response problemOf(const Inspection& said) noexcept {
   return response;
 }
 
-/// Why an upload is not accepted now.
+/// The answer that explains why an upload is not accepted now.
 Response refusalOf(const Error& error) {
   const bool full = error.code == Code::limit;
   Response response = makeResponse(Problem{503, full ? "queue_full" : "no_validator", error.message, ""});
@@ -113,7 +115,7 @@ Admission refused(Response response) {
   return admission;
 }
 
-/// Whether the client wants an answer before the result (RFC 7240).
+/// Whether the request's Prefer field asks for an answer before the inspection has ended (RFC 7240, respond-async).
 bool wantsNoWait(const Request& request) {
   for (const http::Field& field : request.fields) {
     if (inSmallLetters(field.name) != "prefer") continue;
@@ -144,7 +146,7 @@ Admission Work::admit(const Request& request) {
     return refused(std::get<Response>(routed(kFile, request)));
   }
   std::variant<Routed, Response> found = routed(kRoutes, request);
-  // A client without the token must not learn which paths exist.
+  // Check the token before the path, because a client without the token must not learn which paths exist.
   if (std::optional<Response> refusal = parts_.access.refuseStranger(request)) return refused(std::move(*refusal));
   if (std::holds_alternative<Response>(found)) return refused(std::get<Response>(std::move(found)));
   switch (std::get<Routed>(found).route->endpoint) {
@@ -263,7 +265,7 @@ void Work::judge(const Request& request, std::unique_ptr<http::Body> body, Reply
       [&kept, id, location, waits, reply](Inspection said) {
         std::optional<Response> problem;
         if (waits && said.status != 200) problem = problemOf(said);
-        // Before anything that can fail: an unfinished report is kept forever.
+        // Finish the report before anything that can fail, since an unfinished report would be kept forever.
         std::string report = kept.finish(id, std::move(said));
         if (!waits) return;
         Response response = problem ? std::move(*problem) : jsonResponse(std::move(report));

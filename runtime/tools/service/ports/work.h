@@ -22,7 +22,7 @@ struct WorkSettings {
   std::string upload_folder;  ///< empty: the system's folder for temporary files
   uint64_t most_upload_bytes = uint64_t{64} << 20;
   bool masters_writable = false;
-  /// limit of all uploads that are being received; a single upload is always accepted
+  /// Limit of all uploads that are being received; a single upload is always accepted.
   uint64_t most_incoming_bytes = uint64_t{1} << 30;
 };
 
@@ -51,7 +51,7 @@ class Work final : public http::Handler {
   WorkParts parts_;
   WorkSettings settings_;
   std::shared_ptr<IncomingRoom> room_, text_room_;  ///< bytes being received: uploads on disk, and texts in memory
-  /// the embedded files by name, one copy for all clients
+  /// The embedded files by name, one copy for all clients.
   std::map<std::string_view, std::shared_ptr<const std::string>> files_;
 };
 

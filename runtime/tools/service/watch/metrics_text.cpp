@@ -22,7 +22,7 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// Families in the order of their first use; each use repeats name and help.
+/// Metric families in the order of their first use. Each use passes the family's name and help text again.
 class Families {
  public:
   void gauge(const char* name, const char* help, Labels labels, double value) {
@@ -90,7 +90,7 @@ void addChunks(Families& all, const WorldSample& world, const Labels& backend) {
   all.counter(kBuilt, kBuiltHelp, with("result", "cached"), cached);
   all.counter(kBuilt, kBuiltHelp, with("result", "failed"), stats.chunks_failed);
   all.counter(kBuilt, kBuiltHelp, with("result", "in_vain"), stats.chunks_in_vain);
-  // For all levels, so that a level's first chunks show as an increase.
+  // All levels are written from the beginning, so that the first chunks of a level appear as an increase.
   const int top = std::clamp(world.info.top_level, 0, SGM_MAX_LEVEL);
   for (int level = 0; level <= top; ++level) {
     all.histogram("sgm_chunk_build_seconds", "Time to make a chunk's body, from the grammar to its packed mesh.",
@@ -174,7 +174,7 @@ void addWorld(Families& all, const WorldSample& world) {
 
 void addServer(Families& all, const char* port, const http::ServerCounts& counts) {
   for (size_t status = 0; status < counts.answers.size(); ++status) {
-    // A series that starts with its first error would show no rate for it.
+    // These statuses are written even if 0: for a series that begins with its first error, Prometheus computes no rate.
     const bool always = status == 200 || status == 500 || status == 503;
     if (counts.answers[status] == 0 && !always) continue;
     all.counter("sgm_http_requests_total", "Answered requests.", {{"port", port}, {"code", std::to_string(status)}},

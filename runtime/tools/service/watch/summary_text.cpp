@@ -110,7 +110,7 @@ json worldJson(const WorldSample& world) {
           {"measures", measuresJson(world.measures)}};
 }
 
-/// Device names come from drivers: invalid UTF-8 is replaced.
+/// Writes JSON as text. Device names come from drivers and may be invalid UTF-8, which is replaced.
 std::string jsonText(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 }  // namespace

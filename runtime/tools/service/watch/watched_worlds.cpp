@@ -21,12 +21,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Time over which rates are computed.
+/// Duration over which rates are computed.
 constexpr std::chrono::seconds kWindow{5};
-/// Maximal age of a map.
+/// Maximum age of a map of drawn chunks.
 constexpr std::chrono::seconds kMapAge{1};
 constexpr size_t kLongestWorldName = 64;
-/// The engine may draw more chunks between the query of their number and that of the chunks.
+/// Maximum number of attempts to query the drawn chunks: the engine may draw more chunks between the query of their
+/// number and the query of the chunks.
 constexpr int kTries = 8;
 
 bool isName(const std::string& name) {
@@ -42,7 +43,7 @@ Error errorOf(sgm_result result, const sgm_error& error) {
           std::string("the world cannot be sampled: ") + error.message};
 }
 
-/// Owns the meshes from sgm_world_get_drawn.
+/// Owns the meshes that sgm_world_get_drawn returns.
 class DrawnMeshes {
  public:
   DrawnMeshes() = default;
@@ -78,7 +79,7 @@ class DrawnMeshes {
   size_t held_ = 0;
 };
 
-/// Triangles of the body and of the drawn seams.
+/// Number of triangles in the body and the drawn seams.
 uint32_t trianglesOf(const sgm_drawn_chunk& chunk) {
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   if (sgm_mesh_get_view(chunk.mesh, &view, nullptr) != SGM_OK) return 0;
@@ -105,7 +106,7 @@ double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   return nearest;
 }
 
-/// Indices of at most kMostMapped chunks: the finest first, then the nearest.
+/// Indices of at most kMostMapped chunks: the finest first, among equals those nearest to a viewer.
 std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& world) {
   struct Place {
     int32_t level;
@@ -126,7 +127,8 @@ std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& worl
   return numbers;
 }
 
-/// A watched world. All functions need the lock `looking`, which forget() waits for.
+/// A watched world. All functions must be called with the mutex `looking` locked, which forget() also locks, so that it
+/// waits for them.
 class WatchedWorld {
  public:
   WatchedWorld(std::string name, sgm_world* world) : name_(std::move(name)), world_(world) {}
@@ -142,20 +144,21 @@ class WatchedWorld {
     if (const Result<void> asked = ask(now); !asked) return asked.error();
     now.taken = Clock::now();
     most_in_vain_ = now.stats.chunks_in_vain = std::max(most_in_vain_, now.stats.chunks_in_vain);
-    // Keep one sample older than the window, so that the window is always covered.
+    // Keep one sample that is older than the window, so that rates always cover the whole window.
     while (past_.size() > 1 && now.taken - past_[1].taken >= kWindow) past_.pop_front();
     past_.push_back({now.taken, now.stats.chunks_meshed, now.times.clock_seconds, now.times.job_seconds});
     const Past &first = past_.front(), &last = past_.back();
     const double seconds = std::chrono::duration<double>(last.taken - first.taken).count();
     if (seconds > 0) now.chunks_per_second = static_cast<double>(last.meshed - first.meshed) / seconds;
     const double worked = last.clock_seconds - first.clock_seconds;
-    // Until there is a later sample, use the work before the first one.
+    // Until there is a second sample with work, the rate is computed from the work before the first one.
     if (worked > 0) {
       speedup_ = (last.job_seconds - first.job_seconds) / worked;
     } else if (!speedup_ && last.clock_seconds > 0) {
       speedup_ = last.job_seconds / last.clock_seconds;
     }
-    // A job that waits, and does another job's work meanwhile, counts for both.
+    // A job that waits, and meanwhile runs another job, counts for both, so the mean is limited to the number of
+    // threads.
     if (speedup_) now.parallel_speedup = std::min(*speedup_, static_cast<double>(now.info.threads));
     return now;
   }
@@ -258,7 +261,8 @@ class Watcher final : public WatchedWorlds {
       watched = std::move(found->second.watched);
       worlds_.erase(found);
     }
-    // A thread that has found the world earlier is waited for, or waits for this one.
+    // A thread that has found the world before its removal may still be sampling it: lock its mutex to wait for that
+    // thread.
     const std::lock_guard looking(watched->looking);
     watched->forget();
   }
@@ -306,7 +310,7 @@ class Watcher final : public WatchedWorlds {
       try {
         sampleAll();
       } catch (const std::bad_alloc&) {
-        // The previous samples age, which readiness reports.
+        // Without memory no sample is taken; the previous samples grow old, which the readiness check reports.
       }
       lock.lock();
       next = std::max(next, Clock::now() - period_);  // do not make up for missed samples
@@ -331,11 +335,11 @@ class Watcher final : public WatchedWorlds {
   }
 
   const std::chrono::milliseconds period_;
-  mutable std::mutex mutex_;  ///< guards the following members; never held while a world is sampled
+  mutable std::mutex mutex_;  ///< protects the following members; never held while a world is sampled
   std::condition_variable changed_;
   std::map<std::string, Entry> worlds_;
   bool ends_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  std::thread thread_;  ///< the last member, because the thread uses all members above
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ struct DrawnChunk {
 struct WorldMap {
   WorldSample world;
   uint64_t total = 0;
-  /// at most kMostMapped chunks; the finest first, and among equals those nearest to a viewer
+  /// At most kMostMapped chunks; the finest first, and among equals those nearest to a viewer.
   std::vector<DrawnChunk> chunks;
 };
 inline constexpr size_t kMostMapped = 20000;

@@ -1,4 +1,4 @@
-// The command that lists the devices of this machine.
+// Declares the command that lists the devices of this machine.
 
 #include <memory>
 

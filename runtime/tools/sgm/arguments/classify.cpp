@@ -1,4 +1,4 @@
-// The commands that classify meshes, and make the reference histograms for it.
+// Declares the commands that classify meshes, and build the reference histograms for that.
 
 #include <memory>
 

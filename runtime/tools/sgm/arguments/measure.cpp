@@ -1,4 +1,4 @@
-// The command that measures meshes and voids.
+// Declares the command that measures meshes and voids.
 
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-/// --from, --to and --radius, which cannot be combined with `excluded`.
+/// Adds --from, --to and --radius, which cannot be combined with the options in `excluded`.
 void addVoidOptions(CLI::App& app, MeasureOptions& options, const std::vector<CLI::Option*>& excluded) {
   CLI::Option* from = app.add_option("--from", options.from, "Find a path through the void from this point, in metres")
                           ->type_name("X,Y,Z")
@@ -96,7 +96,8 @@ Command addMeasure(CLI::App& root) {
   addSharpOption(*app, *options);
   std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
   addDerivationOptions(*app, *options);
-  of_surfaces.push_back(app->get_option("--backend"));  // voids are measured on the CPU
+  // --backend is rejected with voids, which are measured on the CPU
+  of_surfaces.push_back(app->get_option("--backend"));
   addRegionOptions(*app, *options);
   addVoidOptions(*app, *options, of_surfaces);
   const std::vector<CLI::Option*> of_grammars = optionsBeside(*app, shared);

@@ -1,4 +1,4 @@
-// The command that measures and classifies meshes for clients, and its worker command.
+// Declares the command that measures and classifies meshes for clients, and `inspect`, which that service runs.
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -31,7 +31,7 @@ Command addInspect(CLI::App& root) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::Option* kind = app->add_option("--kind", options->kind, "Kind of the file")
                           ->check(CLI::IsMember({"glb", "obj", "ply", "stl", "sgm"}));
-  // A client's values are checked later, and the last of several counts.
+  // A client's values are checked later, in the process; if an option is repeated, the last value counts.
   for (const auto& [name, text] : {std::pair<const char*, std::string*>{"--name", &options->name},
                                    {"--region", &options->region},
                                    {"--cell", &options->cell},

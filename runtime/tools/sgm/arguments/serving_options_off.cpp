@@ -1,4 +1,4 @@
-// Stub without the metrics service (SGM_TOOLS=core).
+// Replaces serving_options.cpp in a build without the metrics service (SGM_TOOLS=core).
 
 #include <CLI/CLI.hpp>
 
@@ -15,7 +15,7 @@ void addFlightServing(CLI::App& app, FlyOptions&) {
         "again",
         CLI::ExitCodes::ValidationError);
   };
-  app.add_flag_function("--serve", refuse)->group("");  // help does not list it
+  app.add_flag_function("--serve", refuse)->group("");  // an empty group hides the option in --help
 }
 
 }  // namespace sgm::cli

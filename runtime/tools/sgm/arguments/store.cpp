@@ -1,4 +1,4 @@
-// The commands that bake worlds, and maintain stores of them.
+// Declares the commands that bake worlds, and maintain stores of baked worlds.
 
 #include <fmt/core.h>
 

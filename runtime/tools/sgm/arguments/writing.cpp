@@ -1,4 +1,4 @@
-// The commands for authors: the language server, and the preview window.
+// Declares the commands for authors of grammars: the language server, and the preview window.
 
 #include <memory>
 
