@@ -1,4 +1,4 @@
-# cmake -D OUT=file.cpp -D FILES=a;b -P embed_files.cmake: the bytes of files as a table in C++.
+# cmake -D OUT=file.cpp -D FILES=a;b -P embed_files.cmake: writes the bytes of files as a table in C++.
 set(arrays "")
 set(rows "")
 set(number 0)

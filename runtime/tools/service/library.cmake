@@ -1,4 +1,5 @@
-# sgm::service, separate from sgm::sgm, so that a game can ship without it. find_package(sgm COMPONENTS service).
+# The library sgm::service, for find_package(sgm COMPONENTS service). It is separate from sgm::sgm, so that a game can
+# ship without it.
 find_package(prometheus-cpp CONFIG REQUIRED)
 add_library(sgm_service_library)
 add_library(sgm::service ALIAS sgm_service_library)

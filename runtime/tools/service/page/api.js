@@ -1,8 +1,12 @@
-// The service's answers, and its problems as errors. Where it wants a token, whoever looks at the page is asked once.
+// Requests to the service. Problems that the service reports become errors. If the service requires a token, the user
+// is asked for it once.
 
 const tokenKey = 'sgm-token';
 
-/** Why a request did not succeed. status: 0 where no answer came; code, detail, pointer, ...: as RFC 9457 has them. */
+/**
+ * The reason why a request failed. status: HTTP status, 0 if no answer arrived. code, detail, pointer, ...: as in RFC
+ * 9457.
+ */
 export class Problem extends Error {
   constructor(status, body) {
     super(body.detail ?? body.title ?? `the service answered ${status}`);
@@ -18,7 +22,7 @@ function problemOf(status, text) {
     const body = JSON.parse(text);
     if (body && typeof body === 'object' && !Array.isArray(body)) return new Problem(status, body);
   } catch {
-    // Not a problem of ours: a proxy's, perhaps.
+    // The answer does not come from the service, but perhaps from a proxy.
   }
   return new Problem(status, { detail: `the service answered ${status} without saying why` });
 }
@@ -28,12 +32,12 @@ export class Api {
   #asked = null;
   #declined = false;
 
-  /** askToken(wrong): a promise of the token, or of null where there is none to be had. */
+  /** askToken(wrong): returns a promise of the token, or of null if the user gives none. */
   constructor(askToken) {
     this.#askToken = askToken;
   }
 
-  /** The next request that wants a token may ask for it again. */
+  /** Allows the next request that needs a token to ask the user again. */
   askAgain() {
     this.#declined = false;
   }
@@ -49,8 +53,8 @@ export class Api {
   }
 
   /**
-   * Sends a file; resolves with the report as it then is. progress(sent, whole): in bytes. signal: aborts.
-   * Not by fetch(), which tells nothing of how much has gone out.
+   * Sends a file. Resolves with the report in its current state. progress(sent, whole): called with numbers of bytes.
+   * signal: aborts the upload. XMLHttpRequest is used, because fetch() does not report how many bytes were sent.
    */
   async upload(path, file, type, progress, signal) {
     for (;;) {
@@ -108,7 +112,7 @@ export class Api {
     return sessionStorage.getItem(tokenKey);
   }
 
-  /** Whether there is a token now. All who wait for one share one question. */
+  /** Asks the user for a token. Resolves to true if there is one now. Concurrent requests share one question. */
   #newToken() {
     if (this.#declined) return false;
     this.#asked ??= this.#askToken(this.#token() !== null).then((token) => {

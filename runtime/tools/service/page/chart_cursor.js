@@ -1,9 +1,9 @@
-// One place along a chart, chosen by pointer or by arrow keys and read out as text.
+// A cursor in a chart: the user moves it with the pointer or arrow keys, and screen readers read its text.
 
 /**
- * Makes `svg` a slider of `size()` places; the one nearest to x is `indexAt(x)`, x in the svg's own units.
- * show(index or null): draws the cursor, and answers the text of that place.
- * Returns refresh(), to call once what lies beneath has changed.
+ * Makes `svg` a slider with `size()` positions. `indexAt(x)` returns the position nearest to x, in the svg's own units.
+ * show(index or null): draws the cursor, and returns the text for that position.
+ * Returns refresh(), which must be called when the chart's data have changed.
  */
 export function addCursor(svg, { label, size, indexAt, show }) {
   let index = null;

@@ -1,4 +1,4 @@
-// What a mesh is: the class that its histogram tells, with how sure that is.
+// Shows the class of a mesh according to its histogram, and how certain the classification is.
 
 import { element, verdict } from './element.js';
 import { number, percent } from './format.js';
@@ -35,7 +35,7 @@ function classTable({ classes, limits }) {
   );
 }
 
-/** report: one that is done. */
+/** report: a finished report. */
 export function showClassification(report) {
   const node = element(
     'section',

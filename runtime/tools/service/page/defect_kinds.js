@@ -1,8 +1,11 @@
-// The kinds of defects that have places: each has a word, a colour and a sign of its own.
+// The kinds of defects whose places are shown: each has a title, a colour and a sign of its own.
 
 import { svg } from './element.js';
 
-/** sign: outline in a square from -1 to 1, as of a path. edge: whether the mesh's view marks edges for it. */
+/**
+ * sign: the outline of the mark, in a square from -1 to 1. edge: whether the mesh view marks the edges with this
+ * defect.
+ */
 export const defectKinds = {
   open_edge: { title: 'open edge', colour: 'mark-0', sign: 'circle', edge: true },
   nonmanifold_edge: { title: 'nonmanifold edge', colour: 'mark-1', sign: 'square', edge: true },
@@ -33,7 +36,7 @@ const totalKeys = {
   nested: 'nested',
 };
 
-/** How many defects of a kind measures tell of; where a region was cut, edges are right to be open. */
+/** Number of defects of a kind. Where a region's border cut the mesh, open edges are expected and not counted. */
 export function totalOf(measures, kind) {
   const total = measures[totalKeys[kind]] ?? 0;
   return kind === 'open_edge' ? total - measures.cut_edges : total;
@@ -95,7 +98,7 @@ const outlines = {
   ],
 };
 
-/** Corners of a kind's sign, in a square from -1 to 1. */
+/** The corners of a kind's sign, in a square from -1 to 1. */
 export const outlineOf = (kind) => outlines[kindOf(kind).sign];
 
 export function signNode(kind) {

@@ -1,4 +1,5 @@
-// Elements from names and values. Text goes in as text alone: names of uploads are whatever their sender wished.
+// Makes DOM elements from names and values. Text is always inserted as text, never as HTML, because senders choose the
+// names of uploads freely.
 
 function build(node, options, children) {
   for (const [key, value] of Object.entries(options)) {
@@ -11,7 +12,10 @@ function build(node, options, children) {
   return node;
 }
 
-/** options: attributes by name; `text`, `on` {event: listener}; those that are null or false are left out. */
+/**
+ * options: attributes by name; `text`: the content; `on`: {event: listener}. Attributes that are null or false are
+ * omitted.
+ */
 export function element(tag, options = {}, ...children) {
   return build(document.createElement(tag), options, children);
 }
@@ -22,7 +26,7 @@ export function svg(tag, options = {}, ...children) {
 
 export const byId = (id) => document.getElementById(id);
 
-/** A number as people read it, with the whole of it for programs. */
+/** A number in readable form, with its exact value for programs. */
 export function datum(value, text, options = {}) {
   return element('data', { value: String(value), text, ...options });
 }
@@ -36,7 +40,7 @@ const icons = {
   info: 'M8 7V12 M8 4V4.1',
 };
 
-/** A verdict: a sign and a word beside its colour. kind: ok, attention, defect, unknown, waiting, info. */
+/** A verdict: a sign and a word, in addition to its colour. kind: ok, attention, defect, unknown, waiting, info. */
 export function verdict(kind, text) {
   return element(
     'span',

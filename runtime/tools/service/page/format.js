@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Formats numbers for users.
 
 const whole = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
 const significant = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map(
@@ -10,7 +10,10 @@ const known = (value) => typeof value === 'number' && Number.isFinite(value);
 
 export const count = (value) => (known(value) ? whole.format(value) : nothing);
 
-/** With so many significant digits, 9 at most; very small and very large ones with a power of ten. */
+/**
+ * A number with the given number of significant digits, at most 9; very small and very large numbers have a power of
+ * ten.
+ */
 export function number(value, digits = 4) {
   if (!known(value)) return nothing;
   const size = Math.abs(value);
@@ -41,7 +44,7 @@ export function duration(seconds) {
   return hours > 0 ? `${hours} h ${minutes} min` : `${minutes} min ${Math.floor(seconds % 60)} s`;
 }
 
-/** `one` for 1, else `many`, behind the number. */
+/** A number followed by a noun: `one` if the number is 1, otherwise `many`. */
 export const counted = (value, one, many = `${one}s`) => `${count(value)} ${value === 1 ? one : many}`;
 
 export const place = (at) => at.map((x) => number(x, 4)).join(', ');
@@ -53,7 +56,7 @@ export function clock(text) {
   return today ? time.toLocaleTimeString() : time.toLocaleString();
 }
 
-/** The least of 1, 2, 2.5, 5 times a power of ten that is not below. */
+/** The smallest number of the form 1, 2, 2.5 or 5 times a power of ten that is at least `value`. */
 export function niceStep(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   for (const step of [1, 2, 2.5, 5]) if (step * power >= value * (1 - 1e-9)) return step * power;

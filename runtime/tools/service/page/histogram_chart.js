@@ -1,4 +1,5 @@
-// The paper's histogram of a mesh beside those of its masters: bars for the mesh, a line for the master.
+// Charts of a mesh's histogram, as in the paper, with a reference histogram: bars for the mesh, a line for the
+// reference.
 
 import { addCursor } from './chart_cursor.js';
 import { element, svg } from './element.js';
@@ -8,7 +9,7 @@ const width = 330,
   height = 190;
 const plot = { left: 40, right: width - 8, top: 10, bottom: height - 24 };
 
-/** Shares differ by orders: of their square roots the small ones are seen beside the large. */
+/** Shares differ by orders of magnitude: with a square root, small shares are visible beside large ones. */
 const scales = { linear: (x) => x, root: Math.sqrt };
 
 const ticksTo = (top) => {
@@ -44,7 +45,7 @@ function grid(top, scale) {
   return { parts, y };
 }
 
-/** The least of 5 % steps, or of 1 % below that, that has room for all. */
+/** The end of the axis: the smallest multiple of 5 %, or below 20 % of 1 %, that is at least the highest share. */
 const topOf = (...histograms) => {
   const highest = Math.max(0.01, ...histograms.flat());
   const step = highest > 0.2 ? 0.05 : 0.01;
@@ -52,8 +53,9 @@ const topOf = (...histograms) => {
 };
 
 /**
- * title; shares: of the mesh; master: {name, shares}, or null. top: the highest share of the axis. scale: linear, root.
- * Both histograms have as many bins.
+ * title: heading. shares: of the mesh. master: the reference histogram {name, shares}, or null. top: the highest share
+ * of the axis. scale: linear or root.
+ * Both histograms must have the same number of bins.
  */
 function histogram({ title, note, shares, master, top, scale, main }) {
   const shape = scales[scale],
@@ -138,7 +140,10 @@ const legend = (has_masters) =>
       : []),
   );
 
-/** shares: of the mesh. masters: [{class, name, shares}]. found(class): {mse, emd}. best: the class that is nearest. */
+/**
+ * shares: of the mesh. masters: reference histograms [{class, name, shares}]. found(class): returns {mse, emd}. best:
+ * the nearest class.
+ */
 export function showHistograms({ shares, masters, found, best }) {
   const node = element('div', { class: 'histograms' }),
     fitting = masters.filter((master) => master.shares.length === shares.length);

@@ -1,11 +1,11 @@
-// What was seen of a world in the last minutes.
+// The samples of a world over the last minutes.
 
 export const historySeconds = 300;
 
 export class History {
   #samples = [];
 
-  /** sample.time: seconds, growing; what is older than the history goes. */
+  /** sample.time: seconds, ascending. Samples older than the history are removed. */
   add(sample) {
     this.#samples.push(sample);
     const first = this.#samples.findIndex((old) => old.time >= sample.time - historySeconds - 2);

@@ -1,4 +1,4 @@
-// The page: asks the service once a second and shows what it says.
+// The page: queries the service once a second and shows its state.
 
 import { Api } from './api.js';
 import { byId, element } from './element.js';
@@ -34,12 +34,13 @@ function openReport(id) {
   else location.hash = report_mark + id;
 }
 
-/** By hand or by its link; the view comes to it, as if it were another page. */
+/** Shows a report that the user has opened, directly or by a link, and scrolls to it as to a new page. */
 async function showReport(id) {
   byId('report').focus({ preventScroll: true });
   byId('report').scrollIntoView({ block: 'start' });
   await view.open(id);
-  byId('report').scrollIntoView({ block: 'start', behavior: 'instant' }); // it was too short to come to the top
+  // Before it was open, the report was too short to reach the top.
+  byId('report').scrollIntoView({ block: 'start', behavior: 'instant' });
 }
 
 function finished(upload) {
@@ -130,7 +131,7 @@ function told({ ok, error, retry }) {
   byId('connection-retry').hidden = ok;
   byId('connection-retry').textContent = wants_token ? 'Enter the token' : 'Try now';
   document.body.classList.toggle('stale', !ok);
-  // A report's link waits until what stands above it has its size.
+  // The link to a report is followed only when the sections above the report have their final size.
   if (!begun) list.refresh().then(followHash, followHash);
   begun = true;
 }

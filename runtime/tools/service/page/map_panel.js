@@ -1,4 +1,4 @@
-// The map with its controls: all heights or one, near or far, and a legend of the levels.
+// The map with its controls: all heights or one, zoom, and a legend of the levels of detail.
 
 import { datum, element, svg } from './element.js';
 import { count, counted, nothing, number } from './format.js';
@@ -88,7 +88,7 @@ export class MapPanel {
     }).observe(node);
   }
 
-  /** name: of a world; null: none. */
+  /** name: of a world; null: no world. */
   show(name) {
     if (name === this.#world) return;
     this.#world = name;

@@ -1,13 +1,13 @@
-// The map: chunks as squares seen from above, x to the right and z down, drawn on a canvas.
+// The map: draws chunks on a canvas, as squares seen from above, x to the right and z down.
 
 import { counted, number } from './format.js';
 
-/** Levels past the last colour have that one. */
+/** Number of colours for levels; coarser levels share the last colour. */
 export const levelColours = 9;
 export const colourOfLevel = (level) => `--level-${Math.min(level, levelColours - 1)}`;
 
 const smallestScale = 1e-4,
-  largestScale = 1e3; // pixels a metre
+  largestScale = 1e3; // pixels per metre
 
 export class MapView {
   #canvas;
@@ -15,12 +15,12 @@ export class MapView {
   #map = null;
   #byLevel = [];
   #height = null;
-  #view = null; // {x, z: metres in the middle, scale: pixels a metre}; null: all is shown
+  #view = null; // the visible part: {x, z: metres at the centre, scale: pixels per metre}; null: the whole map
   #drawn = 0;
   #asked = false;
   #pointers = new Map();
 
-  /** told(text): what is under the pointer or in the middle. */
+  /** told(text): receives a description of the chunk under the pointer or at the centre. */
   constructor(canvas, told) {
     this.#canvas = canvas;
     this.#told = told;
@@ -47,12 +47,15 @@ export class MapView {
     canvas.addEventListener('blur', () => this.#ask());
   }
 
-  /** How many chunks the last picture shows. */
+  /** Number of chunks in the last picture. */
   get drawn() {
     return this.#drawn;
   }
 
-  /** map: of /api/v1/worlds/NAME/chunks. height: metres, only chunks there are shown; null: all. */
+  /**
+   * map: the answer of /api/v1/worlds/NAME/chunks. height: metres, only chunks at that height are shown; null: all
+   * chunks.
+   */
   show(map, height) {
     if (this.#map?.name !== map.name) this.#view = null;
     this.#map = map;
@@ -86,7 +89,7 @@ export class MapView {
     return chunk[2] * width <= this.#height && this.#height < (chunk[2] + 1) * width;
   }
 
-  /** The view in which everything has room. */
+  /** The view that shows the whole map. */
   #whole() {
     let [x0, z0, x1, z1] = [Infinity, Infinity, -Infinity, -Infinity];
     const include = (x, z, width) => {
@@ -199,7 +202,7 @@ export class MapView {
 
     this.#drawn = 0;
     context.strokeStyle = colour('--map-line');
-    // The coarse ones first: what is finest is what counts where several lie above each other.
+    // Coarse levels are drawn first, so that the finest chunk is visible where several lie above each other.
     for (let level = this.#byLevel.length - 1; level >= 0; --level) {
       const meters = this.#width(level),
         size = meters * view.scale;
@@ -240,7 +243,7 @@ export class MapView {
       context.lineTo(-9, 9);
       context.closePath();
     } else {
-      context.beginPath(); // it looks up or down
+      context.beginPath(); // the viewer looks straight up or down
       context.arc(0, 0, 8, 0, 2 * Math.PI);
     }
     context.stroke();

@@ -1,4 +1,4 @@
-// An eye that turns around a place. Matrices are in columns, as WebGL takes them.
+// A camera that orbits a target. Matrices are column-major, as WebGL requires.
 
 const field_of_view = 0.7; // radians, from top to bottom
 const steepest = 1.5;
@@ -30,7 +30,7 @@ export class Camera {
     this.distance = Math.min(Math.max(this.distance * factor, this.mesh.radius * 0.01), this.mesh.radius * 20);
   }
 
-  /** What looks at a place closely, from outside: {target, yaw, pitch, distance}. */
+  /** The view that shows a place closely from outside the mesh: {target, yaw, pitch, distance}. */
   closeTo(place) {
     const out = place.map((x, axis) => x - this.mesh.centre[axis]);
     const length = Math.hypot(...out);
@@ -43,7 +43,7 @@ export class Camera {
     };
   }
 
-  /** Goes a part of the way, 0 to 1, from one such view to another. */
+  /** Interpolates between two such views. part: 0 to 1. */
   between(from, to, part) {
     const mix = (a, b) => a + (b - a) * part;
     const turn = Math.atan2(Math.sin(to.yaw - from.yaw), Math.cos(to.yaw - from.yaw));
@@ -63,7 +63,7 @@ export class Camera {
     return this.target.map((x, axis) => x + this.distance * back[axis]);
   }
 
-  /** From the mesh's space to clip space, for a picture of so many times its height. */
+  /** The matrix from mesh coordinates to clip space. aspect: width divided by height of the picture. */
   matrix(aspect) {
     const eye = this.eye,
       back = unit(eye.map((x, axis) => x - this.target[axis]));
@@ -72,7 +72,7 @@ export class Camera {
     const far =
       this.distance + Math.hypot(...this.target.map((x, axis) => x - this.mesh.centre[axis])) + this.mesh.radius * 1.5;
     const near = Math.max(this.distance * 0.02, far * 1e-4);
-    // A tall picture must not cut the mesh's sides off.
+    // In a picture that is higher than wide, the sides of the mesh must not be cut off.
     const f = (1 / Math.tan(field_of_view / 2)) * Math.min(1, aspect);
     const [sx, sy] = [f / aspect, f],
       sz = (far + near) / (near - far),
@@ -99,7 +99,7 @@ export class Camera {
   }
 }
 
-/** A place in pixels: [x, y, depth], depth below 0: behind the eye. */
+/** The position of a place in pixels: [x, y, depth]; depth is below 0 if the place is behind the camera. */
 export function project(m, place, width, height) {
   const [x, y, z] = place,
     w = m[3] * x + m[7] * y + m[11] * z + m[15];

@@ -1,10 +1,11 @@
-// A mesh for the view, from the bytes of /api/v1/reports/ID/preview.
+// Reads a preview mesh from the bytes of /api/v1/reports/ID/preview.
 
 const magic = 'SGMPREV1';
 
 /**
- * Of length 1, weighted by areas; 0 where all areas are 0. At the rim of a sliver the renderer goes past the corners:
- * between normals of very different lengths that would end up anywhere, and show as a dark speck.
+ * Normals of the points, weighted by the triangles' areas, scaled to length 1; 0 if all areas are 0. They must be
+ * scaled: at the rim of a thin triangle the rasterizer extrapolates beyond its corners, and between normals of very
+ * different lengths the result would have an arbitrary direction and appear as a dark speck.
  */
 function normalsOf(positions, indices) {
   const normals = new Float32Array(positions.length);
@@ -20,7 +21,7 @@ function normalsOf(positions, indices) {
   return normals;
 }
 
-/** Its length is twice the triangle's area. */
+/** The normal of a triangle; its length is twice the triangle's area. */
 export function faceNormal(positions, indices, i) {
   const [a, b, c] = [3 * indices[i], 3 * indices[i + 1], 3 * indices[i + 2]];
   const ux = positions[b] - positions[a],
@@ -32,7 +33,10 @@ export function faceNormal(positions, indices, i) {
   return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
 }
 
-/** {positions, indices, normals, centre, radius}; positions count from the preview's origin. Throws. */
+/**
+ * Returns {positions, indices, normals, centre, radius}; positions are relative to the preview's origin. Throws an
+ * error if the bytes are invalid.
+ */
 export function readPreview(buffer) {
   const view = new DataView(buffer);
   const head = buffer.byteLength < 16 ? '' : String.fromCharCode(...new Uint8Array(buffer, 0, 8));
@@ -64,8 +68,8 @@ export function readPreview(buffer) {
 }
 
 /**
- * The edges of each kind that measures can find: {open_edge, nonmanifold_edge, turned_edge}, arrays of
- * [x, y, z, x, y, z]. Points at one place are one point here, as for the measures.
+ * Finds the edges of each kind of defect in a mesh: {open_edge, nonmanifold_edge, turned_edge}, arrays of [x, y, z, x,
+ * y, z]. Points at the same place count as one point, as in the service's measures.
  */
 export function defectEdges({ positions, indices }) {
   const ids = new Map(),
@@ -75,7 +79,7 @@ export function defectEdges({ positions, indices }) {
     if (!ids.has(key)) ids.set(key, i);
     same[i] = ids.get(key);
   }
-  const edges = new Map(); // by their points: how many go along it, and how many against it
+  const edges = new Map(); // by both points: how many triangles use the edge in each direction
   for (let i = 0; i < indices.length; ++i) {
     const from = same[indices[i]],
       to = same[indices[i % 3 === 2 ? i - 2 : i + 1]];

@@ -1,4 +1,4 @@
-// The turning view of an uploaded mesh: by hand, by keys, or by itself, with its defects marked.
+// The view of an uploaded mesh, turned by the pointer, by keys, or automatically, with marks at its defects.
 
 import { datum, element, reducedMotion, svg } from './element.js';
 import { count, counted } from './format.js';
@@ -8,14 +8,14 @@ import { makePainter } from './mesh_painter.js';
 import { defectEdges, faceNormal } from './mesh_preview.js';
 import { makeWebglRenderer } from './mesh_webgl.js';
 
-const turn_speed = 0.35; // radians a second
+const turn_speed = 0.35; // radians per second
 const way_seconds = 0.6;
-/** Milliseconds of a picture past which the view does not turn by itself. */
+/** If drawing takes more milliseconds than this, the view does not turn automatically. */
 const slow = 120;
 
 const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 
-/** Edges of those kinds alone that the service has found too, and only where the preview is the whole mesh. */
+/** The edges with defects of kinds that the service has found too. Empty unless the preview is the whole mesh. */
 function markedEdges(mesh, report) {
   const { preview, measures } = report;
   const edges = { open_edge: [], nonmanifold_edge: [], turned_edge: [] };
@@ -47,7 +47,7 @@ export class MeshView {
   #observers = [];
   #note = element('p', { class: 'muted view-note' });
 
-  /** mesh: of readPreview(); report: its report. */
+  /** mesh: from readPreview(). report: its report. */
   constructor(mesh, report) {
     this.#mesh = mesh;
     this.#camera = new Camera(mesh);
@@ -122,7 +122,7 @@ export class MeshView {
     this.#renderer.dispose();
   }
 
-  /** Goes to one of the report's places. */
+  /** Moves the camera to a place of the report. */
   focus(index) {
     this.#chosen = index;
     this.#setTurning(false);
@@ -146,7 +146,7 @@ export class MeshView {
   }
 
   #lost() {
-    if (this.#observers.length === 0) return; // given back by dispose()
+    if (this.#observers.length === 0) return; // dispose() has released the context intentionally
     this.#useRenderer(true);
     this.#ask();
   }

@@ -1,4 +1,4 @@
-// Asks again and again: not while the tab is hidden, and less and less often while nobody answers.
+// Repeats a query: not while the tab is hidden, and at growing intervals while the service does not answer.
 
 const longestWait = 15000;
 
@@ -11,8 +11,9 @@ export class Poller {
   #failures = 0;
 
   /**
-   * ask(): a promise. told({ok, error, retry}): after each; retry: milliseconds until the next.
-   * period: milliseconds between two, while all is well.
+   * ask(): returns a promise. told({ok, error, retry}): called after each query; retry: milliseconds until the next
+   * one.
+   * period: milliseconds between two queries while they succeed.
    */
   constructor(ask, period, told = () => {}) {
     this.#ask = ask;
@@ -21,7 +22,7 @@ export class Poller {
     document.addEventListener('visibilitychange', () => (document.hidden ? this.#stop() : this.now()));
   }
 
-  /** At once, and then as often as it should be. */
+  /** Queries immediately, and then periodically. */
   now() {
     this.#stop();
     if (!document.hidden && !this.#asking) this.#run();

@@ -1,10 +1,10 @@
-// Why something was refused, as the service's problem tells it.
+// Shows why the service rejected a request.
 
 import { element } from './element.js';
 import { nothing } from './format.js';
 import { table } from './table.js';
 
-/** problem: the object of application/problem+json. */
+/** problem: the object of type application/problem+json. */
 export function showProblem(problem) {
   const facts = [
     ['Status', problem.status ? `${problem.status} ${problem.title ?? ''}` : null],
@@ -30,7 +30,7 @@ export function showProblem(problem) {
   return node;
 }
 
-/** What the compiler of grammars says. */
+/** Shows the compiler's messages about a grammar. */
 export function showDiagnostics(diagnostics) {
   return element(
     'div',

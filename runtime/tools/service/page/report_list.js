@@ -1,10 +1,10 @@
-// The reports that the service keeps, whoever sent the meshes.
+// The list of the reports that the service keeps, from all clients.
 
 import { element, verdict } from './element.js';
 import { bytes, clock, duration, nothing } from './format.js';
 import { table } from './table.js';
 
-/** What has become of an upload, of a report or of its line in the list. */
+/** The verdict on an upload, or on a report. Its argument may also be an entry of the list. */
 export function stateVerdict({ state, valid }) {
   if (state === 'done') return valid ? verdict('ok', 'valid') : verdict('defect', 'not valid');
   if (state === 'failed') return verdict('attention', 'refused');
@@ -18,7 +18,7 @@ export class ReportList {
   #open;
   #shown = '';
 
-  /** open(id): somebody wants to see a report. */
+  /** open(id): called when the user selects a report. */
   constructor(api, node, open) {
     this.#api = api;
     this.#node = node;
@@ -28,7 +28,7 @@ export class ReportList {
 
   async refresh() {
     const { reports } = await this.#api.json('/api/v1/reports');
-    // What has not changed stays: whoever is in the list by keyboard is not thrown out of it.
+    // Unchanged entries stay in the document, so that a keyboard user does not lose the focus.
     const shown = JSON.stringify(reports);
     if (shown === this.#shown) return;
     this.#shown = shown;

@@ -1,10 +1,10 @@
-// Where the defects are: a list, each line of which brings the view of the mesh there.
+// The list of places with defects. Selecting an entry moves the camera of the mesh view there.
 
 import { element } from './element.js';
 import { count, counted, place } from './format.js';
 import { kindOf, signNode, totalOf } from './defect_kinds.js';
 
-/** focus(index): look at this one of measures.places. */
+/** focus(index): called to show measures.places[index]. */
 export function showPlaces(measures, focus) {
   const places = measures.places ?? [];
   const node = element('div', { class: 'places' });

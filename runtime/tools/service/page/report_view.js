@@ -1,4 +1,4 @@
-// One report: its verdict, the view of its mesh with its places, its measures, its histogram.
+// One report: its verdict, the view of its mesh with defects, its measures, its histogram.
 
 import { Problem } from './api.js';
 import { byId, datum, element, verdict } from './element.js';
@@ -27,7 +27,7 @@ export class ReportView {
     this.#api = api;
   }
 
-  /** Shows a report once it is done. */
+  /** Waits until a report is finished, and shows it. */
   async open(id) {
     this.#wanted = id;
     try {

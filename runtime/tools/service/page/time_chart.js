@@ -1,4 +1,4 @@
-// A chart of a few numbers over the last five minutes.
+// A chart of a few quantities over the last five minutes.
 
 import { addCursor } from './chart_cursor.js';
 import { element, svg } from './element.js';
@@ -8,7 +8,10 @@ import { historySeconds } from './history.js';
 const width = 360,
   height = 170;
 const plot = { left: 46, right: width - 10, top: 10, bottom: height - 26 };
-/** Seconds without a sample past which a line breaks: the tab was hidden, or the service was gone. */
+/**
+ * If there is no sample for more seconds than this, the line is interrupted: the tab was hidden, or the service did not
+ * run.
+ */
 const gap = 4;
 
 const xOf = (age) => plot.right - (age / historySeconds) * (plot.right - plot.left);
@@ -30,9 +33,10 @@ export class TimeChart {
   #note;
 
   /**
-   * series: [{key, label}], key: member of the samples. format(value): with its unit, for people.
-   * axis(top): {name, size}: what the axis is told in, of a highest value. least: the least highest value of the axis.
-   * limit: key of a value that is drawn as a bound wherever the others come near it. note(sample): one more line.
+   * series: [{key, label}], key: member of the samples. format(value): text of a value with its unit.
+   * axis(top): returns {name, size}, the unit of the axis for a highest value. least: minimum of the axis's end.
+   * limit: key of a value that is drawn as a bound where other values come near it. note(sample): one more line of
+   * text.
    */
   constructor({ title, series, format, axis, least = 1, limit = null, note = null }) {
     this.#series = series;
@@ -86,7 +90,7 @@ export class TimeChart {
     });
   }
 
-  /** samples: oldest first, each with `time`; now: as theirs. */
+  /** samples: oldest first, each with `time`. now: the current time on the same clock. */
   update(samples, now) {
     this.#samples = samples;
     this.#now = now;

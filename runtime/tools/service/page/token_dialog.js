@@ -1,8 +1,11 @@
-// Asks whoever looks at the page for the service's token.
+// Asks the user for the service's token.
 
 import { byId } from './element.js';
 
-/** A promise of what was written, or of null. wrong: that the last one was not accepted. */
+/**
+ * Returns a promise of the entered text, or of null if the user cancels. wrong: the service has rejected the last
+ * token.
+ */
 export function askToken(wrong) {
   const dialog = byId('token-dialog'),
     form = byId('token-form'),

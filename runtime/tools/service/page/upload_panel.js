@@ -1,4 +1,4 @@
-// Where files come from, by hand or by drag and drop, and how far each has got.
+// The panel in which the user chooses files or drops them, and which shows the progress of each.
 
 import { byId, element, verdict } from './element.js';
 import { bytes, percent } from './format.js';
@@ -22,7 +22,10 @@ export class UploadPanel {
   #items = new Map();
   #limit = element('span');
 
-  /** open(id): somebody wants to see a report. finished(upload): it is judged, refused or cancelled. */
+  /**
+   * open(id): called when the user selects a report. finished(upload): called when the upload is judged, rejected or
+   * cancelled.
+   */
   constructor(api, node, { open, finished }) {
     this.#open = open;
     this.#finished = finished;
@@ -98,7 +101,7 @@ export class UploadPanel {
 
   #takeDrops() {
     const veil = byId('drop-veil');
-    let depth = 0; // enter and leave come for each element on the way
+    let depth = 0; // enter and leave events occur for every element that the pointer crosses
     const holdsFiles = (event) => event.dataTransfer?.types.includes('Files');
     const show = (shown) => {
       veil.hidden = !shown;

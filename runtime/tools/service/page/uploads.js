@@ -1,4 +1,4 @@
-// Files on their way to the service: one is sent at a time, each may be cancelled until it is there.
+// The queue of files to upload: one file is sent at a time, and each can be cancelled until it has been sent.
 
 import { bytes } from './format.js';
 
@@ -18,14 +18,16 @@ const pause = (milliseconds) =>
     setTimeout(resolve, milliseconds);
   });
 
-/** The part of a name that the service takes: 255 bytes of UTF-8, with its ending. */
+/** The end of a file name, shortened to the 255 bytes of UTF-8 that the service accepts; it keeps the extension. */
 function shortName(name) {
   let kept = name;
   while (new TextEncoder().encode(kept).length > 255) kept = kept.slice(1);
   return kept;
 }
 
-/** A file. state: queued, sending, judging, done, failed, cancelled; sent: bytes; problem: why it failed. */
+/**
+ * An upload of one file. state: queued, sending, judging, done, failed, cancelled. sent: bytes. problem: why it failed.
+ */
 export class Upload {
   constructor(file, options) {
     this.file = file;
@@ -49,18 +51,18 @@ export class Uploads {
   #sending = false;
   #mostBytes = Infinity;
 
-  /** told(upload): something about it is new. */
+  /** told(upload): called whenever the state of an upload has changed. */
   constructor(api, told) {
     this.#api = api;
     this.#told = told;
   }
 
-  /** Files of more bytes than the service takes are not sent at all. */
+  /** Sets the maximum size that the service accepts. Larger files are not sent at all. */
   limit(most_bytes) {
     this.#mostBytes = most_bytes;
   }
 
-  /** options: of grammars, [[name, value]]. */
+  /** options: parameters for grammars, [[name, value]]. */
   add(files, options) {
     for (const file of files) {
       const upload = new Upload(file, endingOf(file.name) === 'sgm' ? options : []);
@@ -70,7 +72,7 @@ export class Uploads {
     this.#run();
   }
 
-  /** Does nothing once all of the file is there: what is judged then is judged to its end. */
+  /** Cancels an upload. Does nothing once the file has been sent completely: the service then judges it to the end. */
   cancel(upload) {
     if (upload.state === 'queued') this.#set(upload, 'cancelled');
     if (upload.state === 'sending') upload.abort.abort();
@@ -81,7 +83,7 @@ export class Uploads {
     this.#told(upload);
   }
 
-  /** Why the service would not take a file, where that can be told before it is sent. */
+  /** The reason why the service would reject a file, if it is known before sending; otherwise null. */
   #whyNot({ name, size }) {
     if (!(endingOf(name) in types))
       return `This file cannot be validated: the service takes ${endings.map((ending) => `.${ending}`).join(', ')}`;
@@ -126,7 +128,7 @@ export class Uploads {
     }
   }
 
-  /** Until the report is done; the next file goes out meanwhile. */
+  /** Waits until the report is finished. The next file is sent meanwhile. */
   async #follow(upload) {
     try {
       for (let wait = 100; ['waiting', 'running'].includes(upload.report.state); wait = Math.min(wait * 1.5, 1000)) {

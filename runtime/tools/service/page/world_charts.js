@@ -1,4 +1,4 @@
-// Which charts a world has, and what of its summary they show.
+// The charts of a world, and the data of the summary that they show.
 
 import { bytes, byteUnit, count, number, percent } from './format.js';
 import { TimeChart } from './time_chart.js';
@@ -7,7 +7,7 @@ const plain = (name) => () => ({ name, size: 1 });
 const perSecond = (value) => `${number(value, 3)}/s`;
 const milliseconds = (value) => `${number(value, 3)} ms`;
 
-/** One sample of the charts. time: seconds; world: of /api/v1/summary. */
+/** One sample for the charts. time: seconds. world: an element of /api/v1/summary. */
 export function sampleOf(world, time) {
   return {
     time,

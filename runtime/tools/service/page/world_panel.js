@@ -1,11 +1,11 @@
-// What is known of one world besides its charts: what it is, and its measures with verdicts.
+// The description of a world apart from its charts: its properties, and its measures with verdicts.
 
 import { datum, element } from './element.js';
 import { bytes, count, counted, nothing, number, percent } from './format.js';
 import { measureColumns, measureRow, sliverRow, table } from './table.js';
 
 const frame_ms = 1000 / 60;
-/** What the runtime may take of the main thread: 99 % of its updates. */
+/** Limit of the main thread's time in the runtime, for 99 % of its updates. */
 const p99_limit_ms = 2;
 
 function facts(world) {
