@@ -4,7 +4,8 @@ namespace sgm_godot {
 
 Variant anchorOf(const sgm_grammar* grammar, const sgm_anchor& anchor, const Placement& placement) {
   Transform local;
-  // The anchor's rotation turns the world's directions into its own: its transpose has its axes as columns.
+  // The anchor's rotation matrix maps world directions to the anchor's own. Its transpose has the anchor's axes as
+  // columns.
   const float* r = anchor.rotation;
   local.rows[0] = {r[0], r[3], r[6]};
   local.rows[1] = {r[1], r[4], r[7]};

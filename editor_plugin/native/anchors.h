@@ -1,5 +1,5 @@
 #pragma once
-// Which of a grammar's anchors lie in what is drawn, and the scenes that a game puts there. Main thread.
+// Tracks which of a grammar's anchors lie in the drawn chunks. Main thread only.
 
 #include <unordered_map>
 
@@ -7,23 +7,23 @@
 
 namespace sgm_godot {
 
-/// An anchor for scripts: kind, name, tag, key and transform (scene).
+/// The dictionary that describes an anchor to scripts: kind, name, tag, key and transform (in scene coordinates).
 Variant anchorOf(const sgm_grammar* grammar, const sgm_anchor& anchor, const Placement& placement);
 
 class Anchors {
  public:
   struct News {
     std::vector<sgm_anchor> come;
-    std::vector<uint64_t> gone;  // keys
+    std::vector<uint64_t> gone;  // keys of the anchors that are no longer drawn
   };
-  /// What a frame's changes make of them. A chunk that gives way to finer or coarser ones hands its anchors on: they
-  /// neither come nor go.
+  /// The anchors that appear and disappear with a frame's changes. If a chunk is replaced by finer or coarser chunks,
+  /// its anchors pass to them and neither appear nor disappear.
   News follow(const std::vector<Picture::Change>& changes);
-  std::vector<uint64_t> clear();  // keys of all that were there
+  std::vector<uint64_t> clear();  // forgets all anchors; returns their keys
 
  private:
   std::map<sgm_chunk_key, std::vector<uint64_t>, KeyLess> by_chunk_;
-  std::unordered_map<uint64_t, int> shown_;  // key -> chunks that have it
+  std::unordered_map<uint64_t, int> shown_;  // anchor key -> number of drawn chunks that contain the anchor
 };
 
 }  // namespace sgm_godot

@@ -1,5 +1,5 @@
 #pragma once
-// A thread of the plugin's own, for work that the engine's main thread must not wait for.
+// A background thread for work that must not delay the engine's main thread.
 
 #include <condition_variable>
 #include <deque>
@@ -9,21 +9,21 @@
 
 namespace sgm_godot {
 
-/// Lets the engine's own threads go first where there are fewer processors than threads: for the calling thread. What a
-/// system does not allow is left as it is.
+/// Lowers the priority of the calling thread, so that the engine's own threads run first if there are fewer processors
+/// than threads. Has no effect if the system does not allow it.
 void yieldToEngine();
 
 class Background {
  public:
   Background();
-  /// Finishes everything that was given to it.
+  /// Blocks until all submitted work is done.
   ~Background();
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  /// Any thread. Work is done in the order in which it comes; it lets no exception out.
+  /// Submits work. Thread-safe. Work runs in the order of submission, and must not throw exceptions.
   void run(std::function<void()> work);
-  /// Waits until everything that was given to it is done.
+  /// Blocks until all work that was submitted so far is done.
   void finish();
 
  private:
@@ -33,7 +33,7 @@ class Background {
   std::condition_variable changed_;
   std::deque<std::function<void()>> work_;
   bool ending_ = false, working_ = false;
-  std::thread thread_;  // last, so that all else is there when it starts
+  std::thread thread_;  // the last member, because the thread uses all members above
 };
 
 }  // namespace sgm_godot

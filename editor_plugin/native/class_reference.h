@@ -1,12 +1,12 @@
 #pragma once
-// The class reference that the editor's help shows: native/doc/*.xml, part of the library.
+// The class reference that the editor's help shows. The files native/doc/*.xml are embedded in the library.
 
 #include <span>
 #include <string_view>
 
 namespace sgm_godot {
 
-/// A text for each class, in the engine's XML format.
+/// The texts of the reference, one for each class, in the engine's XML format.
 std::span<const std::string_view> classReference();
 
 }  // namespace sgm_godot

@@ -11,7 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The engine sorts a shape's triangles in one go; so many take it well below a millisecond.
+// The engine builds a search tree over a shape's triangles in a single call; for this many it takes well below a
+// millisecond.
 constexpr size_t kTrianglesPerShape = 256;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -23,8 +24,8 @@ struct Colliders::Faces {
   std::vector<Variant> arrays;
   std::atomic<bool> packed{false};
   int32_t origin[3] = {};
-  float edge = 0;  // of the chunk, metres
-  Body body;       // as far as it is made
+  float edge = 0;  // edge of the chunk, metres
+  Body body;       // contains the shapes that have been made so far
   size_t made = 0;
 };
 
@@ -119,7 +120,7 @@ void Colliders::advance(double seconds, const std::vector<Vector3>& viewers) {
     Faces& faces = *nearest->second;
     build(faces);
     if (faces.made < faces.arrays.size()) continue;
-    // In one go, so that nobody falls through between the old and the new one.
+    // The new body replaces the old one in a single step, so that no character falls through between them.
     plugin_.physics->setSpace(faces.body.body, space_.space);
     Body& body = bodies_[nearest->first];
     free(body);
@@ -130,7 +131,8 @@ void Colliders::advance(double seconds, const std::vector<Vector3>& viewers) {
 
 bool Colliders::waitsIn(const Aabb& box) const {
   for (const auto& [key, faces] : waiting_) {
-    if (!faces->packed.load(std::memory_order_acquire)) return true;  // its size is not known yet
+    // The packing thread has not finished, so the collider's size is unknown.
+    if (!faces->packed.load(std::memory_order_acquire)) return true;
     const Vector3 corner = space_.placement.ofCorner(faces->origin).origin;
     const Vector3 c = centre(*faces);
     const Vector3 extent{std::abs(c.x - corner.x), std::abs(c.y - corner.y), std::abs(c.z - corner.z)};

@@ -1,6 +1,6 @@
 #pragma once
-// What a world collides with, in the engine's physics: takes colliders over, nearest first. Main thread; their
-// triangles are arranged on the background thread.
+// The collision bodies of a world in the engine's physics. They are made from the runtime's colliders, nearest first.
+// Main thread only; a background thread prepares the triangles.
 
 #include <map>
 
@@ -21,11 +21,11 @@ class Colliders {
   Colliders(const Colliders&) = delete;
   Colliders& operator=(const Colliders&) = delete;
 
-  /// The events of colliders among these; takes them over.
+  /// Takes the collider events out of `events` and becomes the owner of their colliders.
   void take(const std::vector<sgm_world_event>& events);
 
-  /// Makes shapes until `seconds` are over, one at least where one waits; chunks near one of `viewers` (scene) come
-  /// first. A chunk's earlier collider stays until all of the next one is there.
+  /// Makes collision shapes for `seconds`, but at least one if any is pending. Chunks near one of `viewers` (scene
+  /// coordinates) come first. The previous body of a chunk stays until all shapes of the new one exist.
   void advance(double seconds, const std::vector<Vector3>& viewers);
 
   void setPlacement(const Placement& placement);
@@ -35,7 +35,7 @@ class Colliders {
     size_t chunks = 0, waiting = 0;
   };
   Counts counts() const { return {bodies_.size(), waiting_.size()}; }
-  /// Whether a collider that touches the box (scene) still waits.
+  /// Whether a collider that touches the box (scene coordinates) is still pending.
   bool waitsIn(const Aabb& box) const;
 
  private:

@@ -1,4 +1,4 @@
-// Where the engine comes in: sgm.gdextension names sgm_godot_init.
+// The entry point of the library: the engine calls sgm_godot_init, which sgm.gdextension names.
 
 #include <deque>
 
@@ -13,7 +13,7 @@
 namespace sgm_godot {
 namespace {
 
-/// From the call of the entry point to the end of the last level.
+/// Data that live from the call of the entry point until the last initialization level ends.
 struct Loaded {
   Plugin plugin;
   std::deque<ClassRecord> classes;
@@ -25,13 +25,14 @@ void writeLog(void*, sgm_log_level level, const char* message) {
   if (level == SGM_LOG_WARNING) logWarning(message);
 }
 
-// Of the profiler's hooks the one that every thread of the runtime's comes through before it works.
+// Every thread of the runtime calls the profiler's hook `thread` before it works; this hook is used to lower its
+// priority.
 constexpr sgm_profiler kThreads{[](void*, const char*) -> uint64_t { return 0; }, [](void*, uint64_t) {},
                                 [](void*, const char*) { yieldToEngine(); }, nullptr, nullptr};
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
-/// What stands against using this library in this engine; empty where nothing does.
+/// The reason why this library cannot be used in this engine; empty if it can.
 std::string reasonAgainst() {
   GDExtensionGodotVersion version{};
   engine().get_godot_version(&version);
@@ -96,7 +97,7 @@ void stop(Loaded& loaded) {
   for (auto record = loaded.classes.rbegin(); record != loaded.classes.rend(); ++record) removeClass(*record);
   loaded.classes.clear();
   Plugin& plugin = loaded.plugin;
-  plugin.background.reset();  // waits for worlds to end
+  plugin.background.reset();  // waits until all worlds have ended
   plugin.rendering.reset();
   plugin.physics.reset();
   if (plugin.runtime != nullptr && sgm_runtime_destroy(plugin.runtime) != SGM_OK) {
@@ -105,7 +106,7 @@ void stop(Loaded& loaded) {
   plugin.runtime = nullptr;
 }
 
-/// For the editor's help. The engine forgets it together with the classes.
+/// Passes the class reference to the editor's help. The engine removes it when the classes are unregistered.
 void document() {
   if (engine().load_help == nullptr) return;
   for (const std::string_view xml : classReference()) {
@@ -116,12 +117,13 @@ void document() {
 void initialise(void* userdata, GDExtensionInitializationLevel level) {
   auto& loaded = *static_cast<Loaded*>(userdata);
   if (level == GDEXTENSION_INITIALIZATION_SCENE) start(loaded);
-  // The level that editors alone reach; without a runtime there are no classes to describe.
+  // Only editors reach this level. If the runtime could not be created, there are no classes to describe.
   if (level == GDEXTENSION_INITIALIZATION_EDITOR && loaded.plugin.runtime != nullptr) document();
 }
 
 void deinitialise(void* userdata, GDExtensionInitializationLevel level) {
-  if (level != GDEXTENSION_INITIALIZATION_SCENE) return;  // the last level that this library asked for
+  // The last level for which this library has initialized anything.
+  if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
   auto* loaded = static_cast<Loaded*>(userdata);
   stop(*loaded);
   delete loaded;
@@ -135,7 +137,7 @@ extern "C" __attribute__((visibility("default"))) GDExtensionBool sgm_godot_init
     GDExtensionInitialization* initialization) {
   using namespace sgm_godot;
   if (const char* missing = loadInterface(address, library); missing != nullptr) {
-    // Older engines have no function to tell it by but this one.
+    // Older engines offer no other function to report the error.
     const auto print = reinterpret_cast<GDExtensionInterfacePrintErrorWithMessage>(
         reinterpret_cast<void*>(address("print_error_with_message")));
     if (print != nullptr) {

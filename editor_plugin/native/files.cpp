@@ -8,8 +8,8 @@
 namespace sgm_godot {
 namespace {
 
-// Static methods cannot be called by name alone: these numbers stand for their signatures, which have not changed since
-// 4.0 (extension_api.json).
+// The engine does not find static methods by their names alone; these numbers are hashes of their signatures, which
+// have not changed since Godot 4.0 (extension_api.json).
 struct StaticMethod {
   const char* name;
   int64_t signature;

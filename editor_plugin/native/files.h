@@ -1,5 +1,5 @@
 #pragma once
-// Files by the engine's own paths: res://, also inside an exported game's package, and user://.
+// Accesses files by the engine's paths: res://, also within the package of an exported game, and user://.
 
 #include <optional>
 #include <string>
@@ -7,14 +7,14 @@
 namespace sgm_godot {
 
 std::optional<std::string> readFile(const std::string& path);
-/// Replaces the file as a whole or leaves it as it was. Returns whether it did.
+/// Replaces the whole file. On failure, leaves the file unchanged and returns false.
 bool writeFile(const std::string& path, const std::string& contents);
 bool fileExists(const std::string& path);
-/// Seconds since 1970; 0 where there is no file.
+/// Time of the last change in seconds since 1970; 0 if the file does not exist.
 int64_t modifiedTime(const std::string& path);
-/// The path for the operating system; as it is where it already is one.
+/// Converts an engine path to a path of the operating system; such a path is returned unchanged.
 std::string systemPath(const std::string& path);
-/// Makes the folder that a file is to lie in. Where it cannot, who makes the file will say so.
+/// Makes the folder of a file. Failures are not reported, since creating the file will then fail and report them.
 void makeFolderOf(const std::string& path);
 
 }  // namespace sgm_godot

@@ -1,5 +1,5 @@
 #pragma once
-// How much of a frame the plugin takes on the engine's main thread.
+// Measures how much of each frame's main-thread time the plugin uses.
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace sgm_godot {
 
-/// The last thousand frames.
+/// The times of the last thousand frames.
 class FrameTimes {
  public:
-  /// Adds what was spent to the frame that goes on.
+  /// Adds the time from construction to destruction to the current frame.
   class Span {
    public:
     explicit Span(FrameTimes& times) : times_(times), start_(Clock::now()) {}
@@ -29,7 +29,8 @@ class FrameTimes {
     times_[count_++ % kFrames] = current_;
     current_ = 0;
   }
-  double last() const { return count_ == 0 ? 0 : times_[(count_ - 1) % kFrames]; }  // milliseconds
+  // Milliseconds of the last complete frame.
+  double last() const { return count_ == 0 ? 0 : times_[(count_ - 1) % kFrames]; }
   double percentile(double share) const {
     std::vector<double> sorted(times_.begin(), times_.begin() + static_cast<ptrdiff_t>(std::min(count_, kFrames)));
     if (sorted.empty()) return 0;

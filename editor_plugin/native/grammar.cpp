@@ -9,10 +9,11 @@
 namespace sgm_godot {
 namespace {
 
-/// Reads what a grammar imports through the engine, so that it is found in an exported package too.
+/// Reads imported files through the engine, so that they are also found in an exported package.
 struct Imports {
   std::string folder;
-  std::deque<std::string> texts;  // they must stay where they are until the grammar is compiled
+  // The compiler keeps pointers to the texts, so they must not move until the grammar is compiled.
+  std::deque<std::string> texts;
 };
 
 int32_t readImport(void* user, const char* path, const char** text, size_t* size) {
@@ -28,7 +29,7 @@ int32_t readImport(void* user, const char* path, const char** text, size_t* size
 std::string folderOf(const std::string& path) {
   const size_t slash = path.rfind('/');
   if (slash == std::string::npos) return "res://";
-  // "res://cave.sgm" lies in "res:/" + "/".
+  // The folder of "res://cave.sgm" is "res:/", to which "/" and a name are appended.
   return path.substr(0, slash);
 }
 
@@ -133,8 +134,8 @@ int64_t Grammar::reload() {
     return kErrorFileCannotOpen;
   }
   file_time_ = time;
-  const Variant kept(self());  // who hears of the change may let go of it
-  adopt(*text);                // also where the text is as before: what it imports may have changed
+  const Variant kept(self());  // a listener of the signal may release the last reference to this object
+  adopt(*text);                // even if the text is unchanged, because its imports may have changed
   return valid_ ? kOk : kErrorParse;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// SgmGrammar: a text of the language as a resource, compiled.
+// SgmGrammar: a resource with the text of a grammar and its compiled form.
 
 #include "godot/conversion.h"
 #include "handles.h"
@@ -13,14 +13,14 @@ class Grammar : public Instance {
   using Instance::Instance;
   static void registerClass(ClassRecord& record);
 
-  /// What the last text that compiled became: null before there is one. Shared by worlds, which may keep it.
+  /// The result of compiling the last valid text; null before there is one. Worlds share its ownership.
   const GrammarOwner& compiled() const { return compiled_; }
-  /// Rises with every compilation that succeeded.
 
-  /// Reads a file and compiles it under its name. False where it cannot be read; a wrong text is no such failure.
+  /// Reads a file and compiles it under its name. Returns false if the file cannot be read; errors in the text are not
+  /// a failure.
   bool load(const std::string& path);
   std::string text() const { return text_; }
-  /// Reads the file again if it has changed since. Returns whether it had.
+  /// Reads the file again if it has changed since it was last read. Returns whether it had changed.
   bool followFile();
 
  private:
@@ -46,7 +46,7 @@ class Grammar : public Instance {
     std::string file, message, hint, source_line;
   };
   struct Compilation {
-    GrammarOwner grammar;  // null where the text is wrong
+    GrammarOwner grammar;  // null if the text has errors
     std::vector<Diagnostic> diagnostics;
   };
   Compilation compile(const std::string& text) const;

@@ -15,7 +15,7 @@ bool isGrammar(const std::string& path) {
   return path.size() > kEnding.size() && path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
 }
 
-/// The paths in `import "path" as name;` lines, but those that are built in.
+/// The paths in lines `import "path" as name;`, except those of the built-in library.
 std::vector<std::string> importsOf(const std::string& text) {
   std::vector<std::string> found;
   for (size_t line = 0; line < text.size();) {
@@ -39,7 +39,7 @@ std::string GrammarLoader::typeOf(const std::string& path) const { return isGram
 
 bool GrammarLoader::exists(const std::string& path) const { return !plugin().files_are_text && fileExists(path); }
 
-// So that an export takes along what a grammar imports.
+// The files that a grammar imports, so that an export includes them.
 Strings GrammarLoader::dependencies(const std::string& path, bool) const {
   const std::optional<std::string> text = readFile(path);
   std::vector<std::string> paths;
@@ -57,7 +57,7 @@ Variant GrammarLoader::load(const std::string& path, const std::string&, bool, i
     logError("the grammar '" + path + "' cannot be read");
     return kErrorFileCannotOpen;
   }
-  return made;  // with a wrong text too: it says what is wrong, and can be mended
+  return made;  // a grammar with errors is returned too: it reports the errors, and the user can correct it
 }
 
 void GrammarLoader::registerClass(ClassRecord& record) {

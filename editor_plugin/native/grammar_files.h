@@ -1,5 +1,5 @@
 #pragma once
-// .sgm files as resources: the engine's loader and saver of them.
+// The engine's loader and saver for .sgm files as resources.
 
 #include "godot/conversion.h"
 

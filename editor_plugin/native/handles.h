@@ -1,5 +1,5 @@
 #pragma once
-// The runtime's handles as owners.
+// Owners of the runtime's handles, which destroy them automatically.
 
 #include <sgm/sgm.h>
 

@@ -11,15 +11,16 @@ namespace {
 
 constexpr const char* kShaders[] = {"res://addons/sgm/shaders/triplanar.gdshader",
                                     "res://addons/sgm/shaders/uv.gdshader"};
-constexpr size_t kMostColors = 64, kMostViewers = 4;  // of the shaders' arrays
-constexpr int kPatternMetres = 1024;                  // after which the shaders' patterns repeat
+constexpr size_t kMostColors = 64, kMostViewers = 4;  // sizes of arrays in the shaders
+constexpr int kPatternMetres = 1024;                  // metres after which the patterns of the shaders repeat
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
 Variant make(const char* class_name) { return Variant(engine().classdb_construct_object(Name(class_name).get())); }
 
-/// A shader of the plugin with the patterns alone that a world has: one with all takes seconds to compile. Worlds with
-/// the same patterns share it, as long as one of them is there and its file stays as it was.
+/// Returns the plugin's shader, reduced to the patterns of the world's materials: a shader with all patterns takes
+/// seconds to compile. Worlds with the same patterns share a shader while any of them uses it and the shader's file is
+/// unchanged.
 Variant shaderWith(Plugin& plugin, const Variant& whole, const std::string& path, uint32_t patterns) {
   std::string code = "#define SGM_PATTERNS_CHOSEN\n";
   for (uint32_t i = 0; i < 32; ++i) {
@@ -81,7 +82,8 @@ std::vector<Rid> Materials::rids() const {
   return result;
 }
 
-// To the server and not to the material, which may be a file that an editor would save then.
+// Sets a parameter directly at the RenderingServer, not in the material: the material may be a file, which an editor
+// would then save with the parameter.
 void Materials::send(const char* parameter, const Variant& value) const {
   const Variant server = singleton("RenderingServer");
   const Name set("material_set_param"), name(parameter);
@@ -91,7 +93,7 @@ void Materials::send(const char* parameter, const Variant& value) const {
 void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& ranges, double cell_size,
                        const Placement& placement) {
   if (!sent_) {
-    // The engine pads arrays that are too short, but not silently in all versions.
+    // Arrays have the full length: the engine pads shorter ones, but with warnings in some versions.
     Packed<Color> colors(kMostColors);
     Packed<int32_t> patterns(kMostColors);
     Packed<float> reliefs(kMostColors);

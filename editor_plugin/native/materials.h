@@ -1,5 +1,5 @@
 #pragma once
-// The materials that a world's surfaces are drawn with. Main thread.
+// The engine materials with which a world's surfaces are drawn. Main thread only.
 
 #include "morph_ranges.h"
 #include "settings.h"
@@ -11,26 +11,26 @@ struct Plugin;
 
 class Materials {
  public:
-  /// Loads the plugin's own shader; where it is not there, a plain material takes its place, and the log is told.
+  /// Loads the plugin's own shader. If its file is missing, uses a plain material and logs an error.
   void rebuild(Plugin& plugin, const std::vector<std::string>& names, const Settings& settings);
 
-  const std::vector<uint16_t>& slots() const { return slots_; }  // by material of the grammar
-  std::vector<Rid> rids() const;                                 // by slot
+  const std::vector<uint16_t>& slots() const { return slots_; }  // indexed by material of the grammar
+  std::vector<Rid> rids() const;                                 // indexed by slot
   const std::vector<Color>& palette() const { return palette_; }
-  /// The slot's material as a game set it; nil for the blended one.
+  /// The material that a game has set for a slot; nil for slot 0, the blended material.
   const Variant& material(uint16_t slot) const { return materials_[slot].own; }
   const std::string& name(uint16_t slot) const { return materials_[slot].name; }
 
-  /// Has everything sent again.
+  /// Makes the next update() send all parameters again.
   void resend() { sent_ = false; }
-  /// What shaders of surfaces read, all that changes from frame to frame; `viewers` in the scene.
+  /// Sends the parameters of the surface shaders that change from frame to frame. viewers: in scene coordinates.
   void update(const std::vector<Vector3>& viewers, const MorphRanges& ranges, double cell_size,
               const Placement& placement);
 
  private:
   struct Slot {
     std::string name;
-    Variant own;  // nil: the plugin's
+    Variant own;  // nil: the plugin's material is used
     Variant used;
   };
   void send(const char* parameter, const Variant& value) const;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kNever = 1e9f;
 
-/// How far the box of a chunk is from the nearest viewer, at its nearest and at its farthest point: metres.
+/// Distances in metres from the nearest viewer to the nearest and to the farthest point of a chunk's box.
 std::pair<float, float> distances(const sgm_chunk_key& key, const std::vector<Units>& viewers, int32_t cell_units) {
   const double edge = std::ldexp(static_cast<double>(cell_units) * SGM_CHUNK_CELLS, key.level);
   const double corner[3] = {key.x * edge, key.y * edge, key.z * edge};
@@ -48,7 +48,7 @@ MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vec
       ranges.begin[level] = ranges.end[level] = kNever;
       continue;
     }
-    // Half of the way stands still, so that near surfaces do not swim.
+    // Vertices stay in place for at least half of the distance, so that near surfaces do not visibly move.
     ranges.begin[level] = std::max(finer_ends[level], ranges.end[level] / 2);
   }
   return ranges;

@@ -1,5 +1,6 @@
 #pragma once
-// Where vertices move towards the next coarser level, so that no change of level pops.
+// Distances at which vertices move towards the surface of the next coarser level (geomorphing), so that level changes
+// do not pop.
 
 #include <array>
 
@@ -7,17 +8,18 @@
 
 namespace sgm_godot {
 
-/// By level: from `begin` metres from the nearest viewer on vertices start to move, at `end` they have arrived; begin
-/// >= end: none moves.
+/// For each level: vertices start to move at `begin` metres from the nearest viewer, and have reached the coarser
+/// surface at `end` metres. If begin >= end, no vertex of the level moves.
 struct MorphRanges {
   std::array<float, SGM_MAX_LEVEL + 1> begin{}, end{};
   friend bool operator==(const MorphRanges&, const MorphRanges&) = default;
 };
 
-/// Seams join vertices of a level that do not move, where it meets a finer one: so that nothing opens, a level moves
-/// only beyond all chunks of finer levels that are drawn with a seam, as they stand at this moment. (A range from the
-/// world's distances alone would open gaps: chunks are large, and reach beyond their level's distance.) What moves
-/// arrives at the nearest place where the level ends. `viewers`: in units of the world; `cell_units` of level 0.
+/// Computes the ranges from the drawn chunks. A seam joins a level to a finer one by vertices that do not move; so that
+/// no gap opens, a level moves only beyond all drawn chunks of that level that have a seam to a finer one. (A range
+/// computed from the world's distances alone would open gaps, because chunks are large and extend beyond their level's
+/// distance.) Vertices arrive at the nearest place where the level ends. `viewers`: in units of the world.
+/// `cell_units`: cell size of level 0.
 MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vector<Units>& viewers, int32_t cell_units,
                         int32_t top_level);
 

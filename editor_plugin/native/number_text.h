@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in messages: with a point, whatever locale the editor has chosen.
+// Formats numbers for messages with a decimal point, independently of the locale that the editor has chosen.
 
 #include <charconv>
 #include <string>

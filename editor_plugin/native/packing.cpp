@@ -6,7 +6,7 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's Mesh.ArrayFormat.
+// Flags of the engine's enum Mesh.ArrayFormat.
 constexpr uint64_t kVertex = 1, kNormal = 2, kUv = 16, kCustom0 = 64, kIndex = 4096;
 constexpr uint64_t kRgbaFloat = 7;
 constexpr int kCustomShift = 13, kVersionShift = 35;
@@ -14,23 +14,24 @@ constexpr uint64_t kFormat =
     kVertex | kNormal | kUv | kCustom0 | kIndex | kRgbaFloat << kCustomShift | uint64_t{1} << kVersionShift;
 constexpr int64_t kTriangles = 3;
 
-/// What the engine keeps of a vertex beside its position and normal, in its order.
+/// The attributes of a vertex other than position and normal, in the order of the engine's vertex format.
 struct Attributes {
   float uv[2];
-  float words[4];  // whole numbers below 2^24, as surface.gdshaderinc takes them apart
+  float words[4];  // whole numbers below 2^24, which surface.gdshaderinc unpacks
 };
 static_assert(sizeof(Attributes) == 24);
 
 constexpr uint32_t kNone = UINT32_MAX;
 
-// Morphing moves vertices by up to four cells, in 1/256 of one.
+// Morphing moves a vertex by up to four grid cells on an axis, in steps of 1/256 cell.
 constexpr int kMostMorph = 1024, kMorphBits = 12;
 constexpr uint32_t kMorphZero = 2048;
 
-/// Triangles of one slot, by corners: wedges of the mesh, or vertices where it has none.
+/// The triangles of one slot, as indices of corners. A corner is a wedge of the mesh, or a vertex if the mesh has no
+/// wedges.
 struct Corners {
-  std::vector<uint32_t> indices;  // into used
-  std::vector<uint32_t> used;     // the mesh's corners
+  std::vector<uint32_t> indices;  // indices into `used`
+  std::vector<uint32_t> used;     // indices of the mesh's corners
 };
 
 struct Reader {
@@ -72,7 +73,7 @@ std::vector<Corners> collect(const Reader& reader, Part part, const std::vector<
       const size_t slot = material < slots.size() ? slots[material] : 0;
       std::vector<uint32_t>& place = places[slot];
       if (place.empty()) place.assign(reader.count(), kNone);
-      // The engine's front faces run clockwise.
+      // The engine's front faces are clockwise.
       for (const int order : {0, 2, 1}) {
         uint32_t& at = place[corners[order]];
         if (at == kNone) {
@@ -90,8 +91,8 @@ std::vector<Corners> collect(const Reader& reader, Part part, const std::vector<
   return result;
 }
 
-/// Three bytes in a float, exactly. OpenGL gets channels of bytes or half floats cut short from the engine (4.6),
-/// floats whole.
+/// Stores three bytes exactly in a float. With OpenGL, the engine (4.6) reduces the precision of byte and half-float
+/// channels, but not of floats.
 float word(uint32_t low, uint32_t middle, uint32_t high) { return static_cast<float>(low | middle << 8 | high << 16); }
 
 uint16_t unsignedNormal(int16_t coordinate) {
@@ -152,7 +153,7 @@ Variant surfaceOf(const Reader& reader, const Corners& corners) {
     const Attributes a = attributesOf(reader, corner);
     std::memcpy(attributes.data() + i * sizeof a, &a, sizeof a);
   }
-  const bool narrow = count <= 65536;  // then the engine takes indices for 16 bits wide
+  const bool narrow = count <= 65536;  // for up to 65536 vertices, the engine expects 16-bit indices
   Packed<uint8_t> indices(corners.indices.size() * (narrow ? 2 : 4));
   for (size_t i = 0; i < corners.indices.size(); ++i) {
     if (narrow) {
@@ -228,7 +229,7 @@ std::vector<Variant> packFaces(const sgm_collider_view& collider, size_t most) {
     const size_t count = std::min(most, triangles - first);
     Packed<Vector3> faces(count * 3);
     for (size_t i = 0; i < count * 3; ++i) {
-      // The engine's front faces run clockwise: the second and third corner change places.
+      // The engine's front faces are clockwise: swap the second and third corner.
       const size_t corner = i % 3 == 0 ? i : i % 3 == 1 ? i + 1 : i - 1;
       std::memcpy(static_cast<void*>(faces.data() + i),
                   collider.positions + size_t{collider.indices[first * 3 + corner]} * 3, sizeof(Vector3));

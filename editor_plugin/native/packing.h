@@ -1,5 +1,5 @@
 #pragma once
-// A chunk's mesh as surfaces of the engine's. Pure functions, for any thread.
+// Converts a chunk's mesh to surfaces of the engine. Pure functions, which any thread may call.
 
 #include <sgm/sgm.h>
 
@@ -7,27 +7,27 @@
 
 namespace sgm_godot {
 
-/// One surface: a dictionary for RenderingServer.mesh_add_surface, and the slot whose material draws it.
+/// One surface: a dictionary for RenderingServer.mesh_add_surface, and the slot of the material that draws it.
 struct PackedSurface {
   Variant surface;
   uint16_t slot;
   uint32_t triangles;
 };
 
-/// Which parts of a mesh to pack.
+/// Selects the parts of a mesh to pack.
 struct Part {
   bool body = true;
-  uint32_t seams = 0;  // mask of sgm_face
+  uint32_t seams = 0;  // mask of seams: bits (1 << sgm_face)
 };
 
-/// `slots`: by material of the grammar, the slot of its triangles: 0 is the blended material, which all share that have
-/// none of their own. A triangle is of the material that it shows most of. Positions are metres from the chunk's
-/// corner, exact as the mesh has them; attributes are laid out as addons/sgm/shaders/surface.gdshaderinc reads them.
-/// Empty where the part has no triangles.
+/// Packs the triangles, one surface for each slot. `slots`: the slot of each material of the grammar; 0 is the blended
+/// material, which all materials share for which the game has set no material. A triangle belongs to the material with
+/// the largest share in it. Positions are metres from the chunk's corner, as exact as in the mesh; attributes have the
+/// layout that addons/sgm/shaders/surface.gdshaderinc reads. Empty if the part has no triangles.
 std::vector<PackedSurface> packSurfaces(const sgm_mesh_view& mesh, Part part, const std::vector<uint16_t>& slots);
 
-/// As above in plain arrays, for ArrayMesh: positions, normals, coordinates, colours (of `palette`, blended) and
-/// indices.
+/// A surface as plain arrays for ArrayMesh: positions, normals, texture coordinates, colours (blended from `palette`)
+/// and indices.
 struct PlainSurface {
   std::vector<Vector3> positions, normals;
   std::vector<Vector2> coordinates;
@@ -38,8 +38,8 @@ struct PlainSurface {
 std::vector<PlainSurface> plainSurfaces(const sgm_mesh_view& mesh, Part part, const std::vector<uint16_t>& slots,
                                         const std::vector<Color>& palette);
 
-/// A collider's triangles, three corners each, at most `most` triangles an array: shapes that are small enough to be
-/// made within a frame.
+/// The triangles of a collider, three corners each, divided into arrays of at most `most` triangles, so that each shape
+/// is small enough to be made within a frame.
 std::vector<Variant> packFaces(const sgm_collider_view& collider, size_t most);
 
 }  // namespace sgm_godot

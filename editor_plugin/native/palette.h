@@ -1,5 +1,5 @@
 #pragma once
-// How materials look that a game has given no material of its own: as in the table that the sgm command draws from
+// The appearance of materials for which a game has set no material, from the table that the command sgm also uses
 // (runtime/tools/materials).
 
 #include <string_view>
@@ -9,10 +9,10 @@
 
 namespace sgm_godot {
 
-/// The colour of what the grammar calls the material (sRGB, as in the inspector; alpha: roughness).
+/// The colour for a material's name in the grammar (sRGB, as in the inspector; alpha: roughness).
 Color colorOf(std::string_view material);
 
-/// As shaders take it; the roughness stays.
+/// The colour converted to linear RGB, as shaders need it; alpha (the roughness) is unchanged.
 Color linear(Color srgb);
 
 }  // namespace sgm_godot

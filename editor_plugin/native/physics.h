@@ -1,7 +1,7 @@
 #pragma once
-// The part of the engine's PhysicsServer3D that chunks collide through. With the project setting
-// physics/3d/run_on_separate_thread the engine takes these calls to its own thread; without it they cost where they are
-// made.
+// The functions of the engine's PhysicsServer3D that collision needs. With the project setting
+// physics/3d/run_on_separate_thread the engine executes them in its own thread; otherwise the calling thread bears
+// their cost.
 
 #include "godot/variant.h"
 
@@ -11,11 +11,11 @@ class Physics {
  public:
   Physics();
 
-  /// A static body that is in no space yet.
+  /// Makes a static body that does not yet belong to a space.
   Rid createBody(const Transform& place, Object owner, int64_t layer, int64_t mask) const;
-  Rid createShape(const Variant& faces) const;  // PackedVector3Array, three a triangle
+  Rid createShape(const Variant& faces) const;  // faces: a PackedVector3Array with three corners for each triangle
   void addShape(Rid body, Rid shape) const;
-  void setSpace(Rid body, Rid space) const;  // none: in no space any more
+  void setSpace(Rid body, Rid space) const;  // an empty `space` removes the body from its space
   void setPlace(Rid body, const Transform& place) const;
   void setLayers(Rid body, int64_t layer, int64_t mask) const;
   void free(Rid rid) const;

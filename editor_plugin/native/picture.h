@@ -1,6 +1,6 @@
 #pragma once
-// What a world draws, in the engine's scene: takes the runtime's events over, frame by frame. Main thread; meshes are
-// packed on the background thread.
+// The drawn chunks of a world in the engine's scene. Receives the runtime's events frame by frame. Main thread only;
+// the background thread packs meshes.
 
 #include <map>
 #include <memory>
@@ -19,12 +19,12 @@ struct KeyLess {
   }
 };
 
-/// How chunks are drawn: what all of them share.
+/// Properties that all drawn chunks of a world share.
 struct Look {
   Rid scenario;
   Placement placement;
-  std::vector<uint16_t> slots;  // by material of the grammar
-  std::vector<Rid> materials;   // by slot
+  std::vector<uint16_t> slots;  // indexed by material of the grammar
+  std::vector<Rid> materials;   // indexed by slot
   bool shadow = true, visible = true;
   int64_t layers = 1;
   Object owner = nullptr;
@@ -37,22 +37,23 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  /// Events of one update, all of them, in their order; takes meshes over.
+  /// Receives all events of one update, in their order, and becomes the owner of their meshes.
   void take(const std::vector<sgm_world_event>& events);
-  /// Everything that a world draws, for who comes later than its events; takes the meshes over. `before` took the
-  /// events up to now: what was handed to it and is not drawn yet is taken from there.
+  /// Receives everything that a world draws, for a picture that starts after the world's first events; becomes the
+  /// owner of the meshes. `before`: the picture that has received all events so far. Meshes that it holds but does not
+  /// draw yet are taken from it.
   void takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Picture& before);
 
-  /// A chunk that came, went, or is another one now.
+  /// A chunk that appeared, disappeared, or got another mesh.
   struct Change {
     enum Kind { kShown, kReplaced, kRemoved } kind;
     sgm_chunk_key key;
-    MeshOwner mesh;  // of kShown and kReplaced
+    MeshOwner mesh;  // set for kShown and kReplaced
   };
-  /// Uploads meshes until `seconds` are over, one at least, and shows whatever frames are complete then: each of them
-  /// as a whole, so that no half of a change is ever seen.
+  /// Uploads meshes for `seconds`, but at least one, and then shows all frames that are complete. Each frame is shown
+  /// as a whole, so that no partial change is visible.
   std::vector<Change> advance(double seconds);
-  /// Uploads and shows all that was taken; waits for the background thread.
+  /// Uploads and shows everything that was received. Blocks until the background thread has packed it.
   std::vector<Change> finish();
 
   void setPlacement(const Placement& placement);
@@ -65,7 +66,7 @@ class Picture {
   Counts counts() const { return {chunks_.size(), uploads_.size(), triangles_}; }
   bool complete() const { return frames_.empty(); }
 
-  /// The chunks that are shown: key, mesh and the seams that are drawn.
+  /// A drawn chunk: key, mesh and mask of the drawn seams.
   struct Shown {
     sgm_chunk_key key;
     const sgm_mesh* mesh;
@@ -74,14 +75,14 @@ class Picture {
   std::vector<Shown> shown() const;
 
  private:
-  /// A part of a mesh on its way to the screen.
+  /// A part of a mesh that is being packed or uploaded.
   struct Upload;
   using UploadOwner = std::shared_ptr<Upload>;
   struct Step {
     sgm_event_kind kind;
     sgm_chunk_key key;
     std::shared_ptr<sgm_mesh> mesh;
-    UploadOwner body, seams;  // what is to be drawn from now on; null: as before
+    UploadOwner body, seams;  // parts to draw from now on; null: unchanged
     uint32_t mask;
   };
   struct Chunk {
@@ -96,17 +97,18 @@ class Picture {
   void show(const UploadOwner& upload, bool visible);
   void drop(UploadOwner& upload);
   template <class Visit>
-  void eachUploaded(const Visit& visit);  // shown and to be shown
+  void eachUploaded(const Visit& visit);  // visits drawn parts and parts that will be drawn
   void apply(Frame& frame, std::vector<Change>& changes);
 
   Plugin& plugin_;
   Look look_;
-  std::map<sgm_chunk_key, Chunk, KeyLess> chunks_;                     // drawn
-  std::map<sgm_chunk_key, std::shared_ptr<sgm_mesh>, KeyLess> known_;  // as of the events: the mesh that was READY last
-  std::map<sgm_chunk_key, UploadOwner, KeyLess> ready_;                // bodies of these that are not drawn yet
+  std::map<sgm_chunk_key, Chunk, KeyLess> chunks_;  // drawn chunks
+  // For each key, the mesh that was READY last according to the events.
+  std::map<sgm_chunk_key, std::shared_ptr<sgm_mesh>, KeyLess> known_;
+  std::map<sgm_chunk_key, UploadOwner, KeyLess> ready_;  // bodies of the meshes in known_ that are not drawn yet
   std::deque<UploadOwner> uploads_;
   std::deque<Frame> frames_;
-  std::vector<sgm_chunk_key> gone_;  // that the picture before has shown, and this one will not
+  std::vector<sgm_chunk_key> gone_;  // keys of chunks that the previous picture has shown and this one will not show
   size_t triangles_ = 0;
 };
 

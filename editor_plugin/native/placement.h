@@ -1,5 +1,5 @@
 #pragma once
-// Where the runtime's world lies in the scene.
+// Converts between coordinates of the runtime's world and of the scene.
 
 #include <sgm/sgm.h>
 
@@ -11,8 +11,8 @@ namespace sgm_godot {
 
 using Units = std::array<double, 3>;
 
-/// The node's transform, and the place of the world (metres) that lies at the node's own origin: a game moves that
-/// along with its player, so that the engine's floats stay near 0 in an endless world.
+/// The transform of the node, and the world position (metres) that lies at the node's own origin. A game moves that
+/// position along with its player, so that single-precision coordinates stay near 0 in an endless world.
 struct Placement {
   Transform node;
   Vector3i origin;
@@ -32,13 +32,13 @@ struct Placement {
     return local(exact);
   }
   Vector3 toGlobal(const double units[3]) const { return node.apply(local(units)); }
-  /// Of a chunk's or collider's own coordinates, metres from its corner.
+  /// The transform of a chunk's or collider's coordinates, which are metres from its corner.
   Transform ofCorner(const int32_t units[3]) const {
     Transform corner;
     corner.origin = local(units);
     return node.after(corner);
   }
-  /// The box of the world around a box in the scene.
+  /// The box of the world that contains a box of the scene.
   void box(const Aabb& global, int32_t minimum[3], int32_t maximum[3]) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What all objects of this plugin share, from the engine's start to its end.
+// Data that all objects of this plugin share, from the engine's start to its end.
 
 #include <sgm/sgm.h>
 
@@ -16,16 +16,17 @@ namespace sgm_godot {
 
 struct Plugin {
   sgm_runtime* runtime = nullptr;
-  /// Packs meshes and ends worlds.
+  /// Packs meshes and destroys worlds.
   std::unique_ptr<Background> background;
-  /// The engine's servers: they are there when the first world enters a scene, which then fills these in.
+  /// Wrappers of the engine's servers. The servers exist when the first world enters a scene, which then sets these
+  /// members.
   std::unique_ptr<Rendering> rendering;
   std::unique_ptr<Physics> physics;
-  /// Ids of the shaders that worlds share, by file and patterns (materials.cpp). Main thread.
+  /// Instance ids of the shaders that worlds share, by file and pattern mask (materials.cpp). Main thread only.
   std::map<std::pair<std::string, uint32_t>, uint64_t> shaders;
   bool in_editor = false;
-  /// While it is set, the engine is told that .sgm files are no resources: the editor's file dock opens them as text
-  /// then.
+  /// While it is set, the plugin reports to the engine that .sgm files are not resources, so that the editor's
+  /// FileSystem dock opens them as text.
   bool files_are_text = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The part of the engine's RenderingServer that draws chunks. Main thread.
+// The functions of the engine's RenderingServer that draw chunks. Main thread only.
 
 #include "godot/variant.h"
 
@@ -9,14 +9,14 @@ class Rendering {
  public:
   Rendering();
 
-  Rid createMesh(const std::vector<Variant>& surfaces) const;  // surfaces: dictionaries, see packing.h
+  Rid createMesh(const std::vector<Variant>& surfaces) const;  // surfaces: dictionaries, as packSurfaces() makes them
   Rid createInstance(Rid mesh, Rid scenario, const Transform& place) const;
   void setVisible(Rid instance, bool visible) const;
   void setPlace(Rid instance, const Transform& place) const;
   void setMaterial(Rid mesh, int64_t surface, Rid material) const;
   void setShadow(Rid instance, bool casts) const;
   void setLayers(Rid instance, int64_t layers) const;
-  void attach(Rid instance, Object owner) const;  // so that the editor can pick it
+  void attach(Rid instance, Object owner) const;  // lets the editor select the owner by a click on the instance
   void free(Rid rid) const;
 
  private:

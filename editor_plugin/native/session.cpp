@@ -13,13 +13,13 @@ namespace {
 
 constexpr const char* kBackendNames[] = {"auto", "CPU", "Vulkan", "CUDA"};
 
-/// The level whose chunks are about as large as what can be seen.
+/// The level of detail whose chunks are about as large as the visible part of the world.
 int32_t topLevelFor(double view_distance, int32_t cell_units) {
   const double chunk = static_cast<double>(cell_units) * SGM_CHUNK_CELLS / SGM_UNITS_PER_METRE;
   return static_cast<int32_t>(std::clamp(std::floor(std::log2(view_distance / chunk)), 0.0, double{SGM_MAX_LEVEL}));
 }
 
-/// Distances that cannot be; empty where all can.
+/// Describes distances that are out of range; empty if all are valid.
 std::string wrongDistances(const Settings& settings) {
   std::string wrong;
   const auto look = [&](const char* name, double metres) {
@@ -58,7 +58,7 @@ std::shared_ptr<Session> Session::create(Plugin& plugin, const GrammarOwner& gra
 }
 
 Session::~Session() {
-  // Copyable, as a std::function must be.
+  // shared_ptr, because std::function requires a copyable object.
   std::shared_ptr<sgm_world> world(world_.release(), EndWith<sgm_world_destroy>());
   std::shared_ptr<sgm_field> field(field_.release(), EndWith<sgm_field_destroy>());
   if (!world) return;
@@ -117,7 +117,7 @@ Failure Session::makeField(const GrammarOwner& grammar, const Settings& settings
     if (sgm_grammar_parameter(grammar.get(), i, &info) != SGM_OK) continue;
     const auto chosen = settings.parameters.find(info.name);
     if (chosen == settings.parameters.end()) continue;
-    // A range may have become narrower since the value was chosen.
+    // The parameter's range may have become narrower since the value was chosen.
     double value = std::clamp(chosen->second, info.minimum, info.maximum);
     if (info.whole != 0) value = std::round(value);
     if (sgm_parameters_set(parameters.get(), info.name, value, &error) < SGM_OK) return error.message;
@@ -153,7 +153,7 @@ Failure Session::makeWorld(const Settings& settings) {
   if (!journal.empty()) desc.journal = journal.c_str();
   if (!cache.empty()) desc.cache_folder = cache.c_str();
   std::vector<std::string> places;
-  // An element that the inspector has just added is empty.
+  // An element that the user has just added in the inspector is empty.
   for (const std::string& store : settings.stores) {
     if (!store.empty()) places.push_back(systemPath(store));
   }
@@ -200,7 +200,7 @@ std::vector<sgm_drawn_chunk> Session::drawn() const {
   std::vector<sgm_drawn_chunk> chunks;
   size_t count = 0;
   sgm_world_get_drawn(world_.get(), nullptr, 0, &count, nullptr);
-  // There may be more by the time that they are fetched.
+  // The number of chunks may grow between the two calls, so ask for some more.
   do {
     chunks.resize(count + 16);
     count = chunks.size();

@@ -1,5 +1,5 @@
 #pragma once
-// A field and the world that streams it, as an SgmWorld3D's settings ask for them.
+// A field and the world that streams it, made from the settings of an SgmWorld3D.
 
 #include <memory>
 #include <optional>
@@ -12,21 +12,21 @@ namespace sgm_godot {
 
 struct Plugin;
 
-/// A message for the user, where something failed.
+/// A message for the user if something failed; nullopt on success.
 using Failure = std::optional<std::string>;
 
-/// Shared, so that measuring on another thread may outlive a restart. Ends on the background thread: the runtime waits
-/// there for chunks in work.
+/// A running world. Shared, so that a measurement on another thread may outlive a restart. It is destroyed on the
+/// background thread, because the runtime waits there for unfinished jobs.
 class Session {
  public:
-  /// Null, and why, where it cannot be made.
+  /// Returns null if the world cannot be made; `failure` is then the reason.
   static std::shared_ptr<Session> create(Plugin& plugin, const GrammarOwner& grammar, const Settings& settings,
                                          std::string& failure);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Shows another grammar, seed or parameters, chunk by chunk, in place of what is there.
+  /// Switches to another grammar, seed or parameters; the world replaces its chunks gradually.
   Failure set(const GrammarOwner& grammar, const Settings& settings);
 
   sgm_world* world() const { return world_.get(); }
@@ -37,10 +37,10 @@ class Session {
   const std::string& backend() const { return backend_name_; }
   const std::string& device() const { return device_; }
 
-  /// Updates the world, and adds all events there are.
+  /// Updates the world, and appends all pending events.
   Failure update(uint64_t max_bytes, std::vector<sgm_world_event>& events);
   Failure poll(std::vector<sgm_world_event>& events);
-  /// Everything that is drawn; the caller releases the meshes. Any thread.
+  /// All drawn chunks; the caller releases their meshes. Thread-safe.
   std::vector<sgm_drawn_chunk> drawn() const;
 
  private:
@@ -57,7 +57,7 @@ class Session {
   int32_t cell_units_ = 0, top_level_ = 0;
   sgm_backend backend_ = SGM_BACKEND_CPU;
   std::string backend_name_, device_;
-  std::set<std::string> told_;  // warnings of parameters: each once
+  std::set<std::string> told_;  // warnings about parameters that were logged, so that each is logged once
 };
 
 }  // namespace sgm_godot

@@ -1,5 +1,5 @@
 #pragma once
-// What a game chooses for an SgmWorld3D, with its defaults.
+// The settings of an SgmWorld3D and their defaults.
 
 #include <map>
 #include <string>
@@ -11,16 +11,16 @@ namespace sgm_godot {
 
 struct Settings {
   int64_t seed = 0;
-  std::map<std::string, double> parameters;                           // those that differ from the grammar's defaults
-  int64_t backend = 0;                                                // as sgm_backend
+  std::map<std::string, double> parameters;  // values of parameters that differ from the grammar's defaults
+  int64_t backend = 0;                       // a value of sgm_backend
   double cell_size = 0.5, finest_distance = 32, view_distance = 300;  // metres
-  int64_t coarsest_level = -1;                                        // -1: by view_distance
+  int64_t coarsest_level = -1;                                        // -1: depends on view_distance
   bool by_distance = false, sharp = false, morph = true, measure = true;
   int64_t mesh_memory = 256;  // MiB
   std::string journal, cache_folder;
-  std::vector<std::string> stores;  // folders, and addresses of web servers
+  std::vector<std::string> stores;  // folders, and URLs of web servers
 
-  int64_t mapping = 0;  // 0 triplanar, 1 texture coordinates
+  int64_t mapping = 0;  // 0: triplanar, 1: texture coordinates
   std::map<std::string, Variant> materials;
   std::map<std::string, Color> colors;
   bool cast_shadow = true;
@@ -32,7 +32,7 @@ struct Settings {
 
   Variant anchor_scenes = Variant::dictionary();
   Vector3i origin;
-  double frame_budget = 1.0;  // milliseconds
+  double frame_budget = 1.0;  // milliseconds of main-thread time for each frame
   bool preview = true, hot_reload = true;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// SgmViewer3D: a place in the scene that worlds are streamed around.
+// SgmViewer3D: a place in the scene around which worlds are streamed.
 
 #include "godot/conversion.h"
 
@@ -11,13 +11,13 @@ class Viewer : public Instance {
  public:
   using Instance::Instance;
   static void registerClass(ClassRecord& record);
-  /// The group that viewers are in while they are in the scene tree.
+  /// The node group to which viewers belong while they are in the scene tree.
   static constexpr const char* kGroup = "sgm_viewers";
 
   void notify(int32_t what) override;
   bool enabled() const { return enabled_; }
   double weight() const { return weight_; }
-  double fov() const { return fov_; }  // degrees, vertical; 0: 70
+  double fov() const { return fov_; }  // vertical, degrees; 0: 70 degrees
   bool directional() const { return directional_; }
 
  private:

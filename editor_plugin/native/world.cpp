@@ -8,7 +8,7 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's notifications.
+// Numbers of the engine's notifications.
 constexpr int32_t kEnterTree = 10, kExitTree = 11, kInternalProcess = 25, kInternalPhysicsProcess = 26,
                   kVisibilityChanged = 43, kTransformChanged = 2000;
 
@@ -153,7 +153,7 @@ void World::setSession(std::shared_ptr<Session> session) {
     const std::lock_guard lock(session_mutex_);
     session_.swap(session);
   }
-  // What was there before ends here, outside of the lock.
+  // The previous session is released here, outside of the lock, because its destruction may take time.
 }
 
 std::shared_ptr<Session> World::session() const {
@@ -187,7 +187,7 @@ void World::startSession() {
     }
     return;
   }
-  // A journal is one world's at a time: the one before has to end first.
+  // Only one world at a time can open a journal, so the previous session must end before the next one starts.
   const bool exclusive = !settings_.journal.empty();
   const bool empty = picture_ == nullptr || picture_->counts().chunks == 0;
   std::unique_ptr<Picture> before = empty && retired_ != nullptr ? std::move(retired_) : std::move(picture_);
@@ -198,7 +198,7 @@ void World::startSession() {
   std::string failure;
   std::shared_ptr<Session> session = Session::create(plugin(), grammar->compiled(), settings_, failure);
   if (session == nullptr) {
-    // What could be seen stays as it is.
+    // Keep the previous picture visible.
     if (!exclusive) picture_ = std::move(before);
     logError("SgmWorld3D: " + failure);
     fail(failure);
@@ -224,7 +224,7 @@ void World::startSession() {
 
 namespace {
 
-/// Whether the numbers that vertices carry mean the same in both.
+/// Whether the material and tag numbers in vertices have the same meaning in both grammars.
 bool sameNames(const sgm_grammar* a, const sgm_grammar* b) {
   const auto same = [&](auto count, auto name) {
     if (count(a) != count(b)) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// SgmWorld3D: a grammar's world in the scene, streamed around viewers.
+// SgmWorld3D: the world of a grammar in the scene, streamed around viewers.
 
 #include <deque>
 #include <functional>
@@ -31,17 +31,17 @@ class World : public Instance {
   Variant revertsTo(const std::string& name) const override;
 
  private:
-  // What a change of a setting has to be followed by: kLook and kPlacement at once, the others in the next frame. A
-  // later one includes the work of none before it.
+  // The work that a changed setting requires: kLook and kPlacement immediately, the others in the next frame. Each flag
+  // stands for its own work only; none includes another's.
   enum Effect : unsigned {
     kNothing = 0,
-    kField = 1,    // another field for the same world
-    kRestart = 2,  // another world
-    kPaint = 4,    // other materials
-    kRepack = 8,   // other slots
-    kLook = 16,    // visibility, shadows, layers
+    kField = 1,    // replaces the field of the same world
+    kRestart = 2,  // makes another world
+    kPaint = 4,    // replaces materials
+    kRepack = 8,   // repacks meshes for other slots
+    kLook = 16,    // changes visibility, shadows, layers
     kPlacement = 32,
-    kBodies = 64,  // collision layers
+    kBodies = 64,  // changes collision layers
   };
   template <auto member>
   using SettingType = std::remove_reference_t<decltype(std::declval<Settings&>().*member)>;
@@ -49,12 +49,12 @@ class World : public Instance {
   void change(SettingType<member> value) {
     if (settings_.*member == value) return;
     {
-      // Other threads read the origin. What was there before ends outside of the lock.
+      // Other threads read the origin under this lock. The previous value is destroyed outside of the lock.
       const std::lock_guard lock(session_mutex_);
       std::swap(settings_.*member, value);
     }
     dirty_ |= effect;
-    // What is drawn follows at once: the frame that the world sees may come later than the player's, or be paused.
+    // The drawn chunks follow immediately: this node's next frame may come later than the player's, or be paused.
     if constexpr (effect == kPlacement || effect == kLook) followPlace();
   }
   template <auto member>
@@ -62,7 +62,7 @@ class World : public Instance {
     return settings_.*member;
   }
 
-  // world.cpp: from the tree's beginning to its end
+  // world.cpp: functions from entering the scene tree to leaving it
   void enter();
   void leave();
   void followChanges();
@@ -71,12 +71,12 @@ class World : public Instance {
   void startSession();
   void stopSession();
   void setSession(std::shared_ptr<Session> session);
-  std::shared_ptr<Session> session() const;  // any thread
+  std::shared_ptr<Session> session() const;  // thread-safe
   struct PlacedSession {
     std::shared_ptr<Session> session;
     Vector3i origin;
   };
-  /// The session and the place of its world in the node's coordinates, of one moment. Any thread.
+  /// The session and the placement of its world, both from the same moment. Thread-safe.
   PlacedSession placedSession() const;
   void setGrammar(Object grammar);
   Object grammar() const { return grammar_.object(); }
@@ -84,23 +84,23 @@ class World : public Instance {
   void setAnchorScenes(const Dictionary& scenes);
   Dictionary anchorScenes() const { return {settings_.anchor_scenes}; }
   void restart() { dirty_ |= kRestart; }
-  /// For calls from scripts: a world that has just been put into the scene begins at once.
+  /// Called by script functions: starts a world that has just entered the scene. Returns false if it does not run.
   bool ready();
   bool running() const { return session_ != nullptr; }
   std::string errorText() const { return error_; }
   void fail(const std::string& message);
-  /// Signals wait until the work that they tell of is done: who hears one may end this world, or begin another.
+  /// Queues a signal until the work that it reports is done, because a listener may end this world or start another.
   template <class... Arguments>
   void announce(const char* signal, const Arguments&... arguments) {
     announced_.emplace_back(signal, std::vector<Variant>{Variant(arguments)...});
   }
-  /// The last thing that a call does: this object may be gone afterwards.
+  /// Emits the queued signals. Must be the last action of a call: this object may be destroyed afterwards.
   void emitAnnounced();
   Placement placement() const;
   Look look() const;
   std::vector<std::string> materialNames() const;
 
-  // world_frame.cpp: what every frame does
+  // world_frame.cpp: work of every frame
   void frame();
   void stream(double delta, const std::function<double()>& left);
   void physicsFrame();
@@ -118,7 +118,7 @@ class World : public Instance {
   bool waitUntilIdle(double seconds);
   bool isIdle() const;
 
-  // world_edits.cpp
+  // world_edits.cpp: digging and building
   Integers dig(const Vector3& position, double radius, double smooth);
   Integers build(const Vector3& position, double radius, const std::string& material, double smooth);
   Integers edit(const Dictionary& brush);
@@ -132,7 +132,7 @@ class World : public Instance {
   std::optional<uint16_t> materialNumber(const std::string& name) const;
   std::optional<uint16_t> tagNumber(const std::string& name) const;
 
-  // world_queries.cpp
+  // world_queries.cpp: queries of the world
   Dictionary rayCast(const Vector3& from, const Vector3& direction, double length);
   Dictionary closestPoint(const Vector3& position, double max_distance);
   Dictionary described(const sgm_surface_point& point) const;
@@ -145,11 +145,11 @@ class World : public Instance {
   void addMonitors();
   void removeMonitors();
 
-  // world_density.cpp
+  // world_density.cpp: data for renderers of fog
   Bytes sampleDensity(const Vector3& corner, double spacing, const Vector3i& size, const Vector3& to_sun, double fade,
                       double edge);
 
-  // world_measures.cpp
+  // world_measures.cpp: measures and export of the drawn meshes
   Dictionary measures() const;
   Dictionary measureDrawn(int64_t bins) const;
   Array bakeChunks() const;
@@ -161,29 +161,29 @@ class World : public Instance {
   std::string error_;
 
   std::shared_ptr<Session> session_;
-  mutable std::mutex session_mutex_;  // held to change session_ or settings_, and to read them on other threads
+  mutable std::mutex session_mutex_;  // locked to change session_ or settings_, and to read them on other threads
   Materials materials_;
-  Materials retired_materials_;  // that retired_ is drawn with
+  Materials retired_materials_;  // the materials with which retired_ is drawn
   std::unique_ptr<Picture> picture_;
-  std::unique_ptr<Picture> retired_;  // of the session before, until this one has something to show
+  std::unique_ptr<Picture> retired_;  // picture of the previous session, kept until this session has something to show
   std::unique_ptr<Colliders> colliders_;
   Anchors anchors_;
-  std::deque<sgm_anchor> unplaced_;  // whose scenes are still to be made
+  std::deque<sgm_anchor> unplaced_;  // anchors whose scenes have yet to be instantiated
   struct Placed {
-    uint64_t node;  // its id
+    uint64_t node;  // instance id of the node
     sgm_anchor anchor;
   };
-  std::unordered_map<uint64_t, Placed> scenes_;  // by the anchor's key
+  std::unordered_map<uint64_t, Placed> scenes_;  // indexed by the anchor's key
 
   std::vector<sgm_viewer> viewers_;
-  std::vector<Vector3> viewer_places_;  // in the scene
+  std::vector<Vector3> viewer_places_;  // in scene coordinates
   std::vector<Units> viewer_units_;
   struct Watched {
     Vector3 position;
     bool walkable = false;
     bool seen = false;
   };
-  std::unordered_map<uint64_t, Watched> watched_;  // by the id of the viewer's node
+  std::unordered_map<uint64_t, Watched> watched_;  // indexed by the instance id of the viewer's node
   std::optional<Transform> editor_view_;
   double editor_fov_ = 70;
 

@@ -1,4 +1,4 @@
-// Digging and building in an SgmWorld3D.
+// SgmWorld3D: digging and building.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,8 @@ void place(const Placement& placement, const Vector3& position, int32_t units[3]
   for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
 }
 
-/// A length of a brush, told where it is out of its range: the runtime counts in units.
+/// Checks that a length of a brush is within its range, and logs an error if not. The range is limited because the
+/// runtime counts in units.
 bool isLength(const char* what, double metres, double least) {
   constexpr double kMost = 1024;
   if (metres >= least && metres <= kMost) return true;
@@ -32,7 +33,7 @@ bool isLength(const char* what, double metres, double least) {
 }
 constexpr double kLeast = 1.0 / SGM_UNITS_PER_METRE;
 
-/// What a brush may have, and as what.
+/// An allowed key of a brush dictionary, and the types of its value.
 struct Key {
   const char* name;
   GDExtensionVariantType type, other;
@@ -51,7 +52,7 @@ constexpr Key kKeys[] = {
     {"tag", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
 };
 
-/// Whether a brush has nothing but what it may have; an error says what else.
+/// Checks that a brush has only allowed keys, and logs an error that names any other key.
 bool hasOnlyKeys(const Variant& brush) {
   const Variant names = brush.call("keys");
   const int64_t count = names.size();
@@ -218,7 +219,7 @@ Bytes World::exportEdits(int64_t since) {
   size_t count = 0;
   sgm_error error = SGM_ERROR_INIT;
   sgm_result result;
-  // Edits may come from another thread between the two calls.
+  // Repeated, because another thread may add edits between the two calls.
   do {
     bytes.resize(count);
     result = sgm_world_export_edits(session_->world(), static_cast<uint64_t>(since), bytes.data(), &count, &error);

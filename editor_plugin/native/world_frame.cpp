@@ -1,4 +1,4 @@
-// What an SgmWorld3D does in every frame.
+// SgmWorld3D: the work of every frame.
 
 #include <chrono>
 #include <cmath>
@@ -14,12 +14,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kBytesAFrame = 4 << 20;
-constexpr size_t kMostWaiting = 512;  // parts of chunks; then the runtime waits for the engine
-constexpr double kFastest = 200;      // metres a second; faster is a leap
-constexpr double kFileSeconds = 0.5;  // between looks at the grammar's file
-constexpr int kMostInTheWay = 8;      // bodies between a viewer and its ground
-constexpr float kGroundBelow = 32;    // metres below a viewer in which its ground is looked for
-constexpr float kLeap = 16;           // metres in a frame from which on a viewer's ground is another one
+// Parts of chunks that wait for upload; beyond this, the world is not updated, so the runtime pauses.
+constexpr size_t kMostWaiting = 512;
+constexpr double kFastest = 200;      // metres per second; a faster motion counts as a teleport
+constexpr double kFileSeconds = 0.5;  // seconds between two checks of the grammar's file
+constexpr int kMostInTheWay = 8;      // maximum number of bodies between a viewer and its ground
+constexpr float kGroundBelow = 32;    // metres below a viewer within which its ground is searched
+constexpr float kLeap = 16;           // metres of motion in a frame after which a viewer's ground must be checked again
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
@@ -121,7 +122,8 @@ void World::stream(double delta, const std::function<double()>& left) {
     if (Failure failure = session_->update(kBytesAFrame, events)) fail(*failure);
     receive(std::move(events));
   }
-  // Where the budget has not been enough for both, bodies come first in the next frame: what is drawn must hold, too.
+  // If the budget did not suffice for both, collision bodies come first in the next frame, so that the drawn surface
+  // also collides.
   const bool first = std::exchange(colliders_first_, false);
   if (first && colliders_) colliders_->advance(left(), viewer_places_);
   tell(picture_->advance(left()));
@@ -138,7 +140,7 @@ void World::stream(double delta, const std::function<double()>& left) {
                         : MorphRanges(),
                     settings_.cell_size, placement());
   const bool idle = isIdle();
-  if (idle) retired_.reset();  // also where nothing of the new world is in view
+  if (idle) retired_.reset();  // also if nothing of the new world is in view
   if (idle && !was_idle_) announce("became_idle");
   was_idle_ = idle;
   placeScenes(left());
@@ -187,7 +189,7 @@ void World::tellOfAnchors(const std::vector<Picture::Change>& changes) {
   }
 }
 
-// Scenes may do anything as they enter the tree, such as end this world.
+// Instantiates scenes at anchors. A scene may do anything when it enters the tree, even end this world.
 void World::placeScenes(double seconds) {
   const Clock::time_point start = Clock::now();
   const std::shared_ptr<Session> session = session_;
@@ -204,7 +206,7 @@ void World::placeScenes(double seconds) {
     } else if (node.object() != nullptr) {
       node.call("set_transform", described.get("transform"));
       scenes_[anchor.key] = {engine().object_get_instance_id(node.object()), anchor};
-      own("add_child", node, false, int64_t{1});  // among the internal ones, which no scene keeps
+      own("add_child", node, false, int64_t{1});  // as internal children, which are not saved with a scene
     }
     if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) return;
   }
@@ -236,7 +238,8 @@ void World::followFile(double delta) {
   if (auto* grammar = instanceOf<Grammar>(grammar_)) grammar->followFile();
 }
 
-// The engine's own ray is what decides: whatever else is known, a viewer must not fall.
+// Whether a viewer's ground has a collider. The engine's own ray decides: whatever else is known, a viewer must not
+// fall.
 bool World::standsOnCollider(Vector3 position) {
   const Aabb below{position - Vector3{1, kGroundBelow, 1}, {2, kGroundBelow, 2}};
   if (colliders_->waitsIn(below)) return false;
@@ -246,7 +249,7 @@ bool World::standsOnCollider(Vector3 position) {
   query.call("set_collision_mask", settings_.collision_layer);
   const Variant space = own("get_world_3d").call("get_direct_space_state");
   Variant hit = space.call("intersect_ray", query);
-  // The viewer's own body, or what it stands on, may be in the way.
+  // The viewer's own body, or something on which it stands, may be in the way: exclude it and cast again.
   const Variant others = Variant::ofType(GDEXTENSION_VARIANT_TYPE_ARRAY);
   for (int i = 0; i < kMostInTheWay && hit.size() != 0 && hit.get("collider").object() != self(); ++i) {
     others.call("push_back", hit.get("rid"));
@@ -254,7 +257,7 @@ bool World::standsOnCollider(Vector3 position) {
     hit = space.call("intersect_ray", query);
   }
   if (hit.size() == 0 || hit.get("collider").object() != self()) return false;
-  // What is hit is the ground that the world has there, and nothing deeper.
+  // Check that the ray has hit the world's current ground there, and not an older surface below it.
   const Vector3 ground = hit.get("position").to<Vector3>();
   const Units from = placement().toUnits(position);
   sgm_ray_desc ray = SGM_RAY_DESC_INIT;

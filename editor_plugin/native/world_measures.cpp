@@ -1,4 +1,4 @@
-// Measures of what an SgmWorld3D draws, and its meshes for scenes that go without the plugin.
+// SgmWorld3D: measures of the drawn meshes, and their data for scenes without the plugin.
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ uint64_t defectsOf(const sgm_chunk_sums& sums) {
   return total;
 }
 
-/// Positions of all drawn triangles, exact: fractions of a unit from the first chunk's corner on.
+/// Positions of all drawn triangles, exact to fractions of a unit, relative to the first chunk's corner.
 struct Soup {
   std::vector<double> positions;  // metres
   std::vector<uint32_t> indices;
@@ -51,7 +51,7 @@ void addTriangles(const sgm_mesh_view& view, uint32_t seams, const int32_t base[
         return std::equal(&soup.positions[size_t{a} * 3], &soup.positions[size_t{a} * 3] + 3,
                           &soup.positions[size_t{b} * 3]);
       };
-      // Seams may have triangles without area, which measure nothing.
+      // Seams may have triangles without area, which do not count.
       if (same(corner[0], corner[1]) || same(corner[1], corner[2]) || same(corner[0], corner[2])) continue;
       soup.indices.insert(soup.indices.end(), corner, corner + 3);
     }
@@ -69,7 +69,7 @@ Variant packed(const std::vector<T>& values) {
   return array.take();
 }
 
-// The engine's Mesh.ArrayType.
+// Values of the engine's enum Mesh.ArrayType.
 constexpr int64_t kVertex = 0, kNormal = 1, kColor = 3, kUv = 4, kIndex = 12, kArrays = 13;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the engine, its inspector and scripts know an SgmWorld3D by.
+// SgmWorld3D: its properties and methods, as registered with the engine for the inspector and scripts.
 
 #include <cmath>
 
@@ -10,14 +10,14 @@
 namespace sgm_godot {
 namespace {
 
-// The engine's PropertyHint and PropertyUsageFlags.
+// Values of the engine's enums PropertyHint and PropertyUsageFlags.
 constexpr uint32_t kRange = 1, kLayersRender = 10, kLayersPhysics = 11, kFile = 13, kDirectory = 14, kResourceType = 17;
 constexpr uint32_t kColorNoAlpha = 21;
 constexpr uint32_t kStored = 2, kShown = 4, kReadOnlyShown = 1 << 28 | kShown;
 
 constexpr std::string_view kParameters = "parameters/", kMaterials = "materials/", kColors = "colors/";
 
-/// The rest of a name after a prefix; empty where it has another one.
+/// The part of a name after a prefix; empty if the name does not begin with the prefix.
 std::string after(const std::string& name, std::string_view prefix) {
   return name.size() > prefix.size() && name.compare(0, prefix.size(), prefix) == 0 ? name.substr(prefix.size())
                                                                                     : std::string();
@@ -33,10 +33,10 @@ std::optional<sgm_parameter_info> parameterOf(const sgm_grammar* grammar, const 
 
 std::string number(double value) { return numberText(value, 9); }
 
-/// A slider over the parameter's range, in its unit; a field without bounds where the grammar gives none.
+/// The hint string of a slider over the parameter's range, in its unit; without bounds if the grammar gives none.
 std::string rangeOf(const sgm_parameter_info& info) {
   const bool bounded = std::isfinite(info.minimum) && std::isfinite(info.maximum);
-  // The engine shows angles in degrees, and takes the range of what it shows.
+  // The engine shows angles in degrees, and expects the range in the displayed unit.
   const double unit = info.quantity == SGM_QUANTITY_ANGLE ? 180 / 3.14159265358979323846 : 1;
   const double low = std::isfinite(info.minimum) ? info.minimum * unit : -1e6;
   const double high = std::isfinite(info.maximum) ? info.maximum * unit : 1e6;
@@ -58,7 +58,7 @@ const sgm_grammar* compiledOf(Object object) {
 
 bool World::set(const std::string& name, const Variant& value) {
   if (const std::string parameter = after(name, kParameters); !parameter.empty()) {
-    // Also one that the grammar does not have (any more, or yet): a scene's values may come before its grammar.
+    // Unknown parameters are accepted too: a scene may set values before its grammar, or the grammar may have an error.
     const double wanted = value.to<double>();
     const auto found = settings_.parameters.find(parameter);
     if (found != settings_.parameters.end() && found->second == wanted) return true;
@@ -121,7 +121,7 @@ std::vector<Instance::Property> World::properties() const {
     list.push_back(
         {std::string(kColors) + name, GDEXTENSION_VARIANT_TYPE_COLOR, "", kColorNoAlpha, "", kStored | kShown});
   }
-  // What was chosen for names that the grammar lacks now, while it has an error say, stays in the scene.
+  // Values for names that the grammar lacks, for example while it has an error, are kept and stored in the scene.
   const auto keep = [&](std::string_view prefix, const std::string& name, GDExtensionVariantType type) {
     const std::string whole = std::string(prefix) + name;
     if (std::none_of(list.begin(), list.end(), [&](const Property& p) { return p.name == whole; }))

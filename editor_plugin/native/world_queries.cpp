@@ -1,4 +1,4 @@
-// What can be asked of an SgmWorld3D.
+// SgmWorld3D: queries of the world.
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ Variant vector(const Transform& node, const double direction[3]) {
       {static_cast<float>(direction[0]), static_cast<float>(direction[1]), static_cast<float>(direction[2])});
 }
 
-// Figures that the engine's debugger plots: its name for each, and the statistics' own.
+// Figures that the engine's debugger plots: the displayed title, and the key in the statistics.
 struct Monitor {
   const char* title;
   const char* key;
@@ -92,7 +92,7 @@ Points World::findWay(const Vector3& from, const Vector3& to, double radius) {
   std::copy_n(start.data(), 3, desc.from);
   std::copy_n(end.data(), 3, desc.to);
   desc.radius = radius;
-  // Room for detours around the straight way.
+  // Enlarge the searched box, so that the path may make detours.
   const double edge = static_cast<double>(session_->cellUnits()) * SGM_CHUNK_CELLS * 2;
   for (size_t axis = 0; axis < 3; ++axis) {
     desc.minimum[axis] = static_cast<int32_t>(std::max(std::min(start[axis], end[axis]) - edge, -2147000000.0));
@@ -234,7 +234,8 @@ void World::addMonitors() {
   const Variant ask = Variant::callable(self(), Name("_monitor"));
   for (const Monitor& m : kMonitors) {
     const std::string id = owner + "/" + m.title;
-    if (performance.call("has_custom_monitor", Name(id)).truth()) continue;  // another world of that name has them
+    // Another world of that name already provides this monitor.
+    if (performance.call("has_custom_monitor", Name(id)).truth()) continue;
     const Variant arguments = Variant::array();
     arguments.append(m.key);
     performance.call("add_custom_monitor", Name(id), ask, arguments);

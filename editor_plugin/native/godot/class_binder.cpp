@@ -3,7 +3,7 @@
 namespace sgm_godot {
 namespace {
 
-/// The engine's String, for as long as a description is handed over.
+/// An engine String that lives while a description is passed to the engine.
 class Text {
  public:
   explicit Text(std::string_view text) {
@@ -18,7 +18,7 @@ class Text {
   alignas(8) unsigned char bytes_[8];
 };
 
-/// A property, argument or result as the engine is told of it, with what that points to.
+/// Describes a property, argument or result to the engine, and owns the strings to which the description points.
 struct Description {
   Name name, class_name;
   Text hint_text;
@@ -40,7 +40,7 @@ std::string textOf(const void* name) {
   return Variant::fromTyped(GDEXTENSION_VARIANT_TYPE_STRING_NAME, name).to<std::string>();
 }
 
-/// What the engine calls: it knows no exceptions.
+/// Runs a callback for the engine, which cannot handle C++ exceptions.
 template <class Function>
 auto guarded(const Function& function) noexcept -> decltype(function()) {
   try {
@@ -72,7 +72,8 @@ GDExtensionBool getProperty(void* instance, const void* name, void* result) {
 
 using Descriptions = std::vector<std::unique_ptr<Description>>;
 
-// The engine gives back only the pointer to the list: what the list points to is found by an element before its first.
+// Lists the properties. When the engine frees the list, it passes back only the pointer to it; the element before the
+// first one therefore points to the list's strings.
 const GDExtensionPropertyInfo* describe(const Instance& instance, uint32_t* count) {
   const std::vector<Instance::Property> properties = instance.properties();
   auto described = std::make_unique<Descriptions>();

@@ -1,5 +1,5 @@
 #pragma once
-// Registers a class of this plugin's with the engine.
+// Registers classes of this plugin with the engine.
 
 #include <deque>
 #include <memory>
@@ -8,13 +8,14 @@
 
 namespace sgm_godot {
 
-/// What the engine hands back with every call that concerns a class. Lives as long as the class is registered.
+/// Data of a registered class; the engine passes a pointer to it with every call that concerns the class. Must live as
+/// long as the class is registered.
 struct ClassRecord {
   Plugin* plugin;
   std::string name, parent;
   Instance* (*create)(Plugin&, Object);
   std::vector<std::pair<std::string, GDExtensionClassCallVirtual>> overrides;
-  std::deque<std::vector<Variant>> defaults;  // of the methods' last arguments
+  std::deque<std::vector<Variant>> defaults;  // default values of the last arguments of each method
 };
 
 struct Argument {
@@ -23,7 +24,7 @@ struct Argument {
   std::string class_name = {};
 };
 
-/// How the inspector shows a property: the engine's PropertyHint and its text.
+/// How the inspector shows a property: a value of the engine's enum PropertyHint, and its hint string.
 struct Hint {
   uint32_t kind = 0;
   std::string text = {};
@@ -35,7 +36,8 @@ inline Hint choice(std::string text) { return {2, std::move(text)}; }
 
 class ClassBinder {
  public:
-  /// The record must outlive the registration. exposed: scripts may name the class.
+  /// Begins to register the class T. The record must outlive the registration. exposed: scripts may use the class by
+  /// its name.
   template <class T>
   static ClassBinder add(ClassRecord& record, bool exposed = true) {
     record.create = [](Plugin& plugin, Object self) -> Instance* { return new (std::nothrow) T(plugin, self); };
@@ -51,7 +53,8 @@ class ClassBinder {
     return *this;
   }
 
-  /// One of the parent's virtual methods, "_load". Only before the class is registered for the engine: see overrides.
+  /// Adds an implementation of a virtual method of the parent class, such as "_load". Must be called before the class
+  /// is registered, because the engine then reads ClassRecord::overrides.
   template <auto method>
   static void override_(ClassRecord& record, const char* name) {
     record.overrides.emplace_back(name, &decltype(partsOf(method))::template inPlace<method>);
@@ -84,7 +87,7 @@ class ClassBinder {
   ClassRecord& record_;
 };
 
-/// Takes a class back. No object of it may live.
+/// Unregisters a class. No object of the class may exist.
 void removeClass(const ClassRecord& record);
 
 }  // namespace sgm_godot

@@ -1,11 +1,12 @@
 #pragma once
-// C++ types as arguments and results of methods that the engine calls.
+// Converts C++ types to arguments and results of the methods that the engine calls, and back.
 
 #include "instance.h"
 
 namespace sgm_godot {
 
-/// A dictionary, an array, or a packed array of numbers or strings: what a Variant cannot tell by its C++ type.
+/// A dictionary, an array, or a packed array of numbers or strings, whose engine type is not evident from the C++ type
+/// Variant.
 template <GDExtensionVariantType type>
 struct Typed {
   Variant value = Variant::ofType(type);
@@ -46,7 +47,7 @@ struct Conversion<std::vector<std::string>> {
   static constexpr int type = GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY;
   static std::vector<std::string> from(const Variant& value) {
     std::vector<std::string> texts;
-    // Scripts write ["one", "two"], which is an array of anything.
+    // Both types are accepted, because the literal ["one", "two"] in a script is an untyped array.
     if (value.type() != GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY && value.type() != GDEXTENSION_VARIANT_TYPE_ARRAY)
       return texts;
     for (int64_t i = 0; i < value.size(); ++i) texts.push_back(value.call("get", i).to<std::string>());
@@ -54,7 +55,7 @@ struct Conversion<std::vector<std::string>> {
   }
   static Variant into(const std::vector<std::string>& texts) { return strings(texts); }
 };
-/// Text that comes as the engine's StringName.
+/// A text that the engine passes as a StringName.
 struct NameText {
   std::string text;
 };
@@ -66,7 +67,7 @@ struct Conversion<NameText> {
 };
 template <>
 struct Conversion<Variant> {
-  static constexpr int type = GDEXTENSION_VARIANT_TYPE_NIL;  // anything
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_NIL;  // a Variant of any type
   static Variant from(const Variant& value) { return value; }
   static Variant into(const Variant& value) { return value; }
 };

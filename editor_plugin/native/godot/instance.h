@@ -1,5 +1,5 @@
 #pragma once
-// What every object of this plugin's is to the engine.
+// The base class of all objects of this plugin that the engine knows.
 
 #include "variant.h"
 
@@ -7,7 +7,8 @@ namespace sgm_godot {
 
 struct Plugin;
 
-/// The C++ half of an object whose class this plugin registers. The engine makes and ends it with its own half.
+/// The C++ part of an engine object whose class this plugin registers. The engine creates and destroys it together with
+/// its own part.
 class Instance {
  public:
   Instance(Plugin& plugin, Object self) : plugin_(plugin), self_(self) {}
@@ -15,21 +16,22 @@ class Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  /// The engine's notifications: its numbers are in the classes' documentation.
+  /// Receives the engine's notifications; the documentation of the engine's classes lists their numbers.
   virtual void notify(int32_t) {}
 
-  /// A property that the class did not register, such as one of a grammar's parameters.
+  /// Sets a property that was not registered with the class, such as a parameter of a grammar. Returns false if it is
+  /// unknown.
   virtual bool set(const std::string& /*name*/, const Variant& /*value*/) { return false; }
   virtual bool get(const std::string& /*name*/, Variant& /*value*/) const { return false; }
 
-  /// Such a property, for the inspector. What it goes back to, or nil where nothing is known of it.
+  /// Describes such a property to the inspector.
   struct Property {
     std::string name;
     GDExtensionVariantType type = GDEXTENSION_VARIANT_TYPE_NIL;
     std::string class_name;
     uint32_t hint = 0;
     std::string hint_text;
-    uint32_t usage = 6;  // stored and shown
+    uint32_t usage = 6;  // PropertyUsageFlags: stored in files and shown in the editor
   };
   virtual std::vector<Property> properties() const { return {}; }
   virtual Variant revertsTo(const std::string& /*name*/) const { return {}; }
@@ -52,7 +54,7 @@ class Instance {
   Object self_;
 };
 
-/// This plugin's half of an object; null where it is another's.
+/// The C++ part of an object; null if this plugin has not registered its class.
 template <class T>
 T* instanceOf(Object object) {
   if (object == nullptr) return nullptr;

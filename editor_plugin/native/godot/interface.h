@@ -1,11 +1,12 @@
 #pragma once
-// The engine's C interface (gdextension_interface.h), looked up by name once, when the engine loads the library.
+// The engine's C interface (gdextension_interface.h). The functions are looked up by name once, when the engine loads
+// the library.
 
 #include <gdextension_interface.h>
 
 namespace sgm_godot {
 
-// X(type, name): one function of the engine's, GDExtensionInterface<type>, found as "name". All are there since 4.3.
+// X(type, name): a function with the type GDExtensionInterface<type> and the name "name". All exist since Godot 4.3.
 #define SGM_GODOT_FUNCTIONS(X)                                                                   \
   X(ArrayOperatorIndex, array_operator_index)                                                    \
   X(ClassdbConstructObject, classdb_construct_object)                                            \
@@ -56,7 +57,7 @@ struct Interface {
 #define SGM_GODOT_DECLARE(type, name) GDExtensionInterface##type name = nullptr;
   SGM_GODOT_FUNCTIONS(SGM_GODOT_DECLARE)
 #undef SGM_GODOT_DECLARE
-  /// editor_help_load_xml_from_utf8_chars_and_len; null where the engine is no editor.
+  /// The function editor_help_load_xml_from_utf8_chars_and_len; null if the engine is not an editor.
   void (*load_help)(const char* xml, GDExtensionInt size) = nullptr;
   GDExtensionClassLibraryPtr library = nullptr;
   GDExtensionVariantFromTypeConstructorFunc from_type[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX] = {};
@@ -64,11 +65,11 @@ struct Interface {
   GDExtensionPtrDestructor destructor[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX] = {};
 };
 
-/// The engine's functions. Values of the engine's end by them, wherever they are held, so that they stand here like
-/// functions that a linker resolves: written once, before anything else of this library runs, and never again.
+/// The engine's functions. They are global, because destructors of engine values call them wherever such values are
+/// held. They are written once, before any other code of this library runs, and never changed.
 const Interface& engine();
 
-/// Looks all of them up. Returns null, or the name of the first one that this engine does not have.
+/// Looks up all functions. Returns null, or the name of the first function that this engine does not have.
 const char* loadInterface(GDExtensionInterfaceGetProcAddress address, GDExtensionClassLibraryPtr library);
 
 }  // namespace sgm_godot

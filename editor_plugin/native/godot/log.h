@@ -1,13 +1,13 @@
 #pragma once
-// The engine's error list.
+// Writes to the engine's error log.
 
 #include <string>
 
 namespace sgm_godot {
 
-/// Any thread. With a file ("res://cave.sgm") and a line the editor can show the place.
+/// Thread-safe. If a file ("res://cave.sgm") and a line are given, the editor can show that line.
 void logError(const std::string& message, const std::string& file = {}, int line = 0);
-/// Where there is no memory for a text.
+/// Logs that memory ran out, without allocating memory.
 void logOutOfMemory(const char* what);
 void logWarning(const std::string& message, const std::string& file = {}, int line = 0);
 

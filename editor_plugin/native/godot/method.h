@@ -1,5 +1,6 @@
 #pragma once
-// A C++ member function as the engine calls one: with Variants, or with its own types in place.
+// Adapts a C++ member function to the engine's two calling conventions: with Variants, and with pointers to engine
+// types.
 
 #include <new>
 
@@ -9,8 +10,8 @@
 namespace sgm_godot {
 
 struct MethodShape {
-  std::vector<int> arguments;  // types
-  int result = -1;             // type; -1: none
+  std::vector<int> arguments;  // Variant types of the arguments
+  int result = -1;             // Variant type of the result; -1: none
 };
 
 template <class C, class R, class... A>
@@ -39,7 +40,7 @@ struct MethodParts {
     return {};
   }
 
-  /// `userdata`: a vector of Variants, the defaults of the last arguments.
+  /// `userdata`: a vector of Variants with the default values of the last arguments.
   template <auto method>
   static void call(void* userdata, void* instance, const void* const* given, int64_t count, void* result,
                    GDExtensionCallError* error) {

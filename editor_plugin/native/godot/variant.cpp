@@ -105,7 +105,7 @@ void Variant::toTyped(Type type, void* value) const {
     engine().variant_new_copy(value, bytes_);
     return;
   }
-  // The place holds an empty value of the type, which may own something.
+  // `value` points to an existing empty value of the type, which may own memory: destroy it first.
   if (engine().destructor[type] != nullptr) engine().destructor[type](value);
   engine().to_type[type](value, const_cast<unsigned char*>(bytes_));
 }
@@ -212,7 +212,7 @@ Packed<T>::Packed(size_t size) : size_(size) {
     if (array.size() != static_cast<int64_t>(size)) throw std::bad_alloc();
     engine().to_type[PackedType<T>::type](bytes_, const_cast<void*>(array.raw()));
   }
-  // Only now is this the array's one owner, so that writing does not copy it.
+  // Only now is the array referenced once, so that obtaining a pointer for writing does not copy it.
   if (size != 0) data_ = PackedType<T>::first(bytes_);
 }
 template <class T>

@@ -1,7 +1,7 @@
 #pragma once
-// Values of the engine's. Everything but plain numbers and vectors is a Variant, and methods are called by name: of the
-// calls that this plugin makes none is made so often that it would matter, and names stay the same from version to
-// version.
+// Values of the engine. All values except plain numbers and vectors are Variants, and methods are called by name. This
+// is slower than typed calls, but the plugin makes no call so often that it matters, and names stay the same from
+// version to version.
 
 #include <array>
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace sgm_godot {
 
-// Laid out as the engine's own, in builds with single precision (the only ones this library lets itself be loaded
-// into).
+// These types have the same layout as the engine's types in builds with single precision; the library refuses to run in
+// other builds.
 struct Vector2 {
   float x = 0, y = 0;
 };
@@ -51,11 +51,11 @@ struct Transform {
            : i == 1 ? Vector3{rows[0].y, rows[1].y, rows[2].y}
                     : Vector3{rows[0].z, rows[1].z, rows[2].z};
   }
-  /// The transform that does this one after `first`.
+  /// The transform that applies `first`, then this transform.
   Transform after(const Transform& first) const;
   Vector3 apply(Vector3 v) const;
-  Vector3 turn(Vector3 v) const;  // without the shift
-  Transform inverse() const;      // of any transform that can be undone, else the identity
+  Vector3 turn(Vector3 v) const;  // applies rotation and scale without the translation
+  Transform inverse() const;      // of any invertible transform; otherwise the identity
 };
 struct Rid {
   uint64_t id = 0;
@@ -65,7 +65,7 @@ static_assert(sizeof(Vector3) == 12 && sizeof(Transform) == 48 && sizeof(Aabb) =
 
 using Object = GDExtensionObjectPtr;
 
-/// The engine's StringName: a name that is looked up once and compared as a pointer.
+/// A StringName of the engine: a name that is interned once, and then compared as a pointer.
 class Name {
  public:
   explicit Name(std::string_view text);
@@ -80,7 +80,7 @@ class Name {
 };
 
 template <class T>
-struct VariantType;  // `value`: the engine's number of the type that T is laid out as
+struct VariantType;  // `value`: the number of the engine's type that has the layout of T
 
 class Variant {
  public:
@@ -113,12 +113,12 @@ class Variant {
   Variant(T value) {
     engine().from_type[VariantType<T>::value](bytes_, &value);
   }
-  /// An empty value of a type: a dictionary, an array, a packed array.
+  /// An empty value of a type, such as a dictionary, an array or a packed array.
   static Variant ofType(GDExtensionVariantType type);
   static Variant dictionary() { return ofType(GDEXTENSION_VARIANT_TYPE_DICTIONARY); }
   static Variant array() { return ofType(GDEXTENSION_VARIANT_TYPE_ARRAY); }
   static Variant callable(Object object, const Name& method);
-  /// Copies or takes over what lies at `value` as the engine's own type.
+  /// Makes a Variant from the engine value of the given type to which `value` points.
   static Variant fromTyped(GDExtensionVariantType type, const void* value);
 
   GDExtensionVariantType type() const {
@@ -129,14 +129,15 @@ class Variant {
   bool isNil() const { return type() == GDEXTENSION_VARIANT_TYPE_NIL; }
   bool truth() const { return engine().variant_booleanize(bytes_) != 0; }
 
-  /// As another type, converted as the engine does. A type that does not fit gives that type's empty value.
+  /// The value as another type, converted as the engine does. If no conversion exists, the empty value of that type.
   template <class T>
   T to() const;
   Object object() const;
-  /// Writes the value as the engine's own type over what is there.
+  /// Overwrites the engine value of the given type to which `value` points.
   void toTyped(GDExtensionVariantType type, void* value) const;
 
-  /// Calls a method of an object or a built-in type. An error of the call is told to the engine's log, and gives nil.
+  /// Calls a method of an object or a built-in type. If the call fails, the error is written to the engine's log and
+  /// the result is nil.
   template <class... Arguments>
   Variant call(const Name& method, const Arguments&... arguments) const {
     const std::array<Variant, sizeof...(Arguments)> values{Variant(arguments)...};
@@ -149,10 +150,10 @@ class Variant {
     return call(Name(method), arguments...);
   }
 
-  Variant get(const Variant& key) const;  // of a dictionary or an array; nil where there is none
+  Variant get(const Variant& key) const;  // the element of a dictionary or an array; nil if there is none
   bool has(const Variant& key) const;
   void set(const Variant& key, const Variant& value);
-  void append(const Variant& value) const;  // to an array
+  void append(const Variant& value) const;  // appends to an array
   int64_t size() const;
 
   const void* raw() const { return bytes_; }
@@ -196,8 +197,8 @@ T Variant::to() const {
   return value;
 }
 
-/// A packed array that is filled before anything else sees it. T: uint8_t, int32_t, int64_t, float, double, Vector2,
-/// Vector3, Color.
+/// A packed array that must be filled completely before other code sees it. T: uint8_t, int32_t, int64_t, float,
+/// double, Vector2, Vector3, Color.
 template <class T>
 class Packed {
  public:
@@ -205,9 +206,9 @@ class Packed {
   ~Packed();
   Packed(const Packed&) = delete;
   Packed& operator=(const Packed&) = delete;
-  T* data() { return data_; }  // null where size is 0
+  T* data() { return data_; }  // null if size is 0
   size_t size() const { return size_; }
-  Variant take() const;  // the array; nothing may be written to it any more
+  Variant take() const;  // the finished array; it must not be written to afterwards
 
  private:
   alignas(8) unsigned char bytes_[16];
@@ -215,11 +216,11 @@ class Packed {
   size_t size_;
 };
 
-/// The elements of a packed array that came from elsewhere; empty where it is none.
+/// The elements of a packed array that the engine has passed; empty if the Variant is not a packed array of T.
 template <class T>
 std::vector<T> elements(const Variant& packed);
 
-/// What objects, packed arrays of strings and arrays of dictionaries are made of.
+/// A PackedStringArray with these texts.
 Variant strings(const std::vector<std::string>& texts);
 
 }  // namespace sgm_godot
