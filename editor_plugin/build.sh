@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Builds the Godot plugin from the installed package, into demo/addons/sgm/bin, and imports the demo project.
+# Builds the Godot plugin against the installed package of libsgm, into demo/addons/sgm/bin, and imports the demo
+# project.
 #
 #   bash editor_plugin/build.sh [PREFIX]
 #
-#   PREFIX  where libsgm is installed; without it build/release is installed into build/godot/prefix
+#   PREFIX  folder in which libsgm is installed; by default build/release is installed into build/godot/prefix
 #
-# The engine's headers come from the Godot that get_godot.sh finds. All else goes below build/godot.
+# The engine's headers come from the Godot that get_godot.sh finds. Everything else is written to build/godot.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(dirname "$here")
@@ -13,7 +14,7 @@ out=$root/build/godot
 die() { echo "editor_plugin/build.sh: error: $1" >&2; exit 1; }
 
 mkdir -p "$out"
-# quietly WHAT COMMAND...: its words only where it fails.
+# quietly WHAT COMMAND...: runs a command, and prints its output only if it fails.
 quietly() {
   local what=$1
   shift
@@ -27,12 +28,12 @@ if (($# == 0)); then
   grep -q '^SGM_TOOLS:[A-Z]*=all' "$root/build/release/CMakeCache.txt" ||
     die "build/release has only the core commands: cmake --preset release && cmake --build --preset release"
   quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
-  # The tests bake with the command.
+  # The plugin's tests bake worlds with the command.
   quietly "installing the command" cmake --install "$root/build/release" --prefix "$prefix" --component command
 fi
 godot=$(bash "$here/get_godot.sh")
 
-# The headers are the engine's own: once a version.
+# The engine itself writes these headers; they change only with its version.
 api=$out/api
 version=$("$godot" --headless --version 2>/dev/null </dev/null | tail -n 1)
 if [[ $(cat "$api/version" 2>/dev/null) != "$version" ]]; then
@@ -48,11 +49,12 @@ options=()
 quietly "configuring" cmake -S "$here" -B "$out/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DSGM_GODOT_API="$api" \
   ${options[@]+"${options[@]}"}
 quietly "building" cmake --build "$out/build"
-# So that the project also runs without having been opened in the editor. An engine that finds a library only while it
-# imports crashes when it quits (godotengine/godot#111048): it is told of it before.
+# Import the project, so that it also runs without having been opened in the editor. An engine that discovers a native
+# library only during the import crashes when it quits (godotengine/godot#111048), so list the library beforehand.
 [[ -e $here/demo/.godot/extension_list.cfg ]] ||
   { mkdir -p "$here/demo/.godot" && echo "res://addons/sgm/sgm.gdextension" >"$here/demo/.godot/extension_list.cfg"; }
 HOME=$out/home quietly "importing the demo project" timeout 300 "$godot" --headless --path "$here/demo" --import
 ! grep -E '^(ERROR|SCRIPT ERROR)' "$out/build.log" >&2 || die "the demo project was imported with errors"
-touch "$here/demo/.godot/sgm_imported"  # tests/run.sh imports the project again if a file of it is newer
+# tests/run.sh imports the project again if one of its files is newer than this one.
+touch "$here/demo/.godot/sgm_imported"
 echo "the plugin is in editor_plugin/demo/addons/sgm, built with the headers of Godot $version"

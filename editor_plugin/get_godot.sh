@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Prints the path of a Godot that the plugin can be built for and tested in; its version goes to stderr.
+# Prints the path of a Godot engine for which the plugin can be built and tested; prints its version to stderr.
 #
 #   bash editor_plugin/get_godot.sh [--no-download]
 #
-# The first of these that is there: $GODOT; godot4 or godot in PATH, from 4.3 on; one that was unpacked before, below
-# build/tools/godot (or $SGM_GODOT_CACHE); else it is unpacked there, with its libraries and a software Vulkan device,
-# from a newer suite of Debian (amd64; about 900 MB; nothing is installed), unless --no-download forbids it. Exit status: 0,
-# or 1 after one line that says what to do.
+# Uses the first engine that exists: $GODOT; godot4 or godot in PATH, 4.3 or newer; one that this script has unpacked
+# before into build/tools/godot (or $SGM_GODOT_CACHE). Otherwise unpacks one there, with its libraries and a software
+# Vulkan device, from a newer suite of Debian (amd64; about 900 MB; nothing is installed), unless --no-download is
+# given. Exit status: 0, or 1 after a line that says what to do.
 set -euo pipefail
 [[ ${1:-} != --help ]] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; exit 0; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -15,7 +15,7 @@ suite=sid
 
 die() { echo "get_godot: error: $1" >&2; exit 1; }
 
-# version PROGRAM: "4.6.3.stable...", or nothing where it does not run.
+# version PROGRAM: prints "4.6.3.stable...", or nothing if the program does not run.
 version() { timeout 60 "$1" --headless --version 2>/dev/null </dev/null | tail -n 1 | tr -d '\r' || true; }
 new_enough() { [[ $1 =~ ^4\.([0-9]+) ]] && ((BASH_REMATCH[1] >= 3)); }
 found() { echo "get_godot: $2 ($1)" >&2; echo "$1"; exit 0; }
@@ -76,7 +76,7 @@ for package in "$new"/apt/cache/archives/*.deb; do
 done
 rm -rf "$new/apt"
 
-# It runs with the loader and the libraries that belong to it, wherever the folder is.
+# The engine is started with its own dynamic loader and libraries, wherever the folder is.
 cat >"$new/godot" <<'WRAPPER'
 #!/bin/sh
 here=$(dirname "$(readlink -f "$0")")

@@ -1,12 +1,13 @@
-# Writes the renderer's patterns and clouds (shaders/render) as includes of Godot's shaders, patterns.gdshaderinc and
-# clouds.gdshaderinc: the same stone, the same bricks and the same sky everywhere.
+# Translates the renderer's patterns and clouds (shaders/render) to include files of Godot's shaders,
+# patterns.gdshaderinc and clouds.gdshaderinc, so that stone, bricks and sky look the same in both renderers.
 #
 #   cmake -DSHADERS=FOLDER_OF_render -DOUTPUT=FOLDER -P editor_plugin/patterns.cmake
 #
 # Godot's shading language is GLSL without integer conversions in constructors, and without our #include. A line that
-# cannot be translated is an error, so that a change of the patterns fails here and not in an engine.
+# cannot be translated is an error, so that a change of the patterns fails here and not in the engine.
 #
-# A file is written only if it changes, and atomically: several builds may share it, and a running engine sees it
+# A file is written only if it changes, and atomically: several builds may share it, and a running engine never reads an
+# incomplete file.
 # complete.
 cmake_minimum_required(VERSION 3.25)
 set(text "")
@@ -18,7 +19,7 @@ function(fail file line what)
   message(FATAL_ERROR "${SHADERS}/${file}: ${what}:\n  ${line}\nWrite it as the lines around it are written, or teach "
     "editor_plugin/patterns.cmake to translate it.")
 endfunction()
-# take(FILE): appends its includes and then the file, each once.
+# take(FILE): appends the file's includes and then the file itself, each once.
 set(taken "")
 function(take file)
   if(file IN_LIST taken)
@@ -39,7 +40,7 @@ function(take file)
       take(${CMAKE_MATCH_1})
       continue()
     endif()
-    # A pattern is compiled if a material of the world uses it.
+    # A pattern is compiled only if a material of the world uses it.
     if(line MATCHES "^( *)if \\(has\\(([0-9]+)u\\)\\) { if \\(pattern == ([0-9]+)u\\) (return .*) }$")
       if(NOT CMAKE_MATCH_2 EQUAL CMAKE_MATCH_3)
         fail(${file} "${line}" "it asks for two different patterns")
@@ -57,12 +58,12 @@ function(take file)
         line MATCHES "^#define has\\(pattern\\) \\(\\(kPatterns ")
       continue()
     elseif(file STREQUAL "render/patterns.h" AND line MATCHES "^const uint k([A-Za-z]+) = ([0-9]+)u@semicolon@$")
-      # For a named pattern: shaders test SGM_HAS_NAME to know whether it is compiled.
+      # For a pattern with a name: shaders test SGM_HAS_NAME to know whether the pattern is compiled.
       string(TOUPPER ${CMAKE_MATCH_1} name)
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
         "#define SGM_HAS_${name}\n#endif\n")
     endif()
-    # Godot's loops have no attributes: a bound that the compiler does not know has the same effect.
+    # Godot's loops have no attribute dont_unroll: a bound that the compiler does not know has the same effect.
     string(REGEX REPLACE "@open@@open@dont_unroll@close@@close@ for \\(int ([a-z]) = 0@semicolon@ [a-z] < ([0-9]+)@semicolon@"
       "for (int \\1 = 0@semicolon@ \\1 < \\2 * whole_loops@semicolon@" line "${line}")
     string(REGEX REPLACE "([^i]vec3)\\(([0-9]+), ([0-9]+), ([0-9]+)\\)" "\\1(\\2.0, \\3.0, \\4.0)" line "${line}")
@@ -81,7 +82,7 @@ function(take file)
   set(text "${text}" PARENT_SCOPE)
   set(taken "${taken}" PARENT_SCOPE)
 endfunction()
-# put(NAME WHAT): writes the collected text, and starts another one.
+# put(NAME WHAT): writes the collected text to a file, and starts another text.
 function(put name what)
   string(REPLACE "@semicolon@" ";" text "${text}")
   string(REPLACE "@open@" "[" text "${text}")

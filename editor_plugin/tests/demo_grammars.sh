@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The demo's grammars are plain copies of the samples, so that the project can be copied away.
+# The demo's grammars are copies of the samples, so that the demo project can be copied to another place.
 #
 #   bash editor_plugin/tests/demo_grammars.sh [write]     compares them; write: copies the samples over them
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Without the native library the demo says what to do; it neither crashes nor opens a place.
+# Tests that the demo without the native library shows what to do, and neither crashes nor opens a place.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)

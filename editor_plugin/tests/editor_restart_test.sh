@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A grammar that was open as text when the editor was closed is still the one of the scene's world when the editor comes
-# up again with both, and a scene that is saved then still refers to the grammar's file.
+# Tests a restart of the editor while a grammar is open as text: the scene's world still has the grammar when the editor
+# opens both again, and a scene that is saved then still refers to the grammar's file.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)
@@ -11,7 +11,7 @@ godot=$(bash "$root/editor_plugin/get_godot.sh" 2>/dev/null) || {
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export HOME=$folder/home XDG_DATA_HOME=$folder/home XDG_CONFIG_HOME=$folder/home XDG_CACHE_HOME=$folder/home
-# What the driver keeps is, for it takes long to make.
+# The driver's shader cache is shared between tests, because shaders take long to compile.
 export MESA_SHADER_CACHE_DIR=$root/build/godot/home/cache
 project=$folder/demo
 mkdir -p "$HOME" "$project/tests"
@@ -26,7 +26,7 @@ extends RefCounted
 func run(plugin: EditorPlugin) -> void:
 	EditorInterface.open_scene_from_path("res://cave/cave.tscn")
 	load("res://addons/sgm/editor/text_editing.gd").open("res://grammars/cave.sgm")
-	# The editor saves what is open some time later.
+	# The editor saves its list of open files after some seconds.
 	await plugin.get_tree().create_timer(4.0).timeout
 	plugin.get_tree().quit()
 SCRIPT

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# get_godot.sh says one clear thing wherever there is no Godot to be had, and leaves nothing half.
+# Tests that get_godot.sh prints one clear line if no Godot can be found, and leaves no incomplete files.
 set -euo pipefail
 script=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/get_godot.sh
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 unset GODOT SGM_GODOT_CACHE
 failed=0
-# refuses PATTERN COMMAND...: ends with 1, nothing on stdout, and one line on stderr that fits.
+# refuses PATTERN COMMAND...: the command must exit with 1, print nothing to stdout, and one line to stderr that
+# matches.
 refuses() {
   local pattern=$1 status=0
   shift
@@ -17,7 +18,7 @@ refuses() {
     failed=1
   fi
 }
-program() {  # program NAME VERSION: something that says it is that Godot
+program() {  # program NAME VERSION: makes a program that prints this version
   mkdir -p "$out/bin"
   printf '#!/bin/sh\necho "%s"\n' "$2" >"$out/bin/$1"
   chmod +x "$out/bin/$1"
@@ -34,7 +35,7 @@ right=$(program godot 4.3.stable)
 [[ $(PATH=$out/bin:$PATH bash "$script" 2>/dev/null) == "$right" ]] || { echo "a Godot in PATH is not taken"; failed=1; }
 GODOT=$right bash "$script" 2>&1 >/dev/null | grep -q '4\.3\.stable' || { echo "its version is not printed"; failed=1; }
 
-# Without a network, in a namespace that has none, where this machine lets one be made.
+# Without a network: run in a network namespace without interfaces, if this machine allows making one.
 if unshare -rn true 2>/dev/null; then
   rm -rf "$out/bin"
   refuses "could not be downloaded|no mirror|set GODOT" env -u GODOT PATH=/usr/sbin:/usr/bin:/sbin:/bin \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The harness itself: what must fail does, for the right reason, and what must pass does too.
+# Tests the harness of the plugin's tests: faulty tests must fail for the right reason, and correct ones must pass.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 out=$(mktemp -d)
@@ -10,18 +10,18 @@ cp -a "$tests/lib" "$out/editor_plugin/tests/"
 godot=$(bash "$tests/../get_godot.sh" 2>/dev/null)
 printf '#!/bin/sh\necho "%s"\n' "$godot" >"$out/editor_plugin/get_godot.sh"
 printf 'config_version=5\n[application]\nconfig/name="harness"\n' >"$out/demo/project.godot"
-rm -f "$out"/editor_plugin/tests/lib/cave.gd  # it needs the plugin's classes
+rm -f "$out"/editor_plugin/tests/lib/cave.gd  # this file needs the plugin's classes
 
-# script NAME BODY: a test whose _initialize is BODY.
+# script NAME BODY: makes a test with BODY as its function _initialize.
 script() {
   printf 'extends SceneTree\nconst Checks := preload("res://tests/lib/checks.gd")\nvar _checks := Checks.new()\n\nfunc _initialize() -> void:\n%s\n' \
     "$2" >"$out/editor_plugin/tests/headless/$1.gd"
 }
-# There is nothing to import in it.
+# The project has nothing to import.
 mkdir "$out/demo/.godot"
 touch "$out/demo/.godot/sgm_imported"
 failed=0
-# judged NAME STATUS PATTERN
+# judged NAME STATUS PATTERN: runs a test, and checks the exit status and output of the harness.
 judged() {
   local status=0
   SGM_GODOT_OUT=$out/out SGM_GODOT_DEMO=$out/demo bash "$out/editor_plugin/tests/run.sh" "headless/$1" >"$out/said" 2>&1 || status=$?

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# patterns.cmake translates the renderer's patterns for Godot: all of them, and it fails at a line that it does not know;
-# the file is replaced as a whole, and only where it changes.
+# Tests patterns.cmake: it translates all of the renderer's patterns for Godot, fails at a line that it cannot
+# translate, and replaces the files atomically and only if they change.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 work=$(mktemp -d)
@@ -12,7 +12,7 @@ mkdir "$work/out"
 make() { cmake -DSHADERS="$1" -DOUTPUT="$work/out" -P "$root/editor_plugin/patterns.cmake" >"$work/log" 2>&1; }
 
 make "$root/shaders" || wrong "the patterns are not made: $(cat "$work/log")"
-# Each pattern of the enum has its place.
+# Each pattern of the enum SurfacePattern must have a branch in the result.
 count=$(sed -n '/^enum class SurfacePattern/,/^};/p' "$root/runtime/tools/materials/material.h" | grep -cE '^  [a-z_]+,')
 ((count > 20)) || wrong "only $count patterns are found in material.h"
 for ((i = 0; i < count; ++i)); do
@@ -22,7 +22,7 @@ touch -d '2001-01-01' "$out"
 make "$root/shaders" || wrong "the patterns are not made again"
 [[ $(stat -c %Y "$out") == $(date -d '2001-01-01' +%s) ]] || wrong "the same text is written again"
 
-# refused WHAT FILE SED: the changed line is an error that names the file, and what was there stays.
+# refused WHAT FILE SED: with a changed line, patterns.cmake must fail, name the file, and leave the previous result.
 refused() {
   rm -rf "$work/shaders"
   cp -r "$root/shaders" "$work/shaders"

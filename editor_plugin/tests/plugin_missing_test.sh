@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Without the native library, or with that of another version, the editor plugin says once what to do, and loads
-# nothing.
+# Tests that the editor plugin, without the native library or with one of another version, says once what to do, and
+# loads nothing.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)
@@ -13,7 +13,7 @@ trap 'rm -rf "$folder"' EXIT
 export HOME=$folder/home XDG_DATA_HOME=$folder/home XDG_CONFIG_HOME=$folder/home XDG_CACHE_HOME=$folder/home
 mkdir -p "$HOME"
 
-# A project of the addon alone, so that nothing else speaks of what is missing.
+# Makes a project that contains only the addon, so that no other file causes messages about the missing library.
 project_of() {
   local project=$folder/$1
   mkdir -p "$project/addons"
@@ -23,14 +23,14 @@ config_version=5
 [editor_plugins]
 enabled=PackedStringArray("res://addons/sgm/plugin.cfg")
 PROJECT
-  # An engine that finds a library only while it imports crashes when it quits (godotengine/godot#111048).
+  # An engine that discovers a native library only during the import crashes when it quits (godotengine/godot#111048).
   mkdir "$project/.godot"
   echo "res://addons/sgm/sgm.gdextension" >"$project/.godot/extension_list.cfg"
   echo "$project"
 }
 
-# check NAME PROJECT PATTERN COUNT: opens the project in the editor, whose log has to have so many lines of the plugin's
-# that match.
+# check NAME PROJECT PATTERN COUNT: opens the project in the editor; the editor's log must have COUNT lines of the
+# plugin that match the pattern.
 check() {
   local name=$1 project=$2 pattern=$3 count=$4 log=$folder/$1.log
   timeout 120 "$godot" --headless --path "$project" --import >"$log.import" 2>&1 </dev/null || true
@@ -55,8 +55,8 @@ sed -i 's/^version=.*/version="99.0.0"/' "$other/addons/sgm/plugin.cfg"
 check other "$other" '.*the plugin of version 99\.0\.0; run editor_plugin/build\.sh, or copy' 1
 check fitting "$(project_of fitting)" '' 0
 
-# A libsgm of another version than the one that the plugin was built for: this one, whose function that tells the version
-# (2000: 0.2.0) is changed to tell another.
+# Simulates a libsgm of another version than the plugin was built for: copies this libsgm, and changes the constant that
+# its version function returns (2000: 0.2.0).
 mixed=$(project_of mixed)
 library=$mixed/addons/sgm/bin/libsgm.so.0.2
 mapfile -t places < <(LC_ALL=C grep -obUaP '\xb8\xd0\x07\x00\x00\xc3' "$library" | cut -d: -f1)

@@ -3,16 +3,16 @@
 #
 #   bash editor_plugin/tests/run.sh [FOLDER/NAME...]     headless/flight, rendered/pictures, ...; none: all of them
 #
-# pictures/readme draws the pictures of the README at 1920x1080, for which it takes its time (SGM_GODOT_TIMEOUT, seconds);
-# it is none of "all". SGM_PLACES names those that are wanted.
+# pictures/readme draws the pictures of the README at 1920x1080, which takes long (SGM_GODOT_TIMEOUT, seconds). It must
+# be named to run. SGM_PLACES names the pictures to draw.
 #
-# Tests are scripts of a copy of the demo project, build/godot/project, so that nothing in the checkout changes:
-# headless/ run without a display, rendered/ under a virtual one on software Vulkan, opengl/ there by OpenGL, editor/ in
-# the editor there.
-# Pictures go to $SGM_PICTURES (build/godot/pictures).
+# Tests are scripts in copies of the demo project, build/godot/projects, so that nothing in the checkout changes. Tests
+# in headless/ run without a display, those in rendered/ on a virtual display with software Vulkan, those in opengl/
+# there with OpenGL, and those in editor/ there in the editor.
+# Pictures are written to $SGM_PICTURES (build/godot/pictures).
 #
-# A test has passed when it ends with status 0 and its marker `SGM TEST PASSED: N checks`, and the engine's log has no
-# error, no leak, but those that the test announced (`SGM TEST EXPECTS: REGEX`), each of which must have come.
+# A test passes if it ends with status 0 and its marker `SGM TEST PASSED: N checks`, and the engine's log contains no
+# errors or leaks except those that the test has announced (`SGM TEST EXPECTS: REGEX`), each of which must occur.
 set -euo pipefail
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$tests/../.." && pwd)
@@ -29,7 +29,7 @@ mkdir -p "$out/home" "$out/tests" "${SGM_PICTURES:=$out/pictures}"
 export GODOT=$godot SGM_PICTURES HOME=$out/home SGM_COMMAND=${SGM_COMMAND:-$out/prefix/bin/sgm}
 export XDG_DATA_HOME=$HOME/data XDG_CONFIG_HOME=$HOME/config XDG_CACHE_HOME=$HOME/cache
 
-# One copy for each test, so that they may run at one time: files by hard links, where the disk lets them.
+# Makes one copy of the project for each test, so that tests can run concurrently. Files are hard links where possible.
 project_of() {
   local project=$out/projects/$1
   rm -rf "$project"
@@ -37,14 +37,15 @@ project_of() {
   cp -a "$demo/." "$project/"
   mkdir -p "$project/tests"
   cp -a "$tests"/{lib,headless,rendered,opengl,editor,pictures} "$tests"/../native/doc "$project/tests/" 2>/dev/null || true
-  # Worlds that stay as they are: the demo's follow the samples.
+  # Worlds of tests use grammars that do not change: the demo's grammars change with the samples.
   mkdir -p "$project/tests/grammars"
   cp "$root"/tests/bench/grammars/{cave,city,cloud}.sgm "$project/tests/grammars/"
   echo "$project"
 }
 
-# Whether a test of this kind finds its project imported, by editor_plugin/build.sh: to import it again takes longer than
-# most tests. The editor has to: it meets the test's own files, and where they are new to it, it loads its plugins twice.
+# Whether a test of this kind can use the project as editor_plugin/build.sh has imported it: importing again takes
+# longer than most tests. Editor tests must import again: if the test's files are new to the editor, it loads its
+# plugins twice.
 is_imported() {
   local kind=$1 known=$demo/.godot/sgm_imported
   [[ $kind != editor && -e $known && -z $(find "$demo" -path "$demo/.godot" -prune -o -type f -newer "$known" -print -quit) ]]
@@ -52,7 +53,7 @@ is_imported() {
 
 failures='^((USER |SCRIPT |USER SCRIPT |SHADER )?ERROR|Parse Error)|[Ll]eaked|still in use at exit|Orphan|ObjectDB instances'
 
-# judge LOG STATUS: prints what is wrong with a run; nothing where it passed.
+# judge LOG STATUS: prints the faults of a run; prints nothing if it passed.
 judge() {
   local log=$1 status=$2 expected=() line pattern
   grep -q '^SGM TEST PASSED: [1-9][0-9]* checks$' "$log" || echo "there is no marker: the test did not come to its end"
@@ -78,7 +79,7 @@ run_one() {
   case $kind in
     headless) command=("$godot" --headless --path "$project" --script "tests/$name.gd") ;;
     rendered)
-      # Only the search for holes needs many pixels, each of which a software device takes its time for.
+      # Only the search for holes needs many pixels, and a software device needs long for each pixel.
       resolution=640x360
       [[ $name != */closed ]] || resolution=1280x720
       command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution $resolution
@@ -89,7 +90,7 @@ run_one() {
     opengl) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-method gl_compatibility
       --rendering-driver opengl3 --resolution 1280x720 --path "$project" --script "tests/$name.gd") ;;
     editor)
-      # A plugin of the copy's own loads the test into the editor, and quits.
+      # A plugin in the copy loads the test into the editor.
       cp -a "$tests/lib/driver" "$project/addons/sgm_test"
       sed -i "s#^enabled=PackedStringArray(#&\"res://addons/sgm_test/plugin.cfg\", #" "$project/project.godot"
       export SGM_EDITOR_TEST="res://tests/$name.gd"

@@ -1,4 +1,5 @@
-# Runs the Godot plugin's tests as ctests: it is built and tested outside of this build, from its installation.
+# Runs the Godot plugin's tests as ctests. The plugin is built and tested outside of this build, from an installation of
+# libsgm.
 set(plugin ${PROJECT_SOURCE_DIR}/editor_plugin)
 add_test(NAME godot_build COMMAND bash ${plugin}/build.sh)
 set_tests_properties(godot_build PROPERTIES LABELS godot FIXTURES_SETUP godot_plugin TIMEOUT 900)

@@ -1,4 +1,4 @@
-// Starts `sgm lsp` for grammars, and shows parts of the standard library, which lie inside the command.
+// Starts `sgm lsp` for grammars, and shows modules of the standard library, which are embedded in the command.
 const vscode = require('vscode');
 const { LanguageClient } = require('vscode-languageclient/node');
 

@@ -1,14 +1,14 @@
 class_name DemoCave
 extends DemoPlace
-## An endless cave to walk in, to dig in, and to grow anew from other seeds. What is dug lies in a journal for each
-## seed.
+## An endless cave in which the player walks and digs, and which can be grown again from other seeds. Digs are saved in
+## a journal for each seed.
 
-## One begins in the hall that is nearest to it.
+## The player begins in the hall nearest to this place.
 const MIDDLE := Vector3(30.0, 0.0, 30.0)
-## The journal of the digs in a seed's cave. Another grammar, cells of another size (here in mm) and other parameters make
-## other caves.
+## Path of the journal with the digs in a seed's cave. Another grammar, cell size (here in mm) or other parameters make
+## another cave, so they are part of the name.
 const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
-## Metres from the eyes in which one can dig and build.
+## Metres from the eyes within which the player can dig and build.
 const REACH := 14.0
 const DIG_RADIUS := 1.4
 const BUILD_RADIUS := 1.1
@@ -16,10 +16,10 @@ const SMOOTH := 0.35
 const BUILD_MATERIAL := "calcite"
 ## Seconds between two digs while the button is held.
 const PACE := 0.16
-## Seconds after which the curtain opens even where no ground has come.
+## Maximum seconds until the curtain opens, even if no ground has been drawn.
 const LONGEST_WAIT := 20.0
 
-## Whether the air shows the lamp's light. At first only machines with a graphics card of their own have it.
+## Whether the air scatters the lamp's light. Initially only on machines with a dedicated graphics card.
 var fog := false:
 	set(value):
 		fog = value
@@ -28,7 +28,7 @@ var fog := false:
 var _edits: Array[PackedInt64Array] = []
 var _rest := 0.0
 var _growing := false
-## The click that captures the mouse does not dig.
+## False until the click that captures the mouse is released, so that this click does not dig.
 var _armed := false
 
 
@@ -88,13 +88,13 @@ func welcome() -> String:
 	return "What you dug here is back. " + WELCOME if world.get_edit_count() > 0 else WELCOME
 
 
-## Digs where the player looks; whether there is rock in reach.
+## Digs where the player looks. Returns whether there is rock within reach.
 func dig() -> bool:
 	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
 	return not hit.is_empty() and _keep(world.dig(hit.position, DIG_RADIUS, SMOOTH))
 
 
-## Builds where the player looks, but never around the player; whether it has.
+## Builds where the player looks, but never around the player. Returns whether something was built.
 func build() -> bool:
 	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
 	if hit.is_empty():
@@ -106,7 +106,7 @@ func build() -> bool:
 	return _keep(world.build(hit.position, BUILD_RADIUS, BUILD_MATERIAL, SMOOTH))
 
 
-## Takes the last dig or building back; whether there was one.
+## Undoes the last dig or building. Returns whether there was one.
 func undo() -> bool:
 	if _edits.is_empty():
 		overlay.say("Nothing to undo")
@@ -114,7 +114,7 @@ func undo() -> bool:
 	return not world.undo(_edits.pop_back()).is_empty()
 
 
-## Makes the digs safe. They are loaded again when this seed's cave is next entered.
+## Writes the digs to the journal, from which they are loaded when this seed's cave is entered again.
 func save() -> void:
 	if world.flush_edits() == OK:
 		overlay.say("Saved: they are here again when you come back")
@@ -122,7 +122,7 @@ func save() -> void:
 		overlay.say("The digs cannot be saved: see whether the disk has room", 6.0)
 
 
-## Grows the cave of another seed behind a curtain; await it.
+## Grows the cave of another seed behind a curtain. A coroutine.
 func grow(new_seed: int) -> void:
 	if _growing:
 		return
@@ -132,7 +132,7 @@ func grow(new_seed: int) -> void:
 	_edits.clear()
 	world.seed = new_seed
 	world.journal = _journal()
-	# The new cave is there from the next frame on, and only then knows its anchors.
+	# The new cave exists from the next frame on; only then are its anchors known.
 	await world.restarted
 	go_to_start()
 	var limit := Time.get_ticks_msec() + roundi(LONGEST_WAIT * 1000.0)

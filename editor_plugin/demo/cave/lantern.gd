@@ -1,7 +1,7 @@
 extends Node3D
-## A lantern that somebody has left in a hall, on the ground some steps from where one arrives.
+## A lantern on the ground of a hall, some steps from the player's starting place.
 
-## Steps from the anchor at which the ground is tried, metres.
+## Distance in metres from the anchor at which ground for the lantern is searched.
 const WAY := 5.5
 const DIRECTIONS := 12
 const DEEPEST := 4.0
@@ -13,7 +13,8 @@ func _ready() -> void:
 		return
 	var best := Vector3.INF
 	for i in DIRECTIONS:
-		# By the golden angle: halls get their lanterns on different sides.
+		# Directions differ by the golden angle and depend on the hall, so lanterns are on different sides of their
+		# halls.
 		var ahead := Vector3.FORWARD.rotated(Vector3.UP, 2.4 * i + global_position.x)
 		var hit := world.ray_cast(global_position, ahead, WAY + 1.5)
 		if not hit.is_empty():

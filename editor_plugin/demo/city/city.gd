@@ -1,10 +1,10 @@
 class_name DemoCity
 extends DemoPlace
-## An endless city of blocks and towers, to walk in and to fly over.
+## An endless city of blocks and towers, in which the player walks and flies.
 
-## Beside a crossing of two streets: the grammar has one at every corner of its cells.
+## A place beside a crossing of two streets: the grammar has a crossing at every corner of its cells.
 const CROSSING := Vector3(-0.5, 2.5, 17.0)
-## Along one of them, radians.
+## Yaw along one of the streets, radians.
 const LOOK := -0.04
 
 

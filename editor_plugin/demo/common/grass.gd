@@ -1,27 +1,27 @@
 class_name DemoGrass
 extends MultiMeshInstance3D
-## Tufts of grass around the camera, where the world's ground is of grass. Where that is, the world's field says: nothing
-## has to be drawn for it, and what is dug away loses its grass when one comes back.
+## Tufts of grass around the camera where the world's ground consists of grass. The world's field is queried for it, so
+## the ground need not be drawn yet, and ground that was dug away has no grass when the player returns.
 
 const BLADES := 14
-## Of a tuft, metres.
+## Width of a tuft, metres.
 const WIDTH := 0.4
-## Microseconds of a frame in which ground is looked for.
+## Microseconds of each frame that are spent on the search for ground.
 const BUDGET := 1200
-## Metres above and below the camera in which ground is looked for.
+## Metres above and below the camera within which ground is searched.
 const ABOVE := 14.0
 const DEPTH := 40.0
 const STEEPEST := 0.72
-## Metres that the camera moves before tufts are planted and pulled out.
+## Metres that the camera moves before tufts are added and removed.
 const STEP := 2.0
-## With a graphics card there is more of it.
+## Larger values for machines with a graphics card.
 const FINE_RADIUS := 30.0
 const FINE_TUFTS := 13
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["grass"]
 @export var radius := 20.0
-## Metres from one look for the ground to the next: what lies between has its slope.
+## Metres between two places at which ground is searched; between them it is interpolated by its slope.
 @export var spacing := 0.9
 @export var tufts_in_cell := 7
 
@@ -48,7 +48,7 @@ func _process(_delta: float) -> void:
 	_plant(BUDGET)
 
 
-## Plants all that is to be seen from here, however long it takes: for pictures.
+## Plants all visible grass at once, without a time limit. Used for pictures.
 func fill() -> void:
 	_plant(1 << 40)
 
@@ -75,7 +75,7 @@ func _plant(microseconds: int) -> void:
 		_show()
 
 
-# Which cells are to have a tuft: those nearest to the camera come first.
+# Chooses the cells that must have tufts, nearest to the camera first.
 func _choose(eye: Vector3) -> void:
 	var middle := Vector2i((Vector2(eye.x, eye.z) / spacing).floor())
 	var reach := ceili(radius / spacing)
@@ -93,7 +93,7 @@ func _choose(eye: Vector3) -> void:
 	_changed = true
 
 
-# The tufts of a cell; the list is empty where no grass grows.
+# The tufts of a cell; empty if no grass grows there.
 func _at(cell: Vector2i, eye: Vector3) -> Array[Transform3D]:
 	var tufts: Array[Transform3D] = []
 	var middle := (Vector2(cell) + Vector2(0.5, 0.5)) * spacing
@@ -127,7 +127,8 @@ func _show() -> void:
 	custom_aabb = AABB(_middle - Vector3.ONE * (radius + DEPTH), Vector3.ONE * 2.0 * (radius + DEPTH))
 
 
-# Blades that lean away from the middle; UV.y is the height along a blade, UV.x its own number.
+# The mesh of a tuft: blades that lean away from its middle. UV.y is the height along a blade, UV.x a random number of
+# the blade.
 func _tuft() -> ArrayMesh:
 	var random := RandomNumberGenerator.new()
 	random.seed = 5

@@ -1,38 +1,38 @@
 class_name DemoGround
 extends RefCounted
-## Where in a world there is room to stand. It asks the world's field, so that nothing has to be drawn for it.
+## Finds places in a world where a person can stand. Queries the world's field, so that nothing need be drawn for it.
 
-## Half the edge of the box that is searched for anchors first; it is doubled until some are found.
+## Half the edge of the box that is searched for anchors first; it is doubled until anchors are found.
 const FIRST_REACH := 400.0
 const LAST_REACH := 3200.0
-## Room that a person needs above the feet, metres.
+## Free height above the feet that a person needs, metres.
 const HEADROOM := 2.2
-## Directions that are tried for the widest view.
+## Number of directions that are tried to find the widest view.
 const DIRECTIONS := 24
-## Ground deeper below than this is a hall's, not a passage's.
+## If the ground is farther below, in metres, the place is in a hall and not in a passage.
 const PASSAGE_HEIGHT := 5.5
-## How far into a passage one begins, metres.
+## Distance in metres from the beginning of a passage to the starting place.
 const MOUTH := 4.0
 const STEP := 0.5
-## How far from the middle of a hall its ground is tried, metres.
+## Distance in metres from the middle of a hall at which its ground is searched.
 const BESIDE := 6.0
 
 
-## Whether a place lies inside the solid. Within [param depth] metres of the surface the answer is exact.
+## Whether a place lies inside the solid. Exact within [param depth] metres of the surface.
 static func is_inside(world: SgmWorld3D, place: Vector3, depth := 64.0) -> bool:
 	var point := world.closest_point(place, depth)
 	return not point.is_empty() and point.inside
 
 
-## The ground below a place, or the place itself where there is none within [param length] metres.
+## The ground below a place, or the place itself if there is no ground within [param length] metres.
 static func below(world: SgmWorld3D, place: Vector3, length := 64.0) -> Vector3:
 	var hit := world.ray_cast(place, Vector3.DOWN, length)
 	return place if hit.is_empty() or hit.inside else hit.position
 
 
-## Where to begin, looking ahead, for whatever seed and parameters the world has: at the anchor of [param kind] that
-## is nearest to [param around], in the mouth of the longest passage that leads away from it, or else on its ground.
-## Without such an anchor it is the ground below [param around].
+## The transform of the player's starting place, for any seed and parameters. It is near the anchor of [param kind] that
+## is nearest to [param around]: in the beginning of the longest passage that leads away from it, otherwise on the
+## ground below it. Without such an anchor, it is the ground below [param around].
 static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform3D:
 	var reach := FIRST_REACH
 	while reach <= LAST_REACH:
@@ -50,12 +50,12 @@ static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform
 	return looking(below(world, around), 0.0)
 
 
-## A place to stand at, and the angle to look at from there.
+## The transform of a person who stands at a place and looks in the direction of an angle.
 static func looking(feet: Vector3, yaw: float) -> Transform3D:
 	return Transform3D(Basis(Vector3.UP, yaw), feet)
 
 
-## The angle to turn the head by so that it looks farthest from a place, level; radians.
+## The yaw in radians of the longest horizontal view from a place.
 static func widest_view(world: SgmWorld3D, eye: Vector3, length := 80.0) -> float:
 	var best := 0.0
 	var farthest := -1.0
@@ -69,8 +69,8 @@ static func widest_view(world: SgmWorld3D, eye: Vector3, length := 80.0) -> floa
 	return best
 
 
-## The lowest free place at or above [param feet], which may have been buried when the world changed; [param otherwise]
-## where there is none within [param height] metres.
+## The lowest free place at or above [param feet], for a player who was buried when the world changed; [param otherwise]
+## if there is none within [param height] metres.
 static func dug_out(world: SgmWorld3D, feet: Vector3, otherwise: Vector3, height := 12.0) -> Vector3:
 	var lift := 0.0
 	while lift <= height:
@@ -96,7 +96,7 @@ static func _mouth(world: SgmWorld3D, middle: Vector3) -> Transform3D:
 	return looking(_ground_around(world, middle), yaw)
 
 
-## The highest ground near the middle of a hall: a shaft may open right below it.
+## The highest ground near the middle of a hall. The middle itself does not suffice, because a shaft may open below it.
 static func _ground_around(world: SgmWorld3D, middle: Vector3) -> Vector3:
 	var best := below(world, middle)
 	for step in 8:

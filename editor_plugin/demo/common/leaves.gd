@@ -1,30 +1,31 @@
 class_name DemoLeaves
 extends MultiMeshInstance3D
-## Leaves on the crowns of trees and bushes around the camera, for machines with a graphics card. They grow on what the
-## world has drawn of its materials in [member materials], whenever it comes to rest; the crowns themselves are drawn
-## as the shade between them.
+## Leaves on the crowns of trees and bushes around the camera, for machines with a graphics card. They are placed on the
+## drawn surfaces with materials in [member materials] whenever the world becomes idle. Below them, the crowns
+## themselves are drawn dark, as gaps between leaves.
 
-## What a leaf of a near tree is long, metres, and how much of it that is wide; of needles, a sprig.
+## Length of a leaf near the camera, metres, and its width as a share of the length. Needles are drawn in sprigs.
 const LENGTH := 0.085
 const WIDTH := 0.66
 const NEEDLES_WIDTH := 0.3
-## By metre away from the camera they are this much longer, and fewer.
+## Increase of a leaf's length for each metre of distance from the camera; distant leaves are also fewer.
 const GROWTH := 0.006
-## Leaves on a square metre, in squares of their length.
+## Leaf area for each area of surface, in squares of a leaf's length.
 const COVER := 2.2
-## Metres that leaves stand out from a crown's surface, and lie within it.
+## Metres by which leaves stand out from a crown's surface, and by which they lie within it.
 const REACH := 0.15
 const DEPTH := 0.08
 const MOST := 450_000
-## Metres that the camera moves before other crowns get leaves, and microseconds of a frame in which they grow.
+## Metres that the camera moves before leaves are placed again, and microseconds of each frame spent on it.
 const STEP := 15.0
 const BUDGET := 2000
-## Floats of an instance: its transform, the way out of the crown, and how bright it is; below 0 it is a needle.
+## Floats for each instance: its transform, the direction out of the crown, and the brightness, which is below 0 for
+## needles.
 const FLOATS := 16
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["leaf", "leaf_dark"]
-## Metres from the camera.
+## Maximum distance from the camera, metres.
 @export var radius := 110.0
 
 var _middle := Vector3.INF
@@ -43,12 +44,12 @@ func _ready() -> void:
 		world.edited.connect(func(_id: PackedInt64Array) -> void: _start_anew())
 
 
-## Grows all that is to be seen from here, however long it takes: for pictures.
+## Places all visible leaves at once, without a time limit. Used for pictures.
 func fill() -> void:
 	_grow(1 << 40)
 
 
-## Grows them over several frames.
+## Places the leaves over several frames.
 func grow() -> void:
 	await _grow(BUDGET)
 
@@ -66,7 +67,7 @@ func _grow(microseconds: int) -> void:
 	_middle = eye
 	var buffer := PackedFloat32Array()
 	var chunks := world.bake_chunks()
-	# The near ones first, for leaves come to an end.
+	# Near chunks come first, because the number of leaves is limited.
 	chunks.sort_custom(func(a: Dictionary, b: Dictionary) -> bool:
 		return eye.distance_squared_to(a.transform.origin) < eye.distance_squared_to(b.transform.origin))
 	var limit := Time.get_ticks_usec() + microseconds
@@ -84,7 +85,7 @@ func _grow(microseconds: int) -> void:
 	custom_aabb = AABB(eye - Vector3.ONE * radius, Vector3.ONE * 2.0 * radius)
 
 
-# The leaves of a chunk's crowns: so many by area, so that they do not depend on how large triangles are.
+# The leaves of a chunk's crowns. Their number depends on the area of the triangles, not on the number of triangles.
 func _grown(arrays: Array, place: Transform3D, eye: Vector3, needles: bool) -> PackedFloat32Array:
 	var grown := PackedFloat32Array()
 	var points: PackedVector3Array = arrays[Mesh.ARRAY_VERTEX]
@@ -126,7 +127,7 @@ func _grown(arrays: Array, place: Transform3D, eye: Vector3, needles: bool) -> P
 	return grown
 
 
-# A blade along x, folded along its middle, which hangs a little.
+# The mesh of a leaf: a blade along x, folded along its middle, that hangs down a little.
 func _leaf() -> ArrayMesh:
 	var tool := SurfaceTool.new()
 	tool.begin(Mesh.PRIMITIVE_TRIANGLES)

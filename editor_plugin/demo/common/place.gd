@@ -1,15 +1,15 @@
 class_name DemoPlace
 extends Node3D
-## What the demo's places share: a world, the player in it, and the texts over it.
+## Base class of the demo's places: a world, its player, and the texts over the picture.
 
 const MENU := "res://menu/menu.tscn"
 const GROWING := "The world grows …"
 const WELCOME := "Click to look around, F1 for help"
-## Seconds for which it is said that the world grows.
+## Maximum seconds for which the message "The world grows" is shown.
 const LONGEST_GROWTH := 120.0
-## Seconds between two looks at whether the player is buried.
+## Seconds between two checks whether the player is buried.
 const WATCH_SECONDS := 0.5
-## Below the last ground by this many metres the player is brought back.
+## If the player falls this many metres below the last ground, the player is moved back.
 const DEEPEST_FALL := 60.0
 
 @export var world: SgmWorld3D
@@ -17,13 +17,13 @@ const DEEPEST_FALL := 60.0
 @export var overlay: DemoOverlay
 @export var environment: WorldEnvironment
 @export_group("With a graphics card")
-## Settings of the world where a graphics card makes it; those of the scene are for processors.
+## Settings of the world on machines with a graphics card; the scene's own settings are for machines without one.
 @export var fine: Dictionary = {}
 @export_group("")
-## What F1 shows.
+## The text that F1 shows.
 @export_multiline var help := ""
 
-## Where the player begins, and comes back to after a fall.
+## Place where the player begins, and to which the player returns after a fall.
 var start_place := Vector3.ZERO
 
 var _safe_place := Vector3.ZERO
@@ -82,7 +82,7 @@ func _physics_process(delta: float) -> void:
 		bring_to(DemoGround.dug_out(world, player.global_position, start_place))
 
 
-## Puts the player where the place begins. Each place says where that is.
+## Moves the player to the start of this place.
 func go_to_start() -> void:
 	var start := find_start()
 	start_place = start.origin
@@ -90,7 +90,7 @@ func go_to_start() -> void:
 	player.look(start.basis.get_euler().y, 0.0)
 
 
-## Where the player begins, and looks to, with the world's seed and parameters.
+## The transform of the player at the start, for the world's seed and parameters. Each place overrides this.
 func find_start() -> Transform3D:
 	var feet := DemoGround.below(world, Vector3(0.0, 40.0, 0.0))
 	return DemoGround.looking(feet, DemoGround.widest_view(world, feet + Vector3.UP))
@@ -101,18 +101,18 @@ func bring_to(feet: Vector3) -> void:
 	player.teleport(feet)
 
 
-## Takes the settings for machines with a graphics card.
+## Applies the settings for machines with a graphics card.
 func refine() -> void:
 	for setting: String in fine:
 		world.set(setting, fine[setting])
 
 
-## Back to the menu.
+## Returns to the menu.
 func leave() -> void:
 	get_tree().change_scene_to_file(MENU)
 
 
-## What is said when the world can be seen first.
+## The message that is shown when the world is first visible.
 func welcome() -> String:
 	return WELCOME
 

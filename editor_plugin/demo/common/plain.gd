@@ -1,6 +1,6 @@
 class_name DemoPlain
 extends MeshInstance3D
-## Level ground that goes on to the horizon, below what a world draws: it stays under the camera.
+## Level ground up to the horizon, below the drawn world. It follows the camera.
 
 
 func _process(_delta: float) -> void:

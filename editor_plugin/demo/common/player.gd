@@ -1,21 +1,21 @@
 class_name DemoPlayer
 extends CharacterBody3D
-## One who walks where the world has said that its ground is there, and flies anywhere.
+## The player, who walks where the world has reported that the ground has colliders, and flies anywhere.
 ##
-## The mouse turns the head while it is captured; nothing else here needs a mouse. Scripts move the player with
-## [method teleport], [method look] and [method fly_to].
+## The mouse turns the head while it is captured; nothing else here needs a mouse. Scripts move the player with [method
+## teleport], [method look] and [method fly_to].
 
-## All points given to [method fly_to] have been passed.
+## Emitted when the player has passed all points given to [method fly_to].
 signal arrived
-## Flying or walking has been chosen.
+## Emitted when the player changes between flying and walking.
 signal flight_changed(flying: bool)
 
 const EYE_HEIGHT := 1.65
 const MOUSE_TURN := 0.0022
 const STEEPEST_LOOK := deg_to_rad(89.0)
-## How fast the head follows a route, 1/s.
+## Speed at which the head turns towards the direction of a route, 1/s.
 const ROUTE_TURN := 2.5
-## Frames for which the viewer rests after a leap: the world then asks anew whether there is ground.
+## Frames for which the viewer is disabled after a teleport, so that the world checks again whether there is ground.
 const VIEWER_REST := 2
 
 @export var flying := false:
@@ -27,7 +27,7 @@ const VIEWER_REST := 2
 		motion_mode = MOTION_MODE_FLOATING if flying else MOTION_MODE_GROUNDED
 		flight_changed.emit(flying)
 @export var can_walk := true
-## How far the camera sees.
+## View distance of the camera.
 @export_range(10.0, 100000.0, 1.0, "suffix:m") var sight := 2000.0
 @export_group("Speed")
 @export_range(0.1, 100.0, 0.1, "or_greater", "suffix:m/s") var walk_speed := 3.6
@@ -42,9 +42,9 @@ const VIEWER_REST := 2
 			_lamp.visible = value
 			_glow.visible = value
 
-## Whether the world has said that a collider is below; there is no gravity before.
+## Whether the world has reported a collider below the player. Before that, gravity has no effect.
 var ground_ready := false
-## While it is set, only scripts move the player.
+## If true, only scripts move the player.
 var held := false
 
 var _route := PackedVector3Array()
@@ -82,7 +82,7 @@ func _unhandled_input(event: InputEvent) -> void:
 
 
 func _process(_delta: float) -> void:
-	# Pictures come between the steps of physics; the head moves evenly through both.
+	# Frames are drawn between steps of the physics, so the head's position is interpolated between the last two steps.
 	_head.global_position = _before.lerp(_now, Engine.get_physics_interpolation_fraction()) + Vector3.UP * EYE_HEIGHT
 	if _viewer_rest > 0:
 		_viewer_rest -= 1
@@ -105,7 +105,7 @@ func _physics_process(delta: float) -> void:
 	_now = global_position
 
 
-## Puts the feet at a place. Gravity waits until the world says that there is ground.
+## Moves the feet to a place. Gravity has no effect until the world reports that there is ground.
 func teleport(feet: Vector3) -> void:
 	stop()
 	global_position = feet
@@ -118,7 +118,7 @@ func teleport(feet: Vector3) -> void:
 	_viewer_rest = VIEWER_REST
 
 
-## Turns the head; radians.
+## Turns the head to these angles, in radians.
 func look(yaw: float, pitch: float) -> void:
 	_head.rotation = Vector3(clampf(pitch, -STEEPEST_LOOK, STEEPEST_LOOK), wrapf(yaw, -PI, PI), 0.0)
 
@@ -129,18 +129,18 @@ func look_at_place(place: Vector3) -> void:
 	look(turn.y, turn.x)
 
 
-## Where the eyes are.
+## Position of the eyes.
 func eye() -> Vector3:
 	return global_position + Vector3.UP * EYE_HEIGHT
 
 
-## Where the eyes look; of length 1.
+## Viewing direction; a unit vector.
 func gaze() -> Vector3:
 	return -_head.global_basis.z
 
 
-## Flies through points that the feet pass, at metres a second, looking ahead and through anything solid. Moving by
-## hand ends it. [signal arrived] tells when it is done.
+## Flies through points, which the feet pass, at [param speed] metres per second. The player looks ahead and passes
+## through solids. A movement by the user ends the flight. Emits [signal arrived] at the end.
 func fly_to(points: PackedVector3Array, speed: float) -> void:
 	if points.is_empty() or speed <= 0.0:
 		return
@@ -154,7 +154,7 @@ func is_on_route() -> bool:
 	return not _route.is_empty()
 
 
-## Ends a flight that [method fly_to] has begun.
+## Ends a flight that [method fly_to] has started.
 func stop() -> void:
 	_route.clear()
 	_shape.disabled = false

@@ -1,13 +1,13 @@
 class_name DemoQuality
 extends RefCounted
-## What the machine can draw at a good rate.
+## Decides how much detail the machine can draw at a good frame rate.
 
 
-## For pictures and films, which may take their time: all is drawn as with a graphics card.
+## For pictures and films, which are not drawn in real time: uses the full quality on any machine.
 static var always_fast := false
 
 
-## Whether there is a graphics card of its own, and the renderer that can use it to the full.
+## Whether the machine has a dedicated graphics card, and the project a renderer that makes full use of it.
 static func is_fast() -> bool:
 	var method: String = ProjectSettings.get_setting("rendering/renderer/rendering_method")
 	return always_fast or (
@@ -17,7 +17,7 @@ static func is_fast() -> bool:
 	)
 
 
-## Turns on what makes a picture better and costs time.
+## Enables effects that improve the picture but cost time.
 static func apply(viewport: Viewport, environment: Environment) -> void:
 	var fast := is_fast()
 	viewport.msaa_3d = Viewport.MSAA_4X if fast else Viewport.MSAA_DISABLED

@@ -1,5 +1,6 @@
 extends Control
-## Chooses a place. It names no class of the native library, so that it can say what to do where that is missing.
+## The menu of places. It uses no class of the native library, so that it can explain what to do if the library is
+## missing.
 
 const PLACES: Array[Dictionary] = [
 	{name = "Cave", scene = "res://cave/cave.tscn", text = "Walk, dig and build in endless caves"},
@@ -28,7 +29,7 @@ func _ready() -> void:
 	(_buttons.get_child(0) as Button).grab_focus()
 
 
-## Goes to the place whose scene lies at a path.
+## Opens the scene of a place, by its path.
 func open(scene: String) -> void:
 	var error := get_tree().change_scene_to_file(scene)
 	if error != OK:

@@ -1,17 +1,17 @@
 class_name DemoSky
 extends DemoPlace
-## Cumulus clouds over an endless plain, and a slow flight among them.
+## Cumulus clouds over an endless plain, and a slow flight between them.
 
 const HEIGHT := 1230.0
 const DRIFT_SPEED := 14.0
-## Metres of the drift that are known at a time.
+## Length in metres of the drift that is planned at a time.
 const LEG := 2000.0
 
 
 @export var volume: DemoCloudVolume
 
-## Whether clouds are drawn as fog that light shines into, or as the meshes of their surfaces. Fog is for machines with a
-## graphics card.
+## Whether clouds are drawn as a participating medium, or as the meshes of their surfaces. The medium needs a graphics
+## card.
 var fog := false:
 	set(value):
 		fog = value
@@ -38,7 +38,7 @@ func find_start() -> Transform3D:
 	return DemoGround.looking(Vector3(0.0, HEIGHT, 0.0), 0.0)
 
 
-## Flies on ahead, level, until the player moves by hand.
+## Flies straight ahead at constant height until the user moves the player.
 func drift() -> void:
 	var ahead := player.gaze() * Vector3(1.0, 0.0, 1.0)
 	ahead = ahead.normalized() if ahead.length() > 0.01 else Vector3.FORWARD

@@ -1,26 +1,26 @@
 class_name DemoCloudVolume
 extends MeshInstance3D
-## Clouds as what they are, fog that the sun shines into: the world's density in two volumes around the camera, a fine
-## one and one of all that is far, drawn by one shader over the whole picture. Threads sample them anew as the camera
-## moves on.
+## Draws clouds as a participating medium that the sun lights. Two volumes around the camera hold the world's density, a
+## fine one and a coarse one for everything far away; one shader draws both over the whole picture. Threads sample the
+## volumes again as the camera moves.
 
-## All that the volumes hold has been drawn at least once.
+## Emitted when all volumes have been filled once.
 signal filled
 
-## Metres of full density that leave 1/e of the sun's light in the volume's second channel.
+## Metres of full density after which 1/e of the sunlight is left, for the second channel of the volumes.
 const FADE := 250.0
-## Metres below the surface of a cloud at which it is as dense as it gets: what the noise of the shader eats into.
+## Metres below a cloud's surface at which it reaches its full density; the shader's noise erodes this edge.
 const EDGE := 110.0
 const BASE := 960.0
 const NAMES: Array[String] = ["near", "far"]
 const SPACINGS: Array[float] = [36.0, 150.0]
 const SIZES: Array[Vector3i] = [Vector3i(176, 72, 176), Vector3i(192, 18, 192)]
-## Share of a volume's width that the camera may move before it is sampled anew.
+## Share of a volume's width that the camera may move before the volume is sampled again.
 const SLACK := 0.15
 
 @export var world: SgmWorld3D
 @export var sun: DirectionalLight3D
-## Materials that lie in the clouds' shadow: they get the volumes, too.
+## Materials on which clouds cast shadows: they also receive the volumes as parameters.
 @export var shaded: Array[ShaderMaterial] = []
 
 var _middles: Array[Vector3] = [Vector3.INF, Vector3.INF]
@@ -58,7 +58,7 @@ func is_filled() -> bool:
 	return not _filled.has(false)
 
 
-# On a thread.
+# Runs on a worker thread.
 func _sample(i: int, middle: Vector3, to_sun: Vector3) -> void:
 	var size := SIZES[i]
 	var corner := middle - SPACINGS[i] * 0.5 * Vector3(size.x, 0.0, size.z) + Vector3(0.0, BASE, 0.0)
@@ -82,7 +82,7 @@ func _take(i: int, corner: Vector3, bytes: PackedByteArray) -> void:
 	var texture := ImageTexture3D.new()
 	texture.create(Image.FORMAT_RG8, size.x, size.y, size.z, false, images)
 	_set_all(NAMES[i] + "_volume", texture)
-	# From the middle of the first texel to that of the last.
+	# The volume extends from the centre of the first texel to the centre of the last one.
 	_set_all(NAMES[i] + "_corner", corner - Vector3.ONE * 0.5 * SPACINGS[i])
 	_set_all(NAMES[i] + "_size", Vector3(size) * SPACINGS[i])
 	if not _filled[i]:

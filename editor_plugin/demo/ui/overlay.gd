@@ -1,6 +1,6 @@
 class_name DemoOverlay
 extends CanvasLayer
-## Texts and sliders over a place's picture.
+## Texts and sliders over the picture of a place.
 
 signal menu_asked
 signal parameter_changed(parameter: String)
@@ -43,7 +43,7 @@ func say(sentence: String, seconds := 2.5) -> void:
 	_message_tween.tween_property(_message, ^"modulate:a", 0.0, 0.5)
 
 
-## Closes or opens the curtain; await it.
+## Closes or opens the curtain. A coroutine.
 func fade(closed: bool) -> void:
 	if _fade_tween != null:
 		_fade_tween.kill()
@@ -52,7 +52,7 @@ func fade(closed: bool) -> void:
 	await _fade_tween.finished
 
 
-## The mouse turns the head while it is captured, and moves the sliders while it is not.
+## While the mouse is captured, it turns the head; otherwise it moves the sliders.
 func capture_mouse(captured: bool) -> void:
 	Input.mouse_mode = Input.MOUSE_MODE_CAPTURED if captured else Input.MOUSE_MODE_VISIBLE
 	if captured:

@@ -1,11 +1,11 @@
 class_name DemoPanel
 extends PanelContainer
-## Sliders for the parameters of whatever grammar a world has.
+## Sliders for the parameters of a world's grammar.
 
 signal parameter_changed(parameter: String)
 signal menu_asked
 
-## Seconds between two changes that the world is told of while a slider moves.
+## Minimum seconds between two updates of the world while a slider moves.
 const PACE := 0.15
 
 var _world: SgmWorld3D
@@ -25,14 +25,14 @@ func _ready() -> void:
 	(%Menu as Button).pressed.connect(func() -> void: menu_asked.emit())
 
 
-## Shows the parameters of a world's grammar, and follows the grammar when it changes.
+## Shows the parameters of a world's grammar, and updates them when the grammar changes.
 func set_up(world: SgmWorld3D) -> void:
 	_world = world
 	world.grammar.changed.connect(_build)
 	_build()
 
 
-## Adds a control of a place's own below the sliders.
+## Adds a control of the place below the sliders.
 func add_extra(control: Control) -> void:
 	_extras.add_child(control)
 
@@ -94,7 +94,7 @@ func _set_range(control: Range, parameter: Dictionary, scale: float) -> void:
 	control.allow_greater = not is_finite(parameter.maximum)
 	control.min_value = least * scale
 	control.max_value = most * scale
-	# A power of ten reads well; the slider has 50 to 500 steps.
+	# The step is a power of ten, which is easy to read; the slider then has 50 to 500 steps.
 	var fine := pow(10.0, floorf(log(maxf((most - least) * scale, 1e-6) / 50.0) / log(10.0)))
 	control.step = 1.0 if parameter.whole else fine
 

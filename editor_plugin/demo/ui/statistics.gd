@@ -1,6 +1,6 @@
 class_name DemoStatistics
 extends PanelContainer
-## What a world does, and what its picture measures, a few times a second.
+## Shows the activity of a world and measures of its drawn chunks, a few times a second.
 
 const SECONDS := 0.25
 
@@ -45,7 +45,7 @@ static func describe(world: SgmWorld3D) -> String:
 	return "\n".join(lines)
 
 
-## A whole number with its digits in groups of three.
+## A whole number with separated groups of three digits.
 static func grouped(number: int) -> String:
 	var digits := str(absi(number))
 	var text := ""

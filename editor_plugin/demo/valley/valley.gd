@@ -1,10 +1,10 @@
 class_name DemoValley
 extends DemoPlace
-## A valley between cliffs of limestone with a stream in it, and caves that lead into the rock.
+## A valley with a stream between limestone cliffs, and caves that lead into the rock.
 
-## Beside the stream, above the ground.
+## A place beside the stream, above the ground.
 const BANK := Vector3(40.0, 30.0, 132.0)
-## At the cliff, radians.
+## Yaw towards the cliff, radians.
 const LOOK := -0.85
 
 

@@ -1,13 +1,13 @@
 @tool
 extends RefCounted
-## The dock, the preview and the gizmo of the cave in the editor, and a picture of them.
+## Tests the dock, the preview and the gizmo of the cave in the editor, and takes a picture of them.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Dock := preload("res://addons/sgm/editor/dock.gd")
 const Gizmo := preload("res://addons/sgm/editor/gizmo.gd")
 const Preview := preload("res://addons/sgm/editor/preview.gd")
 const WINDOW := Vector2i(1600, 900)
-# Coarser than the demo, so that software renderers come to rest soon.
+# Coarser than in the demo, so that the world becomes idle soon on software renderers.
 const DETAIL := {&"cell_size": 0.8, &"finest_distance": 24.0, &"view_distance": 120.0, &"collision": false}
 
 var _checks := Checks.new()
@@ -20,7 +20,7 @@ var _dock: Dock
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# The editor draws only what has changed, otherwise.
+	# Otherwise the editor would draw only when something has changed.
 	OS.low_processor_usage_mode = false
 	_tree.root.mode = Window.MODE_WINDOWED
 	_tree.root.size = WINDOW
@@ -44,14 +44,14 @@ func run(plugin: EditorPlugin) -> void:
 	await _check_seed()
 	await _check_restart()
 	await _check_other_scene()
-	# An editor that quits with a node in its inspector may tell of an error of its own.
+	# An editor that quits while its inspector shows a node may log errors of its own.
 	EditorInterface.get_selection().clear()
 	EditorInterface.inspect_object(null)
 	await _frames(5)
 	await _checks.finish(_tree)
 
 
-# The tabs that the dock is in hold it, or, in newer versions, what wraps it.
+# Brings the dock to the front of its tabs. In newer versions of the editor, a wrapper of the dock is in the tabs.
 func _bring_to_front(control: Control) -> void:
 	var tabs := control.get_parent() as TabContainer
 	if tabs == null:
@@ -67,7 +67,7 @@ func _check_without_world() -> void:
 		_checks.check(button.disabled and button.tooltip_text.ends_with("."), button.text + " says why it cannot be used")
 
 
-# Places the editor's camera in the hall that is nearest to the origin: it looks over the hall's anchor along its widest
+# Moves the editor's camera to the hall nearest to the origin, so that it looks from the hall's anchor along the longest
 # view.
 func _enter_hall() -> void:
 	await _until(func() -> bool: return _world.running, 20.0)
@@ -137,7 +137,7 @@ func _check_dialog(button: String, ending: String) -> void:
 	await _frames(2)
 
 
-# Measures while the world's scene is left.
+# Changes to another scene while a measurement of the world is running.
 func _check_other_scene() -> void:
 	_dock.measure()
 	EditorInterface.open_scene_from_path("res://menu/menu.tscn")
@@ -179,7 +179,7 @@ func _press(text: String) -> void:
 	_checks.check(false, "there is a button " + text)
 
 
-# A dialog's buttons are in the tree below the dock, too, but in a window of their own.
+# The dock's own buttons. Buttons of its dialogs are also below it in the tree, but in separate windows.
 func _buttons() -> Array[Node]:
 	return _dock.find_children("*", "Button", true, false).filter(_is_in_dock)
 
@@ -203,8 +203,8 @@ func _save_picture() -> void:
 		light.free()
 
 
-# A lamp at the camera, as the player has one; a scene with a sun of its own is without the editor's, which would shine
-# into the cave from outside.
+# Adds a lamp at the camera, as the player has. Also adds a sun with energy 0, because for a scene without a sun the
+# editor adds its own, which would shine into the cave from outside.
 func _lights() -> Array[Light3D]:
 	var sun := DirectionalLight3D.new()
 	sun.light_energy = 0.0

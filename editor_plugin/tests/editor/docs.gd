@@ -1,7 +1,7 @@
 @tool
 extends RefCounted
-## The class reference: that it describes all there is and nothing else, that the editor has it, and what the inspector
-## tells of a world's parameters.
+## Tests the class reference: it describes all members and nothing else, and the editor's help shows it. Also tests the
+## descriptions of a world's parameters in the inspector.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const RowTip := preload("res://addons/sgm/editor/row_tip.gd")
@@ -16,7 +16,7 @@ var _tree: SceneTree
 func run(plugin: EditorPlugin) -> void:
 	_plugin = plugin
 	_tree = plugin.get_tree()
-	# The editor draws only what has changed, otherwise.
+	# Otherwise the editor would draw only when something has changed.
 	OS.low_processor_usage_mode = false
 	for type in CLASSES:
 		var reference := _read("res://tests/doc/%s.xml" % type)
@@ -29,7 +29,8 @@ func run(plugin: EditorPlugin) -> void:
 	await _checks.finish(_tree)
 
 
-## What a file describes: kind and name of each, as "method dig", with its text and its arguments; "" is the class.
+## Reads a reference file. The result maps kind and name of each entry, such as "method dig", to its text and arguments;
+## "" stands for the class itself.
 func _read(path: String) -> Dictionary:
 	var found := {}
 	var parser := XMLParser.new()
@@ -78,7 +79,7 @@ func _check_described(type: StringName, reference: Dictionary) -> void:
 				_checks.equal(reference[entry][key], there[entry][key], "%s: %s of '%s'" % [type, key, entry])
 
 
-## As [method _read], but its texts.
+## The registered members of a class, in the form of [method _read], but without texts.
 func _registered(type: StringName) -> Dictionary:
 	var there := {}
 	var accessors := PackedStringArray()
@@ -112,7 +113,7 @@ func _type_of(info: Dictionary, nothing := "Variant") -> String:
 	return of_class if info.type == TYPE_OBJECT and of_class != "" else type_string(info.type)
 
 
-# The page that the editor shows, and not the file, is what a user reads.
+# Checks the page that the editor shows, because users read the page and not the file.
 func _check_help(type: StringName, reference: Dictionary) -> void:
 	EditorInterface.set_main_screen_editor("Script")
 	EditorInterface.get_script_editor().goto_help("class_name:" + type)
@@ -121,7 +122,7 @@ func _check_help(type: StringName, reference: Dictionary) -> void:
 	_checks.check(page != "", "the help of %s is shown" % type)
 	for entry: String in reference:
 		var words: String = reference[entry].text
-		# The engine's links and code have other characters in the page.
+		# The page has no BBCode, so compare only the text before the first tag.
 		var start := words.strip_edges().get_slice("[", 0).get_slice("\n", 0).strip_edges()
 		_checks.check(start.length() < 5 or start in page, "the help of %s has '%s'" % [type, start])
 		_checks.check(entry == "" or entry.get_slice(" ", 1) in page, "the help of %s names '%s'" % [type, entry])
@@ -129,7 +130,7 @@ func _check_help(type: StringName, reference: Dictionary) -> void:
 	_check_example(type, reference[""].text, page)
 
 
-# An example whose lines have lost their indentation cannot be copied.
+# Checks that the lines of an example have kept their indentation; otherwise users could not copy it.
 func _check_example(type: StringName, words: String, page: String) -> void:
 	var lines := words.get_slice("[codeblock]", 1).get_slice("[/codeblock]", 0).split("\n", false)
 	var margin := lines[0].length() - lines[0].dedent().length()
@@ -167,7 +168,7 @@ func _check_parameters() -> void:
 	await _check_changes(world, slider)
 
 
-# What the mouse gets to see over the row's name.
+# Checks the tooltip that appears over the name of the row.
 func _check_hover(row: EditorProperty, words: String) -> void:
 	_unfold(row)
 	await _frames(5)
@@ -207,7 +208,7 @@ func _check_changes(world: SgmWorld3D, slider: Range) -> void:
 	_checks.near(world.get(BOXY), 0.3, 1e-6, "boxy once its row reverted it")
 
 
-# By the row's own icon: no other way leads through the row to what it reverts.
+# Clicks on the row's icon, because scripts have no other access to the default value of the row.
 func _revert(row: EditorProperty) -> void:
 	var icon := row.get_theme_icon(&"ReloadSmall", &"EditorIcons")
 	var place := Vector2(row.size.x * row.name_split_ratio - icon.get_width() / 2.0 - 4.0, row.size.y / 2.0)
@@ -220,7 +221,7 @@ func _revert(row: EditorProperty) -> void:
 		_tree.root.push_input(click, true)
 
 
-# Sections of the inspector begin folded, and what is folded has no size.
+# Unfolds the inspector's sections above the row: they are folded at first, and a folded row has no size.
 func _unfold(row: EditorProperty) -> void:
 	var parent := row.get_parent()
 	while parent != EditorInterface.get_inspector():

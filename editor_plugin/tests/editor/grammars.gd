@@ -1,6 +1,7 @@
 @tool
 extends RefCounted
-## Grammars as text: how they open, their colours, what is told of wrong ones, and that a saved text is read again.
+## Tests grammars as text in the editor: opening, syntax highlighting, messages about errors, and reloading of saved
+## texts.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Diagnostics := preload("res://addons/sgm/editor/diagnostics.gd")
@@ -43,7 +44,7 @@ func _check_endings() -> void:
 	_checks.equal(settings.get_setting(TextEditing.SETTING), "txt,own,sgm", "a user's endings and ours, once")
 
 
-# What the FileSystem dock does on a double click: it activates what is selected in its tree.
+# Does the same as a double click in the FileSystem dock: activates the selected item of the dock's tree.
 func _check_double_click() -> void:
 	var dock := EditorInterface.get_file_system_dock()
 	dock.navigate_to_path(CAVE)
@@ -133,7 +134,7 @@ func _check_world_property() -> void:
 	grammar.text = BROKEN
 	await _frames(5)
 	_checks.check(_panel().lines().size() == 2, "a world's grammar property has the error above it")
-	# Unfolding the grammar there hands it to the plugin, too, but is no wish to see its text.
+	# When the grammar unfolds there, the engine also passes it to the plugin, which must not open its text then.
 	EditorInterface.set_main_screen_editor("3D")
 	var pickers := EditorInterface.get_inspector().find_children("*", "EditorResourcePicker", true, false).filter(
 			func(picker: EditorResourcePicker) -> bool: return picker.edited_resource == grammar)
@@ -160,7 +161,7 @@ func _check_reload() -> void:
 	var outer := load(importer) as SgmGrammar
 	_checks.check(outer.is_valid(), "a grammar that imports is right: " + outer.get_error_text())
 	await _seconds(1.2)
-	# As one types it: in the script editor, then saved there.
+	# Change the text as a user does: in the script editor, and save it there.
 	TextEditing.open(WRONG)
 	await _frames(3)
 	var text := TextEditing.shown_text()

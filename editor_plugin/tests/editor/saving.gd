@@ -1,7 +1,8 @@
 @tool
 extends RefCounted
-## A scene with a world is packed, as the editor does to save it, and read again: it keeps what was set, and nothing of
-## what is drawn goes into the file. (The editor of 4.6 logs an error of its own where a script has it save any scene.)
+## Tests saving a scene with a world: the scene is packed as the editor does to save it, and read again. It keeps the
+## settings, and contains nothing of the drawn chunks. (The scene is not saved by the editor, because Godot 4.6 logs an
+## error of its own when a script makes the editor save any scene.)
 
 const Checks := preload("res://tests/lib/checks.gd")
 const SCENE := "res://cave/cave.tscn"

@@ -1,13 +1,13 @@
 extends SceneTree
-## What is drawn as a scene and as glTF: all triangles, their area, their sides and colors, colliders, anchors and
-## materials; nothing in it needs the plugin, which a project without it shows; failures say what to do and leave
-## nothing.
+## Tests saving the drawn world as a scene and as glTF: triangles, their area, orientation and colors, colliders,
+## anchors and materials. The files must not need the plugin: a project without it shows the scene. Errors say what to
+## do, and leave no files.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
 const FOLDER := "user://bake_test"
 const SCENE := FOLDER + "/baked.tscn"
-## Where a project without the plugin lies, which only has the scene.
+## Folder of a project without the plugin, which contains only the saved scene.
 const BARE := FOLDER + "/bare_project"
 const BARE_SCRIPT := """extends SceneTree
 
@@ -41,7 +41,7 @@ func _initialize() -> void:
 	await cave.enter()
 	_refusals()
 	_checks.check(await cave.settle(), "the world comes to rest")
-	# A second material.
+	# Build with a second material.
 	var floor_hit: Dictionary = _world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60)
 	_checks.equal(_world.build(floor_hit.position, 3.0, "calcite").size(), 2, "building")
 	if _checks.check(await cave.settle(), "what was built is drawn"):
@@ -74,7 +74,7 @@ func _scene() -> void:
 	_checks.equal(SgmBake.bake_to_scene(_world, SCENE), OK, "baking")
 	_checks.equal(SgmBake.trouble, "", "no trouble")
 	_checks.equal(_files(), PackedStringArray(["baked.tscn"]), "files that baking leaves")
-	# Without the meshes' bytes, in which any word may be.
+	# Remove the meshes' bytes first, since they may contain any word.
 	var bytes := RegEx.create_from_string("PackedByteArray\\([^)]*\\)")
 	var text := bytes.sub(FileAccess.get_file_as_string(SCENE), "", true)
 	_checks.check(text.contains("ArrayMesh"), "the scene has meshes")
@@ -105,7 +105,7 @@ func _scene() -> void:
 	scene.free()
 
 
-# Front faces, which are clockwise, and normals look to where no rock is.
+# Checks that front faces, which are clockwise, and normals point to the side without rock.
 func _sides(scene: Node3D) -> void:
 	var agreement := 0.0
 	var count := 0
@@ -164,7 +164,7 @@ func _anchors(scene: Node3D) -> void:
 
 
 func _bare_project() -> void:
-	# Not OS.get_executable_path(), which is the loader where the engine was unpacked with one of its own.
+	# OS.get_executable_path() would be the dynamic loader if the engine was unpacked with a loader of its own.
 	var godot := OS.get_environment("GODOT")
 	if not _checks.check(not godot.is_empty(), "GODOT names the engine, as tests/run.sh sets it"):
 		return
@@ -201,7 +201,7 @@ func _merged() -> void:
 	scene.free()
 
 
-# A world that is turned and moved is baked where it is, and chunks lie in the root as in the world.
+# A transformed world must be saved with its transform, and its chunks must have the same places in it.
 func _placed() -> void:
 	var path := FOLDER + "/placed.scn"
 	_world.transform = Transform3D(Basis(Vector3.UP, 0.7), Vector3(10, 20, 30))
@@ -270,7 +270,7 @@ func _failures() -> void:
 	_checks.expect_error("SgmBake: there is no folder '.*nowhere': make it first")
 	_checks.equal(SgmBake.bake_to_scene(_world, FOLDER + "/nowhere/baked.scn"), ERR_FILE_BAD_PATH, "no such folder")
 	_checks.equal(SgmBake.export_glb(_world, FOLDER + "/nowhere/baked.glb"), ERR_FILE_BAD_PATH, "and for glTF")
-	# A name that no file system takes, and a folder that has the file's name.
+	# Use a file name that is too long for any file system, and a path at which a folder exists.
 	_checks.expect_error("SgmBake: '.*' cannot be written .*: choose a folder")
 	var long := FOLDER.path_join("a".repeat(300))
 	_checks.check(SgmBake.bake_to_scene(_world, long + ".tscn") != OK, "a file that cannot be written")
@@ -287,7 +287,7 @@ func _load(path: String) -> Node3D:
 	return (ResourceLoader.load(path, "", ResourceLoader.CACHE_MODE_IGNORE) as PackedScene).instantiate() as Node3D
 
 
-# The places of all corners of triangles, three after another, in the scene.
+# The corners of all triangles in scene coordinates, three for each triangle.
 static func _corners(scene: Node3D) -> PackedVector3Array:
 	var corners := PackedVector3Array()
 	for node in scene.find_children("*", "", true, false):
@@ -331,7 +331,7 @@ static func _has_color(scene: Node3D, wanted: Color) -> bool:
 	return false
 
 
-# Also those whose names begin with a point, which are not to be there.
+# All files in the folder, including those whose names begin with a point, which must not be left.
 static func _files() -> PackedStringArray:
 	var folder := DirAccess.open(FOLDER)
 	folder.include_hidden = true

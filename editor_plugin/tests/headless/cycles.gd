@@ -1,10 +1,10 @@
 extends SceneTree
-## Enters and leaves the scene ten times: memory ends where it was.
+## Tests for memory leaks: a world enters and leaves the scene ten times, and memory must not grow.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
 const CYCLES := 10
-# The first cycles fill pools and caches of the engine's and of the allocator's.
+# The first cycles fill pools and caches of the engine and of the allocator, so they are not measured.
 const WARM := 3
 const MOST_GROWTH := 8.0 * 1024 * 1024
 

@@ -1,9 +1,10 @@
 extends SceneTree
-## The demo's places as someone plays them: they are entered from the menu, walked, dug, grown anew and left.
+## Tests the demo's places as a player uses them: each is entered from the menu, walked through, dug in, grown again and
+## left.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## Seconds without progress after which a world counts as stuck. Its threads have a low priority, and other tests run
-## beside this one.
+## Seconds without progress after which a world counts as stuck. Its threads have a low priority, and other tests may
+## run at the same time.
 const PATIENCE := 90.0
 const PLACES: Array[String] = ["res://cave/cave.tscn", "res://sky/sky.tscn", "res://valley/valley.tscn",
 		"res://city/city.tscn"]
@@ -54,7 +55,7 @@ func _menu() -> void:
 
 func _enter(path: String) -> DemoPlace:
 	var place: DemoPlace = (load(path) as PackedScene).instantiate()
-	# Less to see, and so sooner there.
+	# With shorter distances, the world becomes idle sooner.
 	if not place is DemoSky:
 		place.world.view_distance = 64.0
 		place.world.finest_distance = 24.0
@@ -93,7 +94,7 @@ func _cave(cave: DemoCave) -> void:
 	_checks.equal(cave.world.get_edit_count(), edits, "digs that are loaded again")
 	_checks.equal(cave.world.get_edits_hash(), state, "what was dug is loaded again")
 
-	# Sliders that were moved make other caves of the seeds that are entered later.
+	# With other parameter values, the same seeds make other caves.
 	cave.world.set("parameters/wet", 0.9)
 	await cave.grow(2)
 	await _stands(cave, "seed 2 with other parameters")
@@ -108,7 +109,7 @@ func _cave(cave: DemoCave) -> void:
 	cave.fog = true
 	_checks.check(cave.environment.environment.volumetric_fog_enabled, "fog")
 
-	# As with a graphics card: cells of another size are another world, with digs of its own.
+	# With the settings for graphics cards, cells have another size, so the world is another one, with digs of its own.
 	cave.player.flying = false
 	cave.refine()
 	cave.world.view_distance = 64.0
@@ -171,7 +172,7 @@ func _until(condition: Callable, seconds: float) -> void:
 		await process_frame
 
 
-## Waits for the condition as long as the world makes progress.
+## Waits until the condition holds, but only while the world makes progress.
 func _until_while_it_works(condition: Callable, world: SgmWorld3D) -> void:
 	var done := -1
 	var limit := 0

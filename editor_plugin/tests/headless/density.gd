@@ -1,8 +1,9 @@
 extends SceneTree
-## A renderer of fog gets density and light of a known solid, from any thread, and an error where a place is not finite.
+## Tests sample_density(): the density and light of a known solid, calls from any thread, and errors for places that are
+## not finite.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## A ball 8 m across in each square of 16 m, which is full from a metre below its surface on.
+## A ball with a diameter of 8 m in each square of 16 m; it has full density from one metre below its surface.
 const BALLS := "sgm 1; units m; domain infinite axes xz output density edge 1m;
 layer main cell 16m reach 8m { start Ball; }
 rule Ball { at(8m, 8m, 8m) sphere(4m); }"
@@ -20,7 +21,7 @@ func _initialize() -> void:
 	_world.grammar = grammar
 	_checks.check(_one(MIDDLE).is_empty(), "the answer is empty while no world runs")
 	root.add_child(_world)
-	# The world begins with its first frame.
+	# The world starts in its first frame.
 	for i in 3:
 		await process_frame
 	_values()
@@ -40,12 +41,12 @@ func _one(corner: Vector3) -> PackedByteArray:
 func _values() -> void:
 	_checks.equal(_one(MIDDLE)[0], 255, "inside it is full")
 	_checks.equal(_one(MIDDLE + Vector3(0, 4.5, 0))[0], 0, "outside it is empty")
-	# By the header's formula: 2 t^2 up to half of the edge, then 1 - 2 (1 - t)^2.
+	# The formula in the header: 2 t^2 up to half of the edge, then 1 - 2 (1 - t)^2.
 	_checks.near(_one(MIDDLE + Vector3(3.75, 0, 0))[0], 255 * 0.125, 2, "a quarter of a metre deep")
 	_checks.near(_one(MIDDLE - Vector3(0, 3.25, 0))[0], 255 * 0.875, 2, "three quarters of a metre deep")
 	var softer := _world.sample_density(MIDDLE + Vector3(3, 0, 0), 1.0, Vector3i.ONE, Vector3.UP, FADE, 2.0)
 	_checks.near(softer[0], 255 * 0.5, 2, "another edge")
-	# x by x, then y by y, then z by z.
+	# The result is ordered by x first, then y, then z.
 	var size := Vector3i(3, 2, 4)
 	var all := _world.sample_density(Vector3(6, 9, 5), 1.0, size, Vector3.UP, FADE)
 	_checks.equal(all.size(), 2 * size.x * size.y * size.z, "two bytes for each point")
@@ -60,13 +61,13 @@ func _values() -> void:
 func _light() -> void:
 	var column := _world.sample_density(Vector3(8, 0, 8), 0.5, Vector3i(1, 32, 1), Vector3.UP, FADE)
 	_checks.equal(column[2 * 31 + 1], 255, "above the ball it is bright")
-	# 8 m of ball, of which a metre at each end counts half.
+	# 8 m of the ball, of which the outer metre at each end has half the density on average.
 	_checks.near(column[1], 255 * exp(-7.0 / FADE), 3, "below it the light has come through all of it")
 	var falls := true
 	for y in range(1, 32):
 		falls = falls and column[2 * y - 1] <= column[2 * y + 1]
 	_checks.check(falls, "nowhere is it brighter than higher up")
-	# The sun from the side: what lies in its way shades, what lies straight below does not.
+	# With the sun from the side, the ball shades points away from the sun, and no longer the points below it.
 	var size := Vector3i(33, 16, 1)
 	var slanted := _world.sample_density(Vector3(0, 0, 8), 1.0, size, Vector3(1, 1, 0), FADE)
 	_checks.check(slanted[2 * 1 + 1] < 200, "shade lies away from the sun: %d" % slanted[2 * 1 + 1])
@@ -74,7 +75,7 @@ func _light() -> void:
 	_checks.check(times == slanted, "how long the way to the sun is written does not matter")
 
 
-## A spacing below the finest is the finest one, for the light, too.
+## A spacing below the minimum is replaced by the minimum, also for the computation of light.
 func _spacing() -> void:
 	var column := _world.sample_density(Vector3(8, 6, 8), 0.0003, Vector3i(1, 4096, 1), Vector3.UP, 4.0)
 	_checks.near(column[1], 255 * exp(-1.0), 2, "4,096 points, a 1024th of a metre apart, are 4 m")
@@ -89,7 +90,7 @@ func _origin() -> void:
 	_checks.check(before == there, "corners are in the node's own coordinates")
 
 
-## Samples while the origin moves: each result is of one of the two places.
+## Samples while another thread moves the origin: each result must belong to one of the two origins.
 func _threads() -> void:
 	var sample := func() -> PackedByteArray:
 		return _world.sample_density(Vector3(2, 4, 2), 1.0, Vector3i(12, 8, 12), Vector3.UP, FADE)
@@ -128,6 +129,6 @@ func _wrong() -> void:
 		_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, sun, FADE).is_empty(), "no sun: %s" % sun)
 	_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, Vector3.UP, NAN).is_empty(), "no fade")
 	_checks.check(_world.sample_density(MIDDLE, 1.0, Vector3i.ONE, Vector3.UP, FADE, NAN).is_empty(), "no edge")
-	# The first point lies in the world, and the last one does not.
+	# The first point lies in the world, the last one outside.
 	_checks.check(_world.sample_density(Vector3(2_097_000, 0, 0), 1.0, Vector3i(4096, 1, 1), Vector3.UP, FADE).is_empty(),
 			"points beyond the world's end")

@@ -1,6 +1,6 @@
 extends SceneTree
-## Digging: what is dug is open to rays, to the field and to the physics; undone it is rock again; saved it is there in
-## the next run, and what is exported makes another world the same.
+## Tests digging: a dug place is void for rays, the field and the physics; after undo it is rock again; after saving it
+## is dug in the next run; and exported edits make another world equal.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
@@ -63,7 +63,7 @@ func _initialize() -> void:
 	_checks.equal(cave.world.flush_edits(), OK, "saving")
 	await cave.leave()
 
-	# The next run.
+	# Simulate the next run: a new world with the same journal.
 	cave = Cave.new(self)
 	cave.world.journal = JOURNAL
 	await cave.enter()
@@ -71,7 +71,7 @@ func _initialize() -> void:
 	_checks.equal(cave.world.ray_cast(cave.viewer.global_position, Vector3.DOWN, 60).material, "calcite", "and what was built")
 	await cave.leave()
 
-	# Another player's world.
+	# Simulate another player's world.
 	cave = Cave.new(self)
 	await cave.enter()
 	_checks.equal(cave.world.import_edits(bytes), OK, "another world takes them over")
@@ -83,7 +83,7 @@ func _initialize() -> void:
 	await _checks.finish(self)
 
 
-## The height of what the engine's own ray hits below the viewer.
+## The height of the ground below the viewer, according to a ray of the engine's physics.
 func _physics_floor(cave: RefCounted) -> float:
 	for i in 3:
 		await physics_frame

@@ -1,6 +1,6 @@
 extends SceneTree
-## Streams 500 m along the passages, as a player would go: nothing fails, what is drawn stays closed, there is ground
-## before `walkable`, and a frame has no more of the main thread than it may.
+## Streams 500 m of a cave's passages at a player's speed. No call may fail, the drawn surface must stay closed, there
+## must be ground before `walkable` is reported, and frames must not exceed their main-thread budget.
 
 const SPEED := 12.0
 const METRES := 500.0
@@ -24,7 +24,7 @@ func _initialize() -> void:
 	var way := cave.passages(METRES)
 	_checks.check(Cave.length_of(way) >= METRES, "there is a way of %.0f m through the passages" % METRES)
 	await cave.settle()
-	# The engine tells the longest of the last second: that of finding the way is not of the flight.
+	# The engine reports the longest frame of the last second: wait until frames that planned the path are out of it.
 	for i in 2 * Engine.max_fps:
 		await process_frame
 	var main_thread: Array[float] = []
@@ -60,7 +60,7 @@ func _initialize() -> void:
 	await _checks.finish(self)
 
 
-## Places a frame apart.
+## The places of the viewer in successive frames along a path.
 func _walked(way: PackedVector3Array) -> PackedVector3Array:
 	var places := PackedVector3Array()
 	var step := SPEED / Engine.max_fps

@@ -1,5 +1,6 @@
 extends SceneTree
-## Grammars as resources: loading, saving, checking, imports, errors with their places, and following the file.
+## Tests grammars as resources: loading, saving, checking, imports, errors with their lines, and reloading of changed
+## files.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const FOLDER := "user://grammars_test"

@@ -1,6 +1,6 @@
 extends SceneTree
-## Who hears a signal may end the world that sends it, or begin another. And settings that are no change, or that a
-## grammar lacks for now.
+## Tests signal handlers that end the world which emits the signal, or start another one. Also tests settings that
+## change nothing, and settings for names that the grammar currently lacks.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
@@ -75,7 +75,7 @@ func _arguments(signal_name: String) -> int:
 	return 0
 
 
-## A scene of one node with a script.
+## A scene that consists of one node with a script.
 func _scene_of(code: String) -> PackedScene:
 	var script := GDScript.new()
 	script.source_code = code
@@ -88,7 +88,7 @@ func _scene_of(code: String) -> PackedScene:
 	return scene
 
 
-## A scene at an anchor may end the world while it is put there.
+## A scene that is instantiated at an anchor may end the world meanwhile.
 func _scene_ends() -> void:
 	var scene := _scene_of("extends Node3D\nfunc _ready() -> void:\n\tvar world := get_parent()\n\tworld.get_parent().remove_child.call_deferred(world)\n\tworld.set(\"cell_size\", 0.75)\n\tworld.restart()\n\tworld.wait_until_idle(0.0)\n")
 	var cave := Cave.new(self)
@@ -103,7 +103,7 @@ func _scene_ends() -> void:
 	await process_frame
 
 
-## The last reference to a grammar goes while it tells of its change.
+## The last reference to a grammar is released while the grammar emits its signal of a change.
 func _failed() -> void:
 	var cave := Cave.new(self)
 	var path := "user://turned.sgm"
@@ -164,7 +164,7 @@ func _property(object: Object, name: String) -> Dictionary:
 	return {}
 
 
-## What stands at anchors goes with the world's origin, and is there when it enters the tree.
+## Scenes at anchors move with the world's origin, and already have their place when they enter the tree.
 func _origin() -> void:
 	var scene := _scene_of("extends Node3D\nvar entered_at: Vector3\nfunc _enter_tree() -> void:\n\tentered_at = global_position\n")
 	var cave := Cave.new(self)
@@ -190,7 +190,7 @@ func _backend() -> void:
 	await cave.leave()
 
 
-## Each is told in one message, and the world before stays.
+## Each wrong setting must cause one message, and the previous world must stay.
 func _wrong_settings() -> void:
 	var cave := Cave.new(self)
 	var messages: Array[String] = []

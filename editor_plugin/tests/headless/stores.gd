@@ -1,5 +1,6 @@
 extends SceneTree
-## A world that was baked ahead of time by the command: the same world, read instead of made; and stores that are none.
+## Tests a world that the command has baked: it must equal the meshed world, and be read instead of meshed. Also tests
+## stores that are not valid.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
@@ -52,7 +53,7 @@ func _initialize() -> void:
 	await _checks.finish(self)
 
 
-## By the command, as a game's builder does.
+## Bakes a world with the command, as a game's build process would do.
 func _bake(around: Vector3, top_level: int) -> bool:
 	var command := OS.get_environment("SGM_COMMAND")
 	var low := (around - Vector3.ONE * 40).floor()

@@ -1,6 +1,6 @@
 extends SceneTree
-## A world's settings: parameters as properties, live; seeds; materials; several viewers; anchors; a backend that is not
-## there; a wrong grammar; measures.
+## Tests the settings of a world: parameters as properties, seeds, materials, several viewers, anchors, an unavailable
+## backend, a grammar with errors, measures.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
@@ -155,6 +155,6 @@ func _missing_grammar() -> void:
 	await process_frame
 
 
-## Around the hall that the viewer is in.
+## A box around the hall of the viewer.
 func _box(cave: RefCounted) -> AABB:
 	return AABB(cave.viewer.global_position - Vector3.ONE * 24, Vector3.ONE * 48)

@@ -1,5 +1,6 @@
 extends RefCounted
-## What tests need of the demo's cave: a world, a viewer, places to be, and a way of passages from hall to hall.
+## Things that tests of the demo's cave share: a world, a viewer, known places, and a path through passages from hall to
+## hall.
 
 var tree: SceneTree
 var world: SgmWorld3D
@@ -15,7 +16,7 @@ func _init(in_tree: SceneTree, grammar_path := "res://tests/grammars/cave.sgm") 
 	viewer = SgmViewer3D.new()
 
 
-## Puts world and viewer into the scene, the viewer into the hall that is nearest to the origin.
+## Adds world and viewer to the scene, with the viewer in the hall nearest to the origin.
 func enter() -> void:
 	tree.root.add_child(world)
 	tree.root.add_child(viewer)
@@ -30,7 +31,7 @@ func leave() -> void:
 		await tree.process_frame
 
 
-## Middles of the halls around the origin, the nearest one first.
+## The middles of the halls around the origin, nearest first.
 func halls() -> PackedVector3Array:
 	var around := 420.0
 	var places: Array[Vector3] = []
@@ -41,7 +42,7 @@ func halls() -> PackedVector3Array:
 	return PackedVector3Array(places)
 
 
-## Waits until all is drawn, collided with and idle. False where that takes too long.
+## Waits until everything is drawn, has colliders, and is idle. Returns false after a timeout.
 func settle(seconds := 60.0) -> bool:
 	var limit := Time.get_ticks_msec() + int(seconds * 1000)
 	while Time.get_ticks_msec() < limit:
@@ -51,7 +52,7 @@ func settle(seconds := 60.0) -> bool:
 	return false
 
 
-## A way through the passages, hall after hall, at least so many metres long. Empty where there is none.
+## A path through the passages from hall to hall, at least [param metres] long. Empty if there is none.
 func passages(metres: float, radius := 0.8) -> PackedVector3Array:
 	var left := halls()
 	var way := PackedVector3Array([left[0]])

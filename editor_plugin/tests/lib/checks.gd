@@ -1,14 +1,15 @@
 extends RefCounted
-## Checks of one test, and the marker that it ends with: a test that does not reach it has failed.
+## Counts the checks of one test, and prints the marker at its end. A test that does not reach its end has no marker and
+## fails.
 ##
-## The harness (tests/run.sh) looks for `SGM TEST PASSED: N checks`, and for errors in the engine's log other than those
-## that the test has announced with [method expect_error].
+## The harness (tests/run.sh) searches the output for `SGM TEST PASSED: N checks`, and for errors in the engine's log
+## other than those that the test has announced with [method expect_error].
 
 var _passed := 0
 var _failed := 0
 
 
-## Counts a check; prints what was expected where it does not hold.
+## Counts a check; if it fails, prints what was expected.
 func check(condition: bool, text: String) -> bool:
 	if condition:
 		_passed += 1
@@ -18,7 +19,7 @@ func check(condition: bool, text: String) -> bool:
 	return condition
 
 
-## As [method check], with both values in the message.
+## As [method check], for equality; prints both values if they differ.
 func equal(got: Variant, wanted: Variant, text: String) -> bool:
 	return check(got == wanted, "%s: got %s, wanted %s" % [text, got, wanted])
 
@@ -27,12 +28,12 @@ func near(got: float, wanted: float, tolerance: float, text: String) -> bool:
 	return check(absf(got - wanted) <= tolerance, "%s: got %f, wanted %f +- %f" % [text, got, wanted, tolerance])
 
 
-## Announces a line of the engine's log that would fail the test otherwise, and has to come.
+## Announces an error in the engine's log. The error must occur, and does not fail the test.
 func expect_error(pattern: String) -> void:
 	print("SGM TEST EXPECTS: ", pattern)
 
 
-## Prints the marker and ends the program, once everything that was freed is gone.
+## Prints the marker and quits, after all freed nodes have been destroyed.
 func finish(tree: SceneTree) -> void:
 	for i in 3:
 		await tree.process_frame

@@ -1,5 +1,6 @@
 extends "res://tests/rendered/closed.gd"
-## The same on the Compatibility renderer, whose vertices come another way. In software it takes far longer for each
+## The same test with the Compatibility renderer (OpenGL), which receives vertices in another format. Pictures take far
+## longer in software, so the test draws fewer.
 ## look, so there are fewer of them.
 
 

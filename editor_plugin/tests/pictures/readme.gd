@@ -1,11 +1,11 @@
 extends SceneTree
-## The pictures of the README: the demo's places as a machine with a graphics card shows them.
+## Draws the pictures of the README: the demo's places with the quality of a machine with a graphics card.
 ##
-## SGM_PLACES names those that are wanted; SGM_PICTURE_SIZE=960x540 makes them smaller, for drafts.
+## SGM_PLACES names the places to draw (all by default); SGM_PICTURE_SIZE=960x540 makes smaller drafts.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## Where the camera stands (nowhere: where one begins), how it looks, degrees to the left and up, and how much it sees,
-## degrees from the lower to the upper edge: less than in play, as a photographer's lens does.
+## For each place: the position of the camera (Vector3.INF: the player's start), its yaw to the left and its pitch in
+## degrees, and its vertical angle of view in degrees, which is smaller than in play.
 const VIEWS := {
 	cave = [Vector3.INF, -90.0, 0.0, 70.0],
 	sky = [Vector3(1900.0, 1370.0, 2250.0), 40.0, -1.0, 50.0],
@@ -34,11 +34,11 @@ func _draw(name: String) -> void:
 	var place := (load("res://%s/%s.tscn" % [name, name]) as PackedScene).instantiate() as DemoPlace
 	for setting: String in place.fine:
 		place.world.set(setting, place.fine[setting])
-	# What has been meshed once is there sooner when a picture is drawn again.
+	# A cache, so that repeated pictures need not mesh the chunks again.
 	place.world.cache_folder = "user://meshes"
 	if place is DemoCave:
 		place.world.seed = CAVE_SEED
-	# Frames are drawn when all that they show is there: a software renderer would leave the world's threads no time.
+	# Frames are drawn only when everything is ready: a software renderer would leave the world's threads no time.
 	RenderingServer.render_loop_enabled = false
 	root.add_child(place)
 	await process_frame
@@ -77,7 +77,7 @@ func _draw(name: String) -> void:
 		await process_frame
 
 
-# Where one arrives in the hall that is nearest to the middle.
+# The player's starting place in the hall nearest to the middle.
 func _hall(cave: DemoCave) -> Vector3:
 	var best := Vector3.INF
 	for anchor: Dictionary in cave.world.get_anchors(AABB(Vector3.ONE * -100.0, Vector3.ONE * 200.0)):

@@ -1,13 +1,13 @@
 extends SceneTree
-## Not one pixel of what lies behind the rock is seen, wherever one looks, at any moment of streaming: while chunks come
-## and go, across seams of levels, with level blending, after a dig.
+## Tests that the drawn surface has no holes: no pixel behind the rock may be visible in any direction at any moment of
+## streaming, while chunks appear and disappear, across seams between levels, with geomorphing, and after a dig.
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
 const BEHIND := Color(1, 0, 1)
 const SIZE := Vector2i(320, 240)
 
-## Of the flight, at least, and between two looks.
+## Minimum length of the flight, and distance between two pictures.
 var metres := 150.0
 var step := 1.5
 
@@ -99,7 +99,7 @@ func _frames(count: int) -> void:
 	await RenderingServer.frame_post_draw
 
 
-## Pixels that show what lies behind the rock.
+## Number of pixels that show the background behind the rock.
 func _seen() -> int:
 	var image := _view.get_texture().get_image()
 	var count := 0

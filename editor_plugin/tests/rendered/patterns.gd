@@ -1,14 +1,15 @@
 extends SceneTree
-## Every pattern of the plugin's shaders, all in one world: they compile at once, each is drawn, and each in its own way.
+## Tests the patterns of the plugin's shaders in a single world: all compile together, each is drawn, and no two look
+## the same.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## A material for each SurfacePattern, in its order (runtime/tools/materials/material.h).
+## One material for each SurfacePattern, in the order of the enum (runtime/tools/materials/material.h).
 const NAMES := ["rock", "granite", "marble", "flowstone", "brick", "ashlar", "rubble", "paving", "cobble", "roof_tile",
 		"slate", "plaster", "concrete", "wood", "iron", "asphalt", "glass", "sand", "gravel", "grass", "leaf", "bark",
 		"moss", "water", "cloud", "boards", "glow", "joist",
 		"lava", "leaded"]
 const COLUMNS := 6
-const METRES := 4.0  # from box to box
+const METRES := 4.0  # distance between boxes
 const TILE := 48  # pixels
 const BEHIND := Color(1, 0, 1)
 
@@ -79,7 +80,7 @@ func _draw(mapping: int, rows: int) -> void:
 			for x in tile.get_width():
 				var pixel := tile.get_pixel(x, y)
 				holes += 1 if pixel.r > 0.9 and pixel.b > 0.9 and pixel.g < 0.1 else 0
-		# Between leaves one sees past them.
+		# The background is visible between leaves.
 		_checks.check(holes < (TILE - 16) * (TILE - 16) / (2 if NAMES[i] == "leaf" else 100),
 				"%s is drawn, mapping %d: %d pixels of what lies behind" % [NAMES[i], mapping, holes])
 		seen[tile.get_data()] = NAMES[i]

@@ -1,6 +1,6 @@
 extends SceneTree
-## Pictures of the demo's places, as a player sees them: they show the world, in many tones, and nothing of it is
-## missing.
+## Takes pictures of the demo's places, as a player sees them: they must show the world, in many tones, without missing
+## parts.
 
 const Checks := preload("res://tests/lib/checks.gd")
 
@@ -22,7 +22,7 @@ func _cave() -> void:
 	await _settle(place)
 	_shoot_ready(place)
 	await _shoot("cave")
-	# A dig, lit from where it was made.
+	# Dig a hole, lit from the place where the player stands.
 	place.world.dig(place.player.eye() + place.player.gaze() * 5.0 + Vector3.DOWN * 1.5, 1.5, 0.3)
 	await _settle(place)
 	await _shoot("cave_dug")
@@ -34,7 +34,7 @@ func _sky() -> void:
 	await _settle(place)
 	_shoot_ready(place)
 	await _shoot("sky")
-	# The same clouds as fog.
+	# Draw the same clouds as a participating medium.
 	place.fog = true
 	var limit := Time.get_ticks_msec() + 60_000
 	while not place.volume.is_filled() and Time.get_ticks_msec() < limit:

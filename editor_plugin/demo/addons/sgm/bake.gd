@@ -1,34 +1,35 @@
 @tool
 class_name SgmBake
 extends RefCounted
-## Saves what a world draws for use without the plugin: as a scene of the engine's own nodes, or as glTF.
+## Saves the drawn surface of a world for use without the plugin: as a scene of the engine's own nodes, or as glTF.
 ##
-## What is drawn at the moment is what is saved, so let the world come to rest before: [codeblock]
+## Only chunks that are drawn at the time of the call are saved, so wait until the world is idle: [codeblock]
 ## await world.became_idle
 ## if SgmBake.bake_to_scene(world, "user://cave.scn", {merge = true}) != OK:
 ##     print(SgmBake.trouble)
 ## [/codeblock]
-## A file is written beside its path and renamed once it is whole: after a failure, what was there before still is.
+## A file is written under another name and renamed when it is complete: after a failure, the previous file still
+## exists.
 
 const ROUGHNESS := 0.85
-## Where materials' shaders read what only the plugin's own surfaces have.
+## Shaders in this folder read vertex attributes that only the plugin's own surfaces have.
 const OWN_FOLDER := "res://addons/sgm/"
 const PARTS: Array[int] = [Mesh.ARRAY_VERTEX, Mesh.ARRAY_NORMAL, Mesh.ARRAY_COLOR, Mesh.ARRAY_TEX_UV]
 
-## What went wrong in the last call and what to do about it, in one sentence; empty after a success.
+## The error of the last call and its remedy, in one sentence; empty after a success.
 static var trouble := ""
 
 
-## Saves a scene (.tscn or .scn): a [Node3D] named and placed as [param world], with a [MeshInstance3D] for each
-## chunk.
+## Saves a scene (.tscn or .scn): a [Node3D] with the name and transform of [param world], and a [MeshInstance3D] for
+## each chunk.
 ##
-## A surface has the material that was set for it in the world, unless that is drawn by a shader of the plugin; all
-## others share a [StandardMaterial3D] that shows the colors of the vertices. Options: [br]
-## - [code]merge[/code] (false): one mesh of all chunks, with one surface for each material; [br]
-## - [code]collision[/code] (true): a [StaticBody3D] with a [ConcavePolygonShape3D] for each mesh, in the world's
-## layers; [br]
-## - [code]anchors[/code] (true): a [Marker3D] named after each anchor within the bounds of what is drawn, with the
-## anchor's kind and tag as metadata.
+## A surface has the material that the world has for it, unless a shader of the plugin draws that material; all other
+## surfaces share a [StandardMaterial3D] that shows the vertex colors. Options: [br]
+## - [code]merge[/code] (false): makes one mesh of all chunks, with one surface for each material; [br]
+## - [code]collision[/code] (true): adds a [StaticBody3D] with a [ConcavePolygonShape3D] for each mesh, with the world's
+## collision layers; [br]
+## - [code]anchors[/code] (true): adds a [Marker3D] with the name of each anchor within the bounds of the drawn chunks,
+## with the anchor's kind and tag as metadata.
 static func bake_to_scene(world: SgmWorld3D, path: String, options := {}) -> Error:
 	var chunks: Array[Dictionary] = []
 	var error := _begin(world, path, ["tscn", "scn"], chunks)
@@ -47,9 +48,9 @@ static func bake_to_scene(world: SgmWorld3D, path: String, options := {}) -> Err
 	return _finish(error, unfinished, path)
 
 
-## Saves a binary glTF file (.glb) of the meshes and anchors, in metres, for other programs.
+## Saves the meshes and anchors as a binary glTF file (.glb), in metres, for other programs.
 ##
-## Materials that are shaders cannot be told in glTF: the colors of the vertices are shown in their place.
+## glTF has no shader materials: such surfaces show the vertex colors instead.
 static func export_glb(world: SgmWorld3D, path: String) -> Error:
 	var chunks: Array[Dictionary] = []
 	var error := _begin(world, path, ["glb"], chunks)
@@ -66,7 +67,7 @@ static func export_glb(world: SgmWorld3D, path: String) -> Error:
 	return _finish(error, unfinished, path)
 
 
-# Refuses what cannot be saved, before anything is built; else fills in the chunks and claims the unfinished file.
+# Checks the arguments before anything is built. If they are valid, fills `chunks` and creates the unfinished file.
 static func _begin(world: SgmWorld3D, path: String, endings: Array[String], chunks: Array[Dictionary]) -> Error:
 	trouble = ""
 	if path.get_extension().to_lower() not in endings:
@@ -94,12 +95,13 @@ static func _finish(error: Error, unfinished: String, path: String) -> Error:
 	return _fail_to_write(path, error)
 
 
-# The editor leaves files out of the project whose names begin with a point.
+# The editor excludes files from the project whose names begin with a point.
 static func _unfinished(path: String) -> String:
 	return path.get_base_dir().path_join(".unfinished-" + path.get_file())
 
 
-# Scenes that use the one that is replaced find the new one by the same identifier (from Godot 4.4 on).
+# Gives the new scene the UID of the file that it replaces, so that scenes that refer to the file by its UID find it
+# (Godot 4.4 and newer).
 static func _keep_identifier(unfinished: String, path: String) -> void:
 	var identifier := ResourceLoader.get_resource_uid(path) if FileAccess.file_exists(path) else ResourceUID.INVALID_ID
 	if identifier != ResourceUID.INVALID_ID and ResourceSaver.has_method(&"set_uid"):
@@ -117,7 +119,7 @@ static func _fail(error: Error, sentence: String) -> Error:
 	return error
 
 
-# The scene's nodes, which belong to the caller.
+# The nodes of the scene. The caller owns them.
 static func _tree_of(world: SgmWorld3D, chunks: Array[Dictionary], options: Dictionary, for_gltf: bool) -> Node3D:
 	var root := Node3D.new()
 	root.name = world.name
@@ -177,7 +179,7 @@ static func _add_anchors(root: Node3D, world: SgmWorld3D, to_local: Transform3D)
 	var bounds: AABB = world.get_bounds()
 	for anchor: Dictionary in world.get_anchors(world.global_transform * bounds):
 		var place := to_local * (anchor.transform as Transform3D)
-		# The box around the bounds of a world that is turned is larger than them.
+		# If the world is rotated, the axis-aligned box that was searched is larger than the bounds.
 		if not bounds.has_point(place.origin):
 			continue
 		var marker := Marker3D.new()
@@ -196,7 +198,7 @@ static func _material_of(world: SgmWorld3D, slot: String, for_gltf: bool, plain:
 	return plain if own or for_gltf else chosen
 
 
-# The engine's colors of vertices are sRGB, as the world's colors are; those of glTF are linear.
+# The engine expects vertex colors in sRGB, as the world provides them; glTF expects linear colors.
 static func _plain_material(linear: bool) -> StandardMaterial3D:
 	var material := StandardMaterial3D.new()
 	material.resource_name = "vertex colors"
@@ -206,14 +208,14 @@ static func _plain_material(linear: bool) -> StandardMaterial3D:
 	return material
 
 
-# Opaque: a world's colors have a roughness where others have an opacity.
+# Colors with alpha 1: the world's vertex colors store the roughness in alpha.
 static func _colors(colors: PackedColorArray, linear: bool) -> PackedColorArray:
 	for i in colors.size():
 		colors[i] = Color(colors[i].srgb_to_linear() if linear else colors[i], 1.0)
 	return colors
 
 
-# All chunks as one that lies at the world's own origin.
+# All chunks joined into one, with the world's own origin as its origin.
 static func _merged(chunks: Array[Dictionary], materials: Dictionary) -> Dictionary:
 	var surfaces := {}
 	var faces := PackedVector3Array()

@@ -1,8 +1,8 @@
 @tool
 extends EditorPlugin
-## The editor's side of SG+M: previews of worlds, their gizmos, and the dock with their figures.
+## The editor plugin of SG+M: previews of worlds, their gizmos, and the dock with their figures.
 ##
-## Everything beyond this script names native classes, so it is loaded only once their library is known to be there.
+## The other scripts use native classes, so they are loaded only after this script has checked that the library exists.
 
 const REMEDY := "run editor_plugin/build.sh, or copy all of addons/sgm with its bin/ folder, and restart the editor"
 const NEW_GRAMMAR := "New SG+M grammar…"
@@ -52,8 +52,8 @@ func _handles(object: Object) -> bool:
 	return _text_editing != null and object.is_class("SgmGrammar")
 
 
-# As with scripts: what is opened as a resource is shown as text. A grammar that unfolds within a world's properties is
-# handed over as well, but is not what the inspector edits.
+# A grammar that is opened as a resource is shown as text, like a script. The engine also calls this for a grammar that
+# unfolds within a world's properties; such a grammar is not what the inspector edits, and is not shown.
 func _edit(object: Object) -> void:
 	if object != null:
 		_show_text.call_deferred(object)
@@ -92,7 +92,7 @@ func _remove_grammar_tools() -> void:
 	_text_editing = null
 
 
-## What is wrong with the native library; empty where it is there and of this plugin's version.
+## The problem with the native library; empty if it exists and has this plugin's version.
 func _trouble() -> String:
 	if not ClassDB.class_exists(&"SgmWorld3D") or not ClassDB.class_exists(&"SgmGrammar"):
 		return "the native library in addons/sgm/bin is missing or does not load"

@@ -1,8 +1,9 @@
 @tool
 extends EditorPlugin
-## Runs the script that SGM_EDITOR_TEST names, once the editor has settled; the test quits the editor by its checks.
+## Runs the script whose path SGM_EDITOR_TEST contains, once the editor has started up. The test itself quits the
+## editor.
 
-## Frames in which the editor lays out its docks and scans its files.
+## Number of frames in which the editor lays out its docks and scans its files.
 const SETTLING := 30
 
 

@@ -1,13 +1,13 @@
 @tool
 extends GridContainer
-## The buttons for what can be done with the chosen world.
+## The buttons of the dock, which act on the selected world.
 
-## One sentence about what went wrong, or empty.
+## Emitted with a sentence about an error, or with an empty text.
 signal told(sentence: String)
 
 const TextEditing := preload("text_editing.gd")
 const BAKE := "res://addons/sgm/bake.gd"
-## Seeds that one can type and read out.
+## Largest seed of the button: short enough to type and to read out.
 const MOST_SEED := 999_999
 
 var undo_redo: EditorUndoRedoManager
@@ -40,7 +40,7 @@ func _ready() -> void:
 	add_child(_dialog)
 
 
-## Says which buttons can be pressed, and why others cannot.
+## Enables the buttons that can be pressed, and explains in a tooltip why the others cannot.
 func refresh(world: SgmWorld3D, runs: bool) -> void:
 	_world = world
 	for i in _buttons.size():
@@ -53,7 +53,7 @@ func copy_seed() -> void:
 	DisplayServer.clipboard_set(str(_world.seed))
 
 
-## Gives the world another seed, in a step that can be undone.
+## Sets a random seed, as an action that can be undone.
 func roll_seed() -> void:
 	var rolled := randi_range(0, MOST_SEED - 1)
 	if rolled >= _world.seed and _world.seed >= 0:
@@ -119,7 +119,7 @@ func _on_file_selected(path: String) -> void:
 	told.emit(_save(path))
 
 
-# What went wrong, in a sentence; empty where the file was written.
+# Saves the world to a file. Returns an error in one sentence; empty on success.
 func _save(path: String) -> String:
 	if not is_instance_valid(_world):
 		return "The world is gone: select one and try again."

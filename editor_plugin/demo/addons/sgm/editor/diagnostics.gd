@@ -1,6 +1,6 @@
 @tool
 extends VBoxContainer
-## What is wrong with a grammar, line by line, and buttons to see where.
+## Lists the errors and warnings of a grammar, with buttons that show their lines.
 
 const TextEditing := preload("text_editing.gd")
 const LAST_GOOD := "Shows the last text that was right, until this one is mended."
@@ -24,7 +24,7 @@ func _exit_tree() -> void:
 	_grammar.changed.disconnect(refresh)
 
 
-## The lines as one reads them, from top to bottom.
+## The texts of the list, from top to bottom.
 func lines() -> PackedStringArray:
 	var texts := PackedStringArray()
 	for label: Label in find_children("*", "Label", true, false):
@@ -40,7 +40,7 @@ func refresh() -> void:
 	for diagnostic: Dictionary in _grammar.get_diagnostics():
 		_add(diagnostic)
 	if not _grammar.is_valid():
-		# A grammar that has compiled at least once has a domain.
+		# A grammar without a domain has never been compiled successfully.
 		_add_label(self, NEVER_GOOD if _grammar.get_domain().is_empty() else LAST_GOOD, &"warning_color")
 	var path := _grammar.resource_path
 	if FileAccess.file_exists(path):
@@ -66,7 +66,7 @@ func _add(diagnostic: Dictionary) -> void:
 				TextEditing.open.bind(file, diagnostic.line, diagnostic.column))
 
 
-# Imports are told by their paths from the grammar's folder.
+# The file of a diagnostic: paths of imported files are relative to the grammar's folder.
 func _file_of(diagnostic: Dictionary) -> String:
 	var file: String = diagnostic.file
 	return file if "://" in file else _grammar.resource_path.get_base_dir().path_join(file)

@@ -1,12 +1,12 @@
 @tool
 extends VBoxContainer
-## The figures of the chosen world: what makes it, what is drawn of it, and how its surface bends.
+## The dock: figures of the selected world, such as its backend, its drawn chunks, and the histogram of its edges.
 
 const Preview := preload("preview.gd")
 const Histogram := preload("histogram.gd")
 const Actions := preload("actions.gd")
 const Measuring := preload("measuring.gd")
-## Seconds between two readings of the cheap figures.
+## Seconds between two updates of the figures that are cheap to read.
 const PACE := 0.5
 const NONE := "–"
 const ROWS := {
@@ -59,7 +59,7 @@ func _init() -> void:
 	add_child(_message)
 
 
-## To be called before the dock enters the tree.
+## Must be called before the dock enters the tree.
 func set_up(preview: Preview, undo_redo: EditorUndoRedoManager) -> void:
 	_preview = preview
 	_actions.undo_redo = undo_redo
@@ -86,25 +86,25 @@ func _process(delta: float) -> void:
 		refresh()
 
 
-## The text of a row's figure, by its name in [constant ROWS].
+## The displayed text of a figure, by its row's name in [constant ROWS].
 func figure(row: String) -> String:
 	return (_values[row] as Label).text
 
 
-## Measures what is drawn in the background; the figures come some frames later.
+## Measures the drawn chunks in the background; the figures appear some frames later.
 func measure() -> void:
 	if _world != null and _world.running and not _measuring.is_busy():
 		_measuring.start(_world, Histogram.BINS)
 		refresh()
 
 
-## Shows one sentence below the buttons, till the next one or till another world is chosen.
+## Shows a sentence below the buttons until the next sentence, or until another world is selected.
 func say(sentence: String) -> void:
 	_message.text = sentence
 	_message.visible = not sentence.is_empty()
 
 
-## Reads the cheap figures.
+## Updates the figures that are cheap to read.
 func refresh() -> void:
 	var statistics := _world.get_statistics() if _world != null else {}
 	var measures := _world.get_measures() if _world != null else {}
@@ -120,7 +120,7 @@ func refresh() -> void:
 	_actions.refresh(_world, not statistics.is_empty())
 
 
-## A number with its thousands apart.
+## A whole number with separated groups of three digits.
 static func grouped(number: float) -> String:
 	var digits := str(roundi(absf(number)))
 	for place in range(digits.length() - 3, 0, -3):
@@ -146,7 +146,7 @@ func _add_row(grid: GridContainer, row: String) -> void:
 func _show(row: String, text: String) -> void:
 	var value := _values[row] as Label
 	value.text = text
-	# What is cut off can be read in the tooltip.
+	# The tooltip shows the whole text, because the label may cut it off.
 	value.tooltip_text = ROWS[row][1] if text == NONE else "%s\n%s" % [text, ROWS[row][1]]
 
 
@@ -180,7 +180,8 @@ func _on_became_idle() -> void:
 		measure()
 
 
-# A world that another scene's tab hides, or that is deleted, must not go while it is measured.
+# Deselects a world that is deleted, or hidden by another scene's tab: the world must not be destroyed while it is
+# measured.
 func _on_world_leaves() -> void:
 	_choose(null)
 

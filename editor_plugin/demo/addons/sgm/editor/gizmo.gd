@@ -1,15 +1,15 @@
 @tool
 extends EditorNode3DGizmoPlugin
-## Shows the bounds of what an SgmWorld3D draws, and its anchors around the editor's camera.
+## Draws the bounds of an SgmWorld3D's drawn chunks, and the anchors near the editor's camera.
 
 const Preview := preload("preview.gd")
-## Metres from the camera within which anchors are shown.
+## Maximum distance in metres from the camera to a drawn anchor.
 const REACH := 64.0
-## How many of the nearest anchors have their names beside them.
+## Number of anchors, nearest first, whose names are shown.
 const MOST_NAMES := 48
 const NAME_HEIGHT := 0.4
 const ICON_SCALE := 0.05
-## Metres from the middle of an anchor's cross to its ends.
+## Metres from the center of an anchor's cross to its ends.
 const ARM := 0.5
 const ICON := "../icons/SgmWorld3DGizmo.svg"
 const AXES: Array[String] = ["anchor_x", "anchor_y", "anchor_z"]
@@ -55,7 +55,7 @@ func _redraw(gizmo: EditorNode3DGizmo) -> void:
 		gizmo.add_mesh(_name_mesh(anchor.title), get_material("name", gizmo), Transform3D(Basis.IDENTITY, place))
 
 
-## The edges of the bounds of what is drawn, two points for each, in the world's own space.
+## The edges of the bounds of the drawn chunks, two points for each, in the world's own coordinates.
 static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 	var lines := PackedVector3Array()
 	var box := world.get_bounds()
@@ -63,7 +63,8 @@ static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 		return lines
 	for corner in 8:
 		for axis in 3:
-			# Endpoints' bits are z, y, x from the lowest on; each edge starts where its own bit is off.
+			# Bits 0, 1, 2 of a corner's index stand for z, y, x. An edge along an axis starts at the corners without
+			# that axis' bit.
 			var bit := 4 >> axis
 			if corner & bit == 0:
 				lines.append(box.get_endpoint(corner))
@@ -71,12 +72,12 @@ static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
 	return lines
 
 
-## Places of the anchors within [constant REACH] of the editor's camera, in the world's own space.
+## Transforms of the anchors within [constant REACH] of the editor's camera, in the world's own coordinates.
 static func anchors_near_camera(world: SgmWorld3D) -> Array[Transform3D]:
 	return _places(named_near_camera(world))
 
 
-## As [method anchors_near_camera], the nearest first, each with its transform and its title.
+## The same anchors, nearest first, as dictionaries with transform and title.
 static func named_near_camera(world: SgmWorld3D) -> Array[Dictionary]:
 	var found: Array[Dictionary] = []
 	var camera := Preview.editor_camera()
@@ -96,7 +97,7 @@ static func named_near_camera(world: SgmWorld3D) -> Array[Dictionary]:
 	return found
 
 
-## One stroke of each anchor's cross, two points for each.
+## The lines of all anchors' crosses along one axis, two points for each.
 static func anchor_lines(places: Array[Transform3D], axis: int) -> PackedVector3Array:
 	var lines := PackedVector3Array()
 	for place in places:

@@ -1,6 +1,6 @@
 @tool
 extends EditorSyntaxHighlighter
-## Colours of grammars in the script editor.
+## Syntax highlighting of grammars in the script editor.
 
 const DECLARATIONS: Array[String] = [
 	"domain", "expect", "field", "import", "layer", "let", "morphic", "override", "param", "report", "rule", "seed",
@@ -27,7 +27,7 @@ const CLAUSES: Array[String] = [
 	"smooth", "solid", "stretch", "turn", "up", "uses", "within",
 ]
 const UNITS: Array[String] = ["cm", "deg", "km", "m", "mm", "rad"]
-## The editor's setting for each kind of word.
+## The editor setting with the color for each kind of word.
 const COLORS := {
 	comment = "comment_color", text = "string_color", number = "number_color", unit = "member_variable_color",
 	declaration = "keyword_color", control = "control_flow_keyword_color", operation = "keyword_color",
@@ -68,7 +68,7 @@ func _get_line_syntax_highlighting(line: int) -> Dictionary:
 	return colors
 
 
-## Where each part of a line begins, and its kind, in order.
+## The parts of a line in order: the column where each begins, and its kind.
 func kinds_of(text: String) -> Array[Array]:
 	var parts: Array[Array] = []
 	for found in _regex.search_all(text):

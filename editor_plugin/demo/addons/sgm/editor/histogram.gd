@@ -1,20 +1,21 @@
 @tool
 extends Control
-## The bends along the edges of a surface, by shares: concave ones to the left, flat ones in the middle, convex ones
-## to the right.
+## A histogram of the dihedral angles of a surface's edges, as shares: concave edges on the left, flat ones in the
+## middle, convex ones on the right.
 ##
-## Heights grow with the square root of a share, so that the few sharp bends show beside the many flat ones.
+## The height of a bar is proportional to the square root of its share, so that the few sharp edges are visible beside
+## the many flat ones.
 
-## How many bars to ask for: an odd number keeps what is flat in one of them.
+## Number of bars: odd, so that flat edges are all in one bar.
 const BINS := 33
 const HEIGHT := 110.0
 const GAP := 1.0
 const LABELS: Array[String] = ["concave", "flat", "convex"]
 
-## The shares, from the most concave to the most convex; empty: none yet.
+## The share of each bar, from the most concave to the most convex; empty before the first measurement.
 var shares := PackedFloat64Array()
 
-## The shares of concave, flat and convex edges; empty: none yet.
+## The shares of all concave, flat and convex edges; empty before the first measurement.
 var _sums: Array[float] = []
 var _hovered := -1
 
@@ -29,7 +30,7 @@ func _notification(what: int) -> void:
 		custom_minimum_size.y = HEIGHT * EditorInterface.get_editor_scale()
 
 
-## Shows the shares by their bends, and those of all concave, flat and convex edges.
+## Shows the shares by angle, and the total shares of concave, flat and convex edges.
 func show_shares(by_bend: PackedFloat64Array, sums: Array[float]) -> void:
 	shares = by_bend
 	_sums = sums
@@ -57,7 +58,7 @@ func _get_tooltip(at_position: Vector2) -> String:
 			absf(degrees) - reach, absf(degrees) + reach]
 
 
-## The bar under a place on the x axis.
+## Index of the bar at an x coordinate.
 func bin_at(x: float) -> int:
 	return clampi(floori(x / maxf(size.x, 1.0) * shares.size()), 0, maxi(shares.size() - 1, 0))
 
@@ -98,7 +99,7 @@ func _draw_bars(floor_y: float, accent: Color) -> void:
 	for bin in shares.size():
 		if shares[bin] <= 0.0:
 			continue
-		# What is there at all can be seen.
+		# A share above 0 is drawn at least one pixel high.
 		var height := maxf(sqrt(shares[bin] / most) * (floor_y - 4.0), 1.0)
 		var bar := Rect2(bin * step + GAP / 2.0, floor_y - height, maxf(step - GAP, 1.0), height)
 		draw_rect(bar, Color(accent, 1.0 if bin == _hovered else 0.75))

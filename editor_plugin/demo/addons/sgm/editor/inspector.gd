@@ -1,13 +1,13 @@
 @tool
 extends EditorInspectorPlugin
-## Shows what is wrong with a grammar above it in the inspector, and above the property of a world that has it; tells
-## over a world's parameters what the grammar says of them.
+## Shows the errors of a grammar above the grammar in the inspector, and above the property of a world that uses it.
+## Adds the grammar's descriptions to a world's parameters, as tooltips.
 
 const Diagnostics := preload("diagnostics.gd")
 const RowTip := preload("row_tip.gd")
 const PARAMETERS := "parameters/"
 
-# The engine asks this plugin, too, when it is to make a row of its own.
+# Set while the engine makes a property's default row on request of this plugin, since it then calls this plugin again.
 var _makes_row := false
 
 
@@ -30,7 +30,8 @@ func _parse_property(object: Object, type: Variant.Type, name: String, hint: Pro
 	if not name.begins_with(PARAMETERS):
 		return false
 	var tip := tip_of(world.grammar, name.trim_prefix(PARAMETERS))
-	# Before Godot 4.4 nobody but the engine can make its rows: they stay without the grammar's words.
+	# Before Godot 4.4, scripts cannot create the default row of a property: parameters then have no tooltip from the
+	# grammar.
 	if tip.is_empty() or not ClassDB.class_has_method(&"EditorInspector", &"instantiate_property_editor"):
 		return false
 	_makes_row = true
@@ -44,7 +45,7 @@ func _parse_property(object: Object, type: Variant.Type, name: String, hint: Pro
 	return true
 
 
-## What the grammar says of a parameter, and its range. Empty where it has no such parameter.
+## The description of a parameter in the grammar, and its range. Empty if the grammar has no such parameter.
 static func tip_of(grammar: SgmGrammar, name: String) -> String:
 	for parameter: Dictionary in grammar.get_parameters():
 		if parameter.name == name:
@@ -64,7 +65,7 @@ static func _range_of(parameter: Dictionary) -> String:
 	return text
 
 
-# As the row shows it: angles in degrees.
+# A value as its row shows it: angles in degrees.
 static func _value_of(parameter: Dictionary, value: float) -> String:
 	match parameter.quantity:
 		"length":

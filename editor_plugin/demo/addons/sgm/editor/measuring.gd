@@ -1,6 +1,6 @@
 @tool
 extends RefCounted
-## One measurement of what a world draws, on a thread of the engine's pool.
+## One measurement of a world's drawn chunks, in a thread of the engine's worker pool.
 
 const NO_TASK := -1
 
@@ -20,7 +20,7 @@ func is_done() -> bool:
 	return is_busy() and WorkerThreadPool.is_task_completed(_task)
 
 
-## Waits for the measurement, if there is one, and gives what came out; empty where it failed.
+## Waits for the measurement, if one is running, and returns its result; empty if it failed.
 func finish() -> Dictionary:
 	if is_busy():
 		WorkerThreadPool.wait_for_task_completion(_task)

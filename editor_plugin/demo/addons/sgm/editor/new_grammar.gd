@@ -1,6 +1,6 @@
 @tool
 extends EditorFileDialog
-## Asks where a new grammar is to lie, writes it there, and opens it in the script editor.
+## The dialog for a new grammar: asks for its path, writes a template there, and opens it in the script editor.
 
 const TextEditing := preload("text_editing.gd")
 const TEMPLATE := """sgm 1;
@@ -45,7 +45,7 @@ func ask() -> void:
 	popup_file_dialog()
 
 
-## Writes the template to a path, and shows it. False where it cannot be written.
+## Writes the template to a path, and opens it. Returns false if it cannot be written.
 func write(path: String) -> bool:
 	var file := FileAccess.open(path, FileAccess.WRITE)
 	if file == null:

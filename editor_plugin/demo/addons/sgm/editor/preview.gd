@@ -1,18 +1,18 @@
 @tool
 extends Node
-## Streams the worlds of the edited scene around the camera of the 3D editor, and keeps their gizmos fresh.
+## Streams the worlds of the edited scene around the camera of the 3D editor, and updates their gizmos.
 
-## Seconds between two looks at which worlds there are, and two drawings of a gizmo.
+## Seconds between two searches for worlds, and between two updates of a gizmo.
 const PACE := 0.5
-## Metres that the camera moves before a gizmo shows other anchors.
+## Metres that the camera moves before the gizmo is updated with other anchors.
 const STEP := 4.0
 
-## The worlds of the edited scene.
+## The worlds in the edited scene.
 var worlds: Array[SgmWorld3D] = []
 
 var _root: Node
 var _rest := 0.0
-## What each world's gizmo was last drawn for, by the world's instance.
+## By instance id of a world: the state for which its gizmo was last drawn.
 var _drawn := {}
 
 
@@ -32,13 +32,13 @@ func _process(delta: float) -> void:
 			world.set_editor_view(camera.global_transform, camera.fov)
 
 
-## The camera of the first viewport of the 3D editor.
+## The camera of the first viewport in the 3D editor; null if there is none.
 static func editor_camera() -> Camera3D:
 	var viewport := EditorInterface.get_editor_viewport_3d(0)
 	return viewport.get_camera_3d() if viewport != null else null
 
 
-## The world that the dock speaks of: the selected one, or the only one; null where neither is clear.
+## The world that the dock shows: the selected one, otherwise the only one in the scene; null if there are several.
 func chosen_world() -> SgmWorld3D:
 	for node in EditorInterface.get_selection().get_selected_nodes():
 		if node is SgmWorld3D and node.is_inside_tree():
@@ -65,7 +65,7 @@ func _refresh_gizmos() -> void:
 	for world in worlds:
 		var id := world.get_instance_id()
 		drawn[id] = [world.is_idle(), world.get_bounds(), world.global_transform, place]
-		# While a world streams, its anchors change even where its bounds do not.
+		# While a world streams, its anchors change even if its bounds stay the same.
 		if not world.is_idle() or drawn[id] != _drawn.get(id):
 			world.update_gizmos()
 	_drawn = drawn

@@ -1,19 +1,19 @@
 @tool
 extends Node
-## Reads grammars that are in use again when their files, or files that they import, have changed, and gives them their
-## paths back that the script editor takes (also when it opens what was open the last time).
+## Reloads used grammars when their files, or files that they import, have changed. Also restores the resource path of a
+## grammar when the script editor has taken it over, for example when it reopens its files at the start.
 ##
-## Files are compared by what is in them: the editor does not tell that it saved a text, other programs tell nothing,
-## and times of files are too coarse for two changes in a second.
+## Files are compared by their contents: the editor does not report that it has saved a text, other programs report
+## nothing, and file times are too coarse for two changes within a second.
 
 const TextEditing := preload("text_editing.gd")
-## Seconds between two looks at the files.
+## Seconds between two checks of the files.
 const PACE := 0.5
 
 var _rest := PACE
-## By path, for grammars in use and all that they import: what was in the file.
+## The last contents of the files of used grammars and of all files that they import, by path.
 var _seen := {}
-## By path, weak references to grammars in use.
+## Weak references to the used grammars, by path.
 var _grammars := {}
 
 
@@ -36,7 +36,7 @@ func _process(delta: float) -> void:
 		look()
 
 
-## Reads again what has changed since the last look.
+## Reloads the grammars whose files have changed since the last check.
 func look() -> void:
 	var seen := {}
 	for path in _paths(EditorInterface.get_resource_filesystem().get_filesystem()):
@@ -58,7 +58,7 @@ func look() -> void:
 	_seen = seen
 
 
-# Scenes that the editor opens at its start are there before a frame has passed.
+# Scenes that the editor opens at its start exist before the first frame, so nodes are noticed when they are added.
 func _on_node_added(node: Node) -> void:
 	if node is SgmWorld3D and (node as SgmWorld3D).grammar != null:
 		var grammar := (node as SgmWorld3D).grammar
@@ -66,7 +66,7 @@ func _on_node_added(node: Node) -> void:
 			_grammars[grammar.resource_path] = weakref(grammar)
 
 
-# A world that follows its grammar's file may have been quicker.
+# Skips the reload if a world that follows its grammar's file has already read the same text.
 func _reload(grammar: SgmGrammar, own_text: bool) -> void:
 	if not own_text or grammar.text != FileAccess.get_file_as_string(grammar.resource_path):
 		grammar.reload()

@@ -1,11 +1,11 @@
 @tool
 extends Node2D
-## A tooltip of a row in the inspector, in place of the engine's.
+## Shows a tooltip for a row in the inspector, in place of the engine's tooltip.
 ##
-## What a row itself has as tooltip the engine takes for the name of a symbol in its class reference, and looks that up.
-## So something that lies on the row's name has the text: since Godot 4.6 the engine's own box there; before, a control
-## behind all else in the row. That one is a child of this node, as the row would lay out a child of its own. The mouse
-## goes through it to the row.
+## The engine interprets the tooltip of a row itself as the name of a symbol in its class reference. Therefore a control
+## over the row's name has the text: since Godot 4.6 the engine's own control there; in older versions, a control behind
+## everything else in the row. That control is a child of this node, because the row would change the layout of a child
+## of its own. It passes mouse events on to the row.
 
 var _row: EditorProperty
 var _control := Control.new()
@@ -26,6 +26,6 @@ func _cover() -> void:
 	_control.size = _row.size
 
 
-## The text that shows.
+## The displayed text.
 func text() -> String:
 	return _control.tooltip_text

@@ -1,21 +1,22 @@
 @tool
 extends RefCounted
-## Grammars as text in the script editor.
+## Opens grammars as text in the script editor.
 ##
-## What that editor opens takes the file's path from the resource that was loaded from there: scenes would then get a
-## text instead of a grammar, and save a grammar as their own. So each time the path is given back.
+## When that editor opens a file, its text resource takes over the path of the resource that was loaded from the file.
+## Scenes would then load a text instead of the grammar, and save the grammar as a part of themselves. The path is
+## therefore given back to the grammar each time.
 
 const ENDING := "sgm"
 const SETTING := "docks/filesystem/textfile_extensions"
 const RECENT: Array[String] = ["recent_files", "scripts"]
 
 
-## Whether this version of the editor (4.4 and newer) lets a text and a grammar have the same path.
+## Whether this version of the editor (4.4 and newer) allows a text and a grammar to have the same path.
 static func is_supported() -> bool:
 	return ClassDB.class_has_method(&"Resource", &"set_path_cache")
 
 
-## Adds the grammars' ending to those that the editor takes for text, or takes it out; others stay as they are.
+## Adds the file extension of grammars to those that the editor opens as text, or removes it; other extensions stay.
 static func take_for_text(wanted: bool) -> void:
 	var settings := EditorInterface.get_editor_settings()
 	var endings := Array((settings.get_setting(SETTING) as String).split(",", false)).map(
@@ -29,16 +30,16 @@ static func take_for_text(wanted: bool) -> void:
 	settings.set_setting(SETTING, ",".join(endings))
 
 
-## Shows a file in the script editor, at a line and column where they are given (from 1 on). False where that fails.
+## Opens a file in the script editor, at a line and column if they are given (counted from 1). Returns false on failure.
 static func open(path: String, line := 0, column := 1) -> bool:
 	if not FileAccess.file_exists(path):
 		push_error("SG+M: '%s' cannot be opened: save the grammar to a file first." % path)
 		return false
 	var opener := _opener()
 	if not is_supported() or not opener.is_valid():
-		# The program that the system has for such files; the reloader sees what it saves.
+		# Open the file with the system's program for it; the reloader notices when that program saves the file.
 		return OS.shell_open(ProjectSettings.globalize_path(path)) == OK
-	# What opens recent files is the one way to a text file that scripts can call. It takes a place in a list.
+	# The menu of recent files is the only way in which scripts can open a text file, so add the file to that list.
 	var settings := EditorInterface.get_editor_settings()
 	var recent: Array = settings.get_project_metadata(RECENT[0], RECENT[1], [])
 	var grammar := load(path) as SgmGrammar if ResourceLoader.has_cached(path) else null
@@ -52,27 +53,27 @@ static func open(path: String, line := 0, column := 1) -> bool:
 	return true
 
 
-## Makes what is loaded from a path the grammar again, after the script editor has taken the path; without a grammar,
-## the next one to ask for the path loads it.
+## Restores the grammar as the resource with a path, after the script editor has taken over the path. Without a grammar,
+## the next request for the path loads the file.
 static func give_back(path: String, grammar: SgmGrammar) -> void:
-	# A file that is deleted leaves its grammar without a path.
+	# If the file was deleted, the grammar has no path any more.
 	if not is_supported() or not FileAccess.file_exists(path):
 		return
 	if not ResourceLoader.has_cached(path):
-		# The script editor has dropped its own copy at once, as it had opened the file before.
+		# The script editor has already released its own text resource, because the file had been opened before.
 		if grammar != null:
 			grammar.take_over_path(path)
 		return
 	var text := load(path)
 	if text is SgmGrammar:
 		return
-	# Without a grammar a resource that is gone at the end of this function leaves the path free.
+	# Without a grammar, a temporary resource takes over the path; when it is released at the end, the path is free.
 	var heir: Resource = grammar if grammar != null else Resource.new()
 	heir.take_over_path(path)
 	text.call(&"set_path_cache", path)
 
 
-## The text of the file that the script editor shows; null where it shows another kind of file.
+## The text control of the file that the script editor shows; null if it shows something else.
 static func shown_text() -> CodeEdit:
 	var shown := EditorInterface.get_script_editor().get_current_editor()
 	return shown.get_base_editor() as CodeEdit if shown != null else null
