@@ -1,14 +1,12 @@
 #!/usr/bin/env bash
-# Meshes 192 m of the infinite cave and draws a picture from inside it, on a bare Debian 12 as root or with sudo. Installs
-# what is missing, and says so.
+# On a bare Debian 12, as root or with sudo: meshes 192 m of the infinite cave, draws a picture inside it, then flies
+# through the streamed cave for 20 seconds of game time. Installs missing packages, and prints their names.
 #
 #   bash samples/demo.sh [--no-install]
 #
-#   --no-install    install nothing: stop where a package is missing, and name it
+#   --no-install    installs nothing: stops if a package is missing, and prints its name
 #
-# Then flies through it, streamed, for 20 seconds of the game's time.
-#
-# Leaves out/demo/cave.glb, out/demo/cave.png and out/demo/flight.png.
+# Writes out/demo/cave.glb, out/demo/cave.png and out/demo/flight.png.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -24,7 +22,7 @@ esac
 mkdir -p build out/demo
 log=build/demo.log
 
-# Shows how far a build is: on one line that changes, or in a file every tenth part.
+# Shows the progress of a build: on a terminal in one changing line, otherwise with a line for each tenth of it.
 show_progress() {
   local line done all tenth last=-1
   while IFS= read -r line; do
@@ -44,7 +42,7 @@ show_progress() {
 
 if [[ ! -f build/release/build.ninja ]]; then
   echo "demo: configuring build/release with the core commands (cmake --preset release adds the rest)"
-  # The kernels for NVIDIA GPUs take long to compile: only where a driver could run them.
+  # The CUDA kernels take long to compile, so they are built only if a driver that could run them is installed.
   cuda=OFF
   [[ $(/sbin/ldconfig -p 2>/dev/null) != *libcuda.so.1* ]] || cuda=AUTO
   cmake --preset release -D SGM_TOOLS=core -D SGM_CUDA=$cuda -D SGM_SERVICE=OFF -D SGM_BUILD_TESTS=OFF -D SGM_BUILD_BENCH=OFF \
@@ -56,7 +54,7 @@ fi
 [[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm, which takes some minutes the first time"
 started=$SECONDS
 : >"$log"
-# With the library, which is linked of the same objects, so that both can be installed.
+# The library is built too: it is linked from the same objects, and then both can be installed.
 cmake --build --preset release --target sgm_cli sgm 2>&1 | show_progress || {
   cat "$log" >&2
   die "building failed"

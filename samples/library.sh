@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# The standard library's own page, samples/grammars/library.md, from the comments in runtime/grammar/std, and a picture of
-# each example, samples/images/library/PART.NAME.jpg.
+# Writes the reference page of the standard library, samples/grammars/library.md, from the comments in
+# runtime/grammar/std, and draws a picture of each example, samples/images/library/PART.NAME.jpg.
 #
 #   samples/library.sh                        # prints the page
-#   samples/library.sh write                  # writes it where it belongs
-#   samples/library.sh names                  # lists what has a picture, as PART.NAME
-#   samples/library.sh missing                # lists what has none yet
+#   samples/library.sh write                  # writes the page to its file
+#   samples/library.sh names                  # lists the examples with a picture, as PART.NAME
+#   samples/library.sh missing                # lists the examples whose picture does not exist yet
 #   samples/library.sh pictures SGM [NAME]... # draws the pictures with the command SGM: all of them, or those named
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 images=$root/samples/images/library
 
-# noise.value is a number of a cell and has no shape.
+# noise.value returns a number and has no shape, so it has no picture.
 shapeless='noise.value'
 
 page() {
@@ -54,7 +54,7 @@ TEXT
   done
 }
 
-# PART NAME EXAMPLE, by tabs, of all that has a picture.
+# Prints PART, NAME and EXAMPLE, separated by tabs, of all examples with a picture.
 examples() {
   awk -v shapeless="$shapeless" '
     FNR == 1 { module = FILENAME; sub(/.*\//, "", module); sub(/\.sgm$/, "", module); example = "" }

@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC2154
-# Sourced by samples/library.sh: draws the example of each rule close up, whatever its size.
+# Sourced by samples/library.sh. Draws the example of each rule at a distance that fits its size.
 
-# From where an example is seen, where that is not from the front right and a little above: NAME AZIMUTH ELEVATION in
-# degrees, and options of `sgm render`.
+# Views of examples that are not drawn from the front right and slightly above: NAME AZIMUTH ELEVATION in degrees, and
+# further options of `sgm render`.
 views='
 cave.Water 28 20
 facade.Plant 28 32
@@ -37,14 +37,15 @@ street.Lawn 28 34
 street.Site 28 30
 '
 
-# What is drawn instead of an example that shows nothing by itself, or more of itself as a cast of its void: NAME | DECLARATIONS | a rule's body.
+# Scenes that replace examples which are invisible by themselves, or easier to see as a cast of their void: NAME |
+# DECLARATIONS | the body of a rule.
 scenes='
 cave.Branchwork | | rot(z, 100deg) cave.Branchwork(10, step 5m, r 2.5m);
 karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(2.2m); }
 cave.Water | domain finite box(24m, 24m, 24m); | { union { { box(13m, 7m, 10m); mat limestone; } cut { ellipsoid(5m, 3m, 4m); } } meet { ellipsoid(5m, 3m, 4m); at(-10.8m, -10.8m, -10.8m) scale(0.9) cave.Water(11.4m, deep 3m); } cut { at(z 5m) box(14m, 10m, 10m); mat clay; } }
 '
 
-# What has no material of its own gets that of its part.
+# The material of a part's examples that set no material themselves.
 material_of() {
   case $1 in
     cave | karst | rock | noise) echo limestone ;;
@@ -57,10 +58,11 @@ material_of() {
   esac
 }
 
-# program FILE PART BODY [MORE]: BODY as a world of its own.
+# program FILE PART BODY [MORE]: writes a grammar with BODY as its only rule. MORE: further declarations.
 program() { printf 'sgm 1;\nimport "std/%s.sgm" as %s;\n%s\nstart A;\nrule A { %s }\n' "$2" "$2" "${4-}" "$3" >"$1"; }
 
-# bounds SGM FILE: "x0 y0 z0 x1 y1 z1" of what FILE derives, by the finest cell that has few chunks.
+# bounds SGM FILE: prints the bounds of the shapes in FILE, "x0 y0 z0 x1 y1 z1", measured with the finest cell size that
+# needs few chunks.
 bounds() {
   local cell said
   for cell in 0.01 0.02 0.04 0.08 0.16 0.32 0.64 1.28 2.5 5 10 20 40; do
@@ -71,15 +73,16 @@ bounds() {
   return 1
 }
 
-# camera BOUNDS AZIMUTH ELEVATION FOV: "--camera FROM:TO" that sees the whole box, and the size of a pixel at its middle.
+# camera BOUNDS AZIMUTH ELEVATION FOV: prints "--camera FROM:TO" for a view of the whole box, and the size of a pixel at
+# the box's middle.
 camera() {
   awk -v b="$1" -v azimuth="$2" -v elevation="$3" -v fov="$4" 'BEGIN {
     split(b, c, " ")
     pi = atan2(0, -1)
     a = azimuth*pi/180; e = elevation*pi/180; up = 0.9*sin(fov*pi/360)/cos(fov*pi/360); side = 1.5*up
-    dx = sin(a)*cos(e); dy = sin(e); dz = cos(a)*cos(e)      # from the middle to the camera
-    rx = cos(a); rz = -sin(a)                                # to the right
-    ux = -sin(a)*sin(e); uy = cos(e); uz = -cos(a)*sin(e)    # up
+    dx = sin(a)*cos(e); dy = sin(e); dz = cos(a)*cos(e)  # unit vector from the middle to the camera
+    rx = cos(a); rz = -sin(a)  # unit vector to the right
+    ux = -sin(a)*sin(e); uy = cos(e); uz = -cos(a)*sin(e)  # unit vector upwards
     for (i = 1; i <= 3; ++i) m[i] = (c[i] + c[i + 3])/2
     for (k = 0; k < 8; ++k) {
       x = c[1 + 3*(k%2)] - m[1]; y = c[2 + 3*(int(k/2)%2)] - m[2]; z = c[3 + 3*int(k/4)] - m[3]
@@ -94,7 +97,7 @@ camera() {
   }'
 }
 
-# long_axis BOUNDS: x or z where the box is long along that, else nothing.
+# long_axis BOUNDS: prints x or z if the box is long along that axis; otherwise nothing.
 long_axis() {
   awk -v b="$1" 'BEGIN {
     split(b, c, " ")
@@ -104,7 +107,7 @@ long_axis() {
   }'
 }
 
-# middle BOUNDS AXIS: a box around that part of BOUNDS that lies just behind its middle, seen from where the sun shines.
+# middle BOUNDS AXIS: prints a box around the part of BOUNDS just behind its middle, as seen from the side of the sun.
 middle() {
   awk -v b="$1" -v axis="$2" 'BEGIN {
     split(b, c, " ")
@@ -116,8 +119,8 @@ middle() {
   }'
 }
 
-# opened BOUNDS MATERIAL EXAMPLE AXIS WHOLE: a block of rock around a void, sawn open at the middle along the axis, or where
-# WHOLE is 0, at the end of BOUNDS.
+# opened BOUNDS MATERIAL EXAMPLE AXIS WHOLE: prints statements for a block of rock around a void, cut open at the middle
+# of the axis, or, if WHOLE is 0, at the end of BOUNDS.
 opened() {
   awk -v b="$1" -v material="$2" -v example="$3" -v axis="$4" -v whole="$5" 'BEGIN {
     split(b, c, " ")
@@ -135,7 +138,7 @@ opened() {
   }'
 }
 
-# line_of TABLE NAME: the line of NAME without its name.
+# line_of TABLE NAME: prints the line of NAME without the name.
 line_of() { awk -v n="$2" '$1 == n { sub(/^[^ ]+ */, ""); print }' <<<"$1"; }
 
 draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# The examples of the manual, samples/grammars/README.md, and their pictures.
+# Extracts the examples of the manual, samples/grammars/README.md, and draws their pictures.
 #
-#   samples/manual.sh extract FOLDER    # each ```sgm NAME OPTIONS... as FOLDER/NAME.sgm, the options in NAME.options
-#   samples/manual.sh draw SGM          # draws those that have changed with the command SGM, and notes what was drawn
-#   samples/manual.sh changed           # the names of those whose picture is of another text; status 1 where there are some
+#   samples/manual.sh extract FOLDER    # writes each block ```sgm NAME OPTIONS... to FOLDER/NAME.sgm, the options to
+#   NAME.options
+#   samples/manual.sh draw SGM          # draws the changed examples with the command SGM, and records their hashes
+#   samples/manual.sh changed           # prints the names of examples that changed since they were drawn; status 1 if
+#   there are any
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 manual=$root/samples/grammars/README.md images=$root/samples/images/manual
@@ -18,7 +20,7 @@ extract() {
     inside     { print > file }' "$manual"
 }
 
-# What a picture is of.
+# The hash of an example and its options, which tells whether its picture is up to date.
 hash_of() { cat "$1.sgm" "$1.options" | sha256sum | cut -d ' ' -f 1; }
 
 changed() {

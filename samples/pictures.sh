@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Draws pictures of samples in samples/images again, each from the view that it was made from.
+# Draws pictures of samples in samples/images again, each with its original view.
 #
-#   samples/pictures.sh SGM [NAME]...    # with the command SGM; all of them, or those named
+#   samples/pictures.sh SGM [NAME]...    # draws with the command SGM: all pictures, or those named
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -42,6 +42,6 @@ for name in "$@"; do
 done
 while read -r name grammar options; do
   [[ -n $name && (-z ${1-} || " $* " == *" $name "*) ]] || continue
-  # shellcheck disable=SC2086  # the options are words
+  # $options is not quoted, since it contains several options
   "$sgm" render "samples/grammars/$grammar" $options --max-chunks 200000 --out "samples/images/$name.png"
 done <<<"$views"

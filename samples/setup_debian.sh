@@ -1,16 +1,19 @@
-# Sourced by samples/demo.sh and tests/run.sh: brings a bare Debian 12 to where the project builds.
+# Sourced by samples/demo.sh and tests/run.sh: installs the packages with which the project can be built on a bare
+# Debian 12.
 #
 #   source samples/setup_debian.sh
-#   sgm_setup "${SGM_BUILD_PACKAGES[@]}"                              # the library, the command, the samples
-#   sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"    # and everything that the tests need
-#   sgm_need PACKAGE...                                               # installs nothing: fails, and names what is missing
-#   sgm_setup_npm DIRECTORY PACKAGE VERSION [PACKAGE VERSION]...        # npm packages below DIRECTORY, which holds no others
+#   sgm_setup "${SGM_BUILD_PACKAGES[@]}"                              # for the library, the command, the samples
+#   sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"    # also for all tests
+#   sgm_need PACKAGE...                                               # installs nothing: fails, and names missing
+#   packages
+#   sgm_setup_npm DIRECTORY PACKAGE VERSION [PACKAGE VERSION]...        # npm packages in DIRECTORY, which holds no
+#   others
 #
-# Only what is missing is installed, and said. Each function returns non-zero, after one line on stderr that names what
-# could not be had. Nothing here reads standard input.
+# These functions install only missing packages, and print their names. On failure a function returns non-zero, after a
+# line on stderr that names the missing packages. They do not read standard input.
 
-# An entry is a Debian package, or PACKAGE=COMMAND where the command may also come from elsewhere.
-# The library alone: cmake --preset library.
+# An entry is a Debian package, or PACKAGE=COMMAND if the command may also come from elsewhere.
+# Packages for the library alone: cmake --preset library.
 SGM_LIBRARY_PACKAGES=(
   g++ cmake ninja-build libhwy-dev libzstd-dev libxxhash-dev libcurl4-openssl-dev libvulkan-dev
   glslang-tools spirv-tools
@@ -22,17 +25,17 @@ SGM_BUILD_PACKAGES=(
   libcli11-dev libembree-dev libfmt-dev libglfw3-dev libimgui-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev
   libsqlite3-dev libboost-dev prometheus-cpp-dev
 )
-# The quick tests alone: tests/run.sh without options.
+# Packages for the quick tests: tests/run.sh without options.
 SGM_QUICK_TEST_PACKAGES=(catch2 librecast-dev vulkan-validationlayers git=git nodejs=node)
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev librecast-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth xdotool slurm-wlm=sbatch munge=munged
   nginx-light=nginx
 )
-# Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.
+# Packages to emulate AVX-512 if the processor lacks it: tests/scripts/avx512_emulated.sh.
 SGM_EMULATION_PACKAGES=(bochs bochs-term bochsbios vgabios isolinux syslinux-common xorriso busybox-static)
 
-# Prints those of the given entries that are not there.
+# Prints the entries whose package and command are missing.
 sgm_missing() {
   local entry present
   present=" $(dpkg-query -W -f='${db:Status-Status} ${Package}\n' 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"
@@ -61,7 +64,7 @@ sgm_setup() {
   echo "setup: installing ${missing[*]}"
   local log
   log=$(mktemp)
-  # Lists that are out of date may still serve; the install decides.
+  # If updating the package lists fails, the old lists may still suffice; the installation below decides.
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >"$log" 2>&1 </dev/null || true
   if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null; then
@@ -94,7 +97,7 @@ sgm_setup_npm() {
   echo "setup: installing npm packages ${missing%, } into $directory"
   mkdir -p "$directory"
   log=$(mktemp)
-  # All of them at once: npm takes away what it is not told of.
+  # All packages are passed in one call, because npm removes packages that a call does not name.
   if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --prefer-offline --fetch-retries=1 \
     --fetch-retry-mintimeout=1000 --loglevel=error "${wanted[@]}" >"$log" 2>&1 </dev/null; then
     echo "setup: error: could not install npm packages ${missing%, } (is the network available? the output of npm is in $log)" >&2

@@ -1,5 +1,5 @@
 #pragma once
-// An engine's threads: jobs by priority, and of one priority in order.
+// An engine's thread pool: runs jobs by priority; jobs of equal priority in the order of submission.
 
 #include <sgm/sgm.h>
 
@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-/// Must outlive the runtime that submits to it. Its end runs what waits, then joins.
+/// Must outlive the runtime that submits jobs to it. The destructor runs all waiting jobs, then joins the threads.
 class EngineJobs {
  public:
   explicit EngineJobs(unsigned threads) {
@@ -29,7 +29,7 @@ class EngineJobs {
   }
 
   sgm_job_system table() {
-    // The thread that makes a call works too.
+    // Add one, because the thread that calls the library works too.
     return {[](void* user) { return static_cast<uint32_t>(static_cast<EngineJobs*>(user)->threads_.size() + 1); },
             [](void* user, void (*function)(void*), void* argument, int32_t priority) -> int32_t {
               return static_cast<EngineJobs*>(user)->submit({function, argument, priority, 0}) ? 1 : 0;
@@ -53,7 +53,7 @@ class EngineJobs {
     return a.priority != b.priority ? a.priority < b.priority : a.number > b.number;
   }
 
-  /// False where there is no memory to keep the job: the library then runs it itself. No exception may leave.
+  /// Returns false if there is no memory to queue the job: the library then runs the job itself. Throws no exception.
   bool submit(Job job) noexcept {
     try {
       const std::lock_guard lock(mutex_);
@@ -95,7 +95,7 @@ class EngineJobs {
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  std::vector<Job> waiting_;  ///< a heap, the next one first
+  std::vector<Job> waiting_;  ///< a heap; its first element is the next job
   uint64_t next_number_ = 0;
   size_t run_ = 0;
   bool ending_ = false;

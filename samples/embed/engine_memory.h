@@ -1,5 +1,5 @@
 #pragma once
-// One tag of an engine's memory: counted, and held to a budget.
+// An engine's allocator with a budget, which counts the memory that the library uses.
 
 #include <sgm/sgm.h>
 
@@ -24,10 +24,11 @@ class EngineMemory {
 
   size_t live() const { return live_; }
   size_t peak() const { return peak_; }
-  size_t blocks() const { return blocks_; }  ///< allocated and not released
+  size_t blocks() const { return blocks_; }  ///< number of allocations that have not been freed
 
  private:
-  /// Null where the budget is spent: the library then says SGM_ERR_OUT_OF_MEMORY, and goes on with less if it can.
+  /// Returns null if the budget is exhausted. The library then reports SGM_ERR_OUT_OF_MEMORY, or continues with less
+  /// memory if it can.
   void* allocate(size_t size, size_t alignment) {
     const size_t live = live_.fetch_add(size) + size;
     void* memory = live <= budget_ ? ::operator new (size, std::align_val_t{alignment}, std::nothrow) : nullptr;

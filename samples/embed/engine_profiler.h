@@ -1,6 +1,6 @@
 #pragma once
-// An engine's profiler, in small: how often each zone was entered, and how long its thread was in it and in nothing
-// inside it.
+// A small profiler of an engine: counts how often each zone was entered, and the time spent in each zone without the
+// zones nested in it.
 
 #include <sgm/sgm.h>
 
@@ -16,8 +16,8 @@ class EngineProfiler {
   using Clock = std::chrono::steady_clock;
   struct Zone {
     uint64_t count = 0;
-    Clock::duration alone{};    ///< without the zones inside
-    Clock::duration longest{};  ///< of one, with them
+    Clock::duration alone{};    ///< total time without nested zones
+    Clock::duration longest{};  ///< longest single time, including nested zones
   };
 
   sgm_profiler table() {
@@ -33,10 +33,10 @@ class EngineProfiler {
     return profiler;
   }
 
-  // Asked when nothing is at work any more.
+  // These functions may be called only when no thread works any more.
   const std::map<std::string_view, Zone>& zones() const { return zones_; }
-  const std::map<std::string_view, double>& highest() const { return highest_; }  ///< of each plot
-  bool nested() const { return nested_; }  ///< every end was that of its thread's last zone
+  const std::map<std::string_view, double>& highest() const { return highest_; }  ///< the highest value of each plot
+  bool nested() const { return nested_; }  ///< whether each end has closed the innermost zone of its thread
 
  private:
   struct Open {

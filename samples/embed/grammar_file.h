@@ -1,5 +1,5 @@
 #pragma once
-// A grammar out of a file.
+// Compiles a grammar from a file.
 
 #include <sgm/sgm.h>
 
@@ -11,7 +11,7 @@
 
 #include "handles.h"
 
-/// Imports are read from the file's own folder.
+/// Imports are read from the folder of the file.
 inline GrammarOwner compileFile(sgm_runtime* runtime, const char* path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path)) throw std::runtime_error(std::string("cannot read ") + path);

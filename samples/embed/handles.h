@@ -1,5 +1,5 @@
 #pragma once
-// The library's handles as owners, and its errors as exceptions of the engine's.
+// Owners of the library's handles, and exceptions for the library's errors.
 
 #include <sgm/sgm.h>
 
@@ -20,7 +20,8 @@ using FieldOwner = std::unique_ptr<sgm_field, EndWith<sgm_field_destroy>>;
 using WorldOwner = std::unique_ptr<sgm_world, EndWith<sgm_world_destroy>>;
 using MeshOwner = std::unique_ptr<sgm_mesh, EndWith<sgm_mesh_release>>;
 
-/// Every call that can fail comes through here.
+/// Throws an exception if a call of the library has failed. Every call that can fail passes its result to this
+/// function.
 inline void must(sgm_result result, const sgm_error& error) {
   if (result >= SGM_OK) return;
   const std::string place = error.line > 0 ? " (line " + std::to_string(error.line) + ")" : "";

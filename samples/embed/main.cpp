@@ -1,5 +1,5 @@
-// embed FILE.sgm [FRAMES [MEGABYTES]]: streams a grammar's world around a viewer who flies through it, as an engine
-// does that gives the library its own memory, threads, log and profiler; then says what that took.
+// embed FILE.sgm [FRAMES [MEGABYTES]]: streams a grammar's world around a viewer that flies through it, as an engine
+// does that provides the library's memory, threads, log and profiler; then prints the measured times and memory.
 
 #include <sgm/sgm.h>
 
@@ -27,9 +27,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kFrameTime = std::chrono::milliseconds(4);
 constexpr auto kLongestLoad = std::chrono::minutes(1);
-constexpr double kSpeed = 100;  // metres a second
+constexpr double kSpeed = 100;  // metres per second
 
-/// The engine's log: counts what it was warned of, and shows it.
+/// The engine's log: counts warnings, and prints them.
 struct Log {
   std::atomic<int> warnings{0};
   sgm_log_sink table() {
@@ -65,7 +65,8 @@ WorldOwner makeWorld(sgm_field* field) {
   return WorldOwner(world);
 }
 
-/// Two places that the grammar names, a thousand kilometres from the origin, to fly from the one towards the other.
+/// Two places near anchors of the grammar, about a thousand kilometres from the origin: the beginning and the direction
+/// of the flight.
 std::pair<Place, Place> findPath(sgm_field* field) {
   constexpr int32_t kFar = 1'000'000 * SGM_UNITS_PER_METRE, kAround = 384 * SGM_UNITS_PER_METRE;
   const int32_t low[3] = {kFar - kAround, -kAround, kFar - kAround};
@@ -95,7 +96,7 @@ void fly(Streaming& streaming, const std::pair<Place, Place>& path, int frames) 
     streaming.frame(at, velocity);
     std::this_thread::sleep_until(next);
   }
-  // Then the viewer stands, until all is there.
+  // Then the viewer stands still until all chunks are drawn.
   for (const Clock::time_point limit = Clock::now() + kLongestLoad; !streaming.idle();) {
     if (Clock::now() > limit) throw std::runtime_error("the world does not come to rest");
     streaming.frame(at, {});
@@ -125,7 +126,7 @@ void print(const Flight& flight, const EngineMemory& memory, const EngineJobs& j
 }
 
 void run(const char* path, int frames, size_t budget) {
-  // What the tables point to outlives the runtime.
+  // These objects must outlive the runtime, because its tables point to them.
   EngineMemory memory(budget);
   EngineJobs jobs(std::clamp(std::thread::hardware_concurrency(), 2u, 4u) - 1);
   EngineProfiler profiler;

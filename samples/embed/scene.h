@@ -1,5 +1,6 @@
 #pragma once
-// What an engine keeps of a streamed world: buffers by chunk, as its events say, and what of them is drawn.
+// An engine's copy of a streamed world: buffers for each chunk, and which of them are drawn, according to the world's
+// events.
 
 #include <sgm/sgm.h>
 
@@ -16,12 +17,12 @@
 
 #include "handles.h"
 
-/// A mesh where a device would have it.
+/// A mesh as a device would store it.
 struct DeviceMesh {
   std::vector<sgm_vertex> vertices;
   std::vector<uint32_t> indices;
-  std::array<int32_t, 3> origin{};  ///< units
-  float vertex_step = 0;            ///< metres a step of a vertex' position
+  std::array<int32_t, 3> origin{};  ///< position of the chunk's corner, units
+  float vertex_step = 0;            ///< metres for each step of a vertex coordinate
   sgm_mesh_range body{}, seams[SGM_FACE_COUNT]{};
   uint64_t hash = 0;
 };
@@ -33,7 +34,8 @@ inline sgm_mesh_view viewOf(const sgm_mesh* mesh) {
   return view;
 }
 
-/// Elements lie a stride apart: a later library's may be larger than those of the header that we were built with.
+/// Copies elements that lie `stride` bytes apart: in a later version of the library, elements may be larger than those
+/// of the header with which this program was built.
 template <class Element>
 std::vector<Element> copyOf(const Element* elements, uint32_t count, uint32_t stride) {
   std::vector<Element> copy(count);
@@ -44,7 +46,7 @@ std::vector<Element> copyOf(const Element* elements, uint32_t count, uint32_t st
 
 struct DrawCounts {
   size_t chunks = 0, triangles = 0;
-  float farthest = 0;  ///< metres of any chunk's origin from the camera on an axis
+  float farthest = 0;  ///< largest distance in metres on an axis from the camera to a chunk's origin
 };
 
 class Scene {
@@ -52,7 +54,7 @@ class Scene {
   using Key = std::array<int32_t, 4>;
   static Key keyOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
-  /// Takes over the event's mesh.
+  /// Processes an event, and becomes the owner of its mesh.
   void take(const sgm_world_event& event) {
     const Key key = keyOf(event.key);
     switch (event.kind) {
@@ -72,7 +74,7 @@ class Scene {
         chunks_.erase(key);
         return;
       case SGM_EVENT_COLLIDER:
-        sgm_collider_release(event.collider);  // an engine hands its triangles to its physics
+        sgm_collider_release(event.collider);  // an engine passes the collider's triangles to its physics
         return;
       case SGM_EVENT_COLLIDER_REMOVED:
         return;
@@ -81,8 +83,8 @@ class Scene {
     }
   }
 
-  /// With the camera at the origin of all floats. Its place and the chunks' are integers, and so is what lies between:
-  /// only that is small, and becomes a float. A vertex is drawn at offset + vertex_step * (x, y, z).
+  /// Simulates drawing relative to the camera. The positions of camera and chunks are integers, and so are their
+  /// differences; only these small differences become floats. A vertex is drawn at offset + vertex_step * (x, y, z).
   DrawCounts draw(const std::array<int32_t, 3>& camera) const {
     DrawCounts counts;
     for (const auto& [key, chunk] : chunks_) {
@@ -102,7 +104,7 @@ class Scene {
     return counts;
   }
 
-  /// Whether just these chunks are drawn, with these meshes and seams.
+  /// Whether exactly these chunks are drawn, with these meshes and seams.
   bool draws(const std::vector<sgm_drawn_chunk>& all) const {
     size_t shown = 0;
     for (const auto& [key, chunk] : chunks_) shown += chunk.shown ? 1 : 0;
@@ -123,7 +125,7 @@ class Scene {
     bool shown = false;
   };
 
-  /// Once it is on the device the engine needs the mesh no more; the world keeps its own.
+  /// Copies a mesh to the device. Afterwards the engine no longer needs the mesh; the world holds its own reference.
   DeviceMesh upload(const MeshOwner& mesh) {
     const sgm_mesh_view view = viewOf(mesh.get());
     DeviceMesh device;

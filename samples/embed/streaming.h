@@ -1,5 +1,5 @@
 #pragma once
-// What an engine does with a streamed world, once a frame.
+// The calls that an engine makes for a streamed world in each frame.
 
 #include <sgm/sgm.h>
 
@@ -15,10 +15,10 @@
 
 using Place = std::array<double, 3>;  ///< metres
 
-/// What came of it.
+/// The results of a flight.
 struct Flight {
   int frames = 0;
-  DrawCounts drawn;  ///< in the last frame
+  DrawCounts drawn;  ///< counts of the last frame
   size_t uploaded = 0;
   std::chrono::steady_clock::duration longest_update{};
 };
@@ -27,7 +27,7 @@ class Streaming {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// The world must outlive this.
+  /// The world must outlive this object.
   explicit Streaming(sgm_world* world) : world_(world) {}
 
   void frame(const Place& at, const Place& velocity) {
@@ -49,7 +49,7 @@ class Streaming {
       must(sgm_world_poll(world_, events, 0, &count, &error), error);
       for (size_t i = 0; i < count; ++i) scene_.take(events[i]);
     }
-    // All changes of a frame are there: what is drawn now is closed.
+    // All changes of a frame have been processed, so the drawn surface is closed.
     flight_.drawn = scene_.draw(camera);
     flight_.uploaded = scene_.uploadedBytes();
     ++flight_.frames;
@@ -62,7 +62,7 @@ class Streaming {
     return stats.idle != 0;
   }
 
-  /// Whether the events have led to what the world itself says that it draws.
+  /// Whether the chunks that the events have made visible equal those that the world reports as drawn.
   bool agrees() const {
     sgm_error error = SGM_ERROR_INIT;
     size_t count = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Where the viewer flies: from a place that the grammar names along free ways through the void. Answered by the field
-// itself, where no mesh need be.
+// The path of the viewer: it starts at an anchor of the grammar, and continues in directions with free space. All
+// queries are answered by the field, so that no chunk need be meshed.
 
 #include <sgm/sgm.h>
 
@@ -16,7 +16,7 @@
 
 class CavePath {
  public:
-  /// Plans `length` metres. Throws where the grammar names no place near the origin, or there is no way on.
+  /// Plans a path of `length` metres. Throws if the grammar has no anchor near the origin, or no way continues.
   CavePath(sgm_field* field, double length) : field_(field) {
     points_.push_back(firstPlace());
     Place heading{1, 0, 0};
@@ -29,7 +29,7 @@ class CavePath {
     }
   }
 
-  /// After s metres of the way, with a look at what lies ahead.
+  /// The view after s metres of the path, in the direction of the path ahead.
   ViewPoint at(double s) const {
     ViewPoint view{placeAt(s), {}};
     const Place ahead = placeAt(s + kAhead);
@@ -68,7 +68,7 @@ class CavePath {
     return place;
   }
 
-  /// Metres that are free straight on, up to kFarthest.
+  /// Length in metres of the free space from a place in a direction, up to kFarthest.
   double freeWay(const Place& from, const Place& way) const {
     sgm_ray_desc ray = SGM_RAY_DESC_INIT;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -82,7 +82,7 @@ class CavePath {
     return hit.found != 0 ? hit.distance : kFarthest;
   }
 
-  /// Whether a camera has room there: then nothing of the surface comes before its near plane.
+  /// Whether a camera fits at a place: no surface may be nearer than its near plane.
   bool hasRoom(const Place& place) const {
     sgm_closest_desc closest = SGM_CLOSEST_DESC_INIT;
     for (size_t axis = 0; axis < 3; ++axis) closest.position[axis] = place[axis] * SGM_UNITS_PER_METRE;
@@ -97,7 +97,7 @@ class CavePath {
     Place direction{};
     double free = 0;
   };
-  /// Of those that do not turn back, and with room for the camera all along.
+  /// The direction with the most free space, among those that do not turn back and along which the camera fits.
   Way longestWay(const Place& from, const Place& heading) const {
     std::vector<Way> ways;
     for (const double slope : {-0.4, 0.0, 0.4}) {

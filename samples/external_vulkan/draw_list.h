@@ -1,5 +1,6 @@
 #pragma once
-// What one frame draws: parts of chunks, each a command in a buffer, sorted so that few buffers are bound.
+// The draws of one frame: each is a part of a chunk, as a command on a buffer. They are sorted, so that few buffers are
+// bound.
 
 #include <vulkan/vulkan.h>
 
@@ -9,17 +10,18 @@
 #include <functional>
 #include <vector>
 
-/// Of a chunk, in the vertex shader.
+/// Data of a chunk for the vertex shader.
 struct ChunkRecord {
-  std::array<int32_t, 3> offset{};  ///< from the camera's place to the chunk's origin, units
+  std::array<int32_t, 3> offset{};  ///< from the camera to the chunk's origin, units
   int32_t cell_units = 0;
 };
 
 using ChunkName = std::array<int32_t, 4>;  ///< level, x, y, z
 
-/// The body of a chunk (part 0) or a seam (1 + face). firstInstance is its record's index.
+/// The draw of a chunk's body (part 0) or of a seam (1 + face). The command's firstInstance is the index of the chunk's
+/// ChunkRecord.
 struct Draw {
-  VkBuffer buffer = VK_NULL_HANDLE;  ///< bound from its beginning, as vertices and as indices
+  VkBuffer buffer = VK_NULL_HANDLE;  ///< bound from its beginning, as vertex buffer and as index buffer
   VkDrawIndexedIndirectCommand command{};
   ChunkName chunk{};
   uint32_t part = 0;
@@ -28,7 +30,7 @@ struct Draw {
 struct DrawList {
   std::vector<Draw> draws;
   std::vector<ChunkRecord> records;
-  // What must have come to pass on the device before it is drawn; no semaphore: nothing.
+  // The semaphore must have this value on the device before the list is drawn; null: no wait is needed.
   VkSemaphore semaphore = VK_NULL_HANDLE;
   uint64_t value = 0;
 

@@ -1,5 +1,5 @@
 #pragma once
-// A streamed world, flown through: once a frame what an engine does with it, now and then a check of what it shows.
+// Flies through a streamed world: makes an engine's calls in each frame, and checks some of the pictures.
 
 #include <sgm/sgm.h>
 
@@ -16,10 +16,10 @@
 #include "view_point.h"
 #include "vulkan_device.h"
 
-/// World and device must outlive it.
+/// World and device must outlive the flight.
 class Flight {
  public:
-  /// closed: the world is rock without end, so that a camera in its void sees surface everywhere.
+  /// closed: the world is rock without end, so that a camera in its void must see a surface in every pixel.
   Flight(VulkanDevice& device, const ChunkPipeline& pipeline, sgm_world* world, bool closed)
       : world_(world),
         closed_(closed),
@@ -28,7 +28,7 @@ class Flight {
         frames_(device, pipeline, kInFlight),
         uploaded_(device, pipeline) {}
 
-  /// A loading screen: returns when all is there that is to be seen.
+  /// As a loading screen does: returns when everything visible from the view is drawn.
   void load(const ViewPoint& view) {
     look(view);
     sgm_error error = SGM_ERROR_INIT;
@@ -50,8 +50,8 @@ class Flight {
     frames_.draw(drawn_, view.matrix(aspect_));
   }
 
-  /// The last frame, which must show the same, to the byte, when it is drawn from buffers that were uploaded. loaded:
-  /// as load() left the world, so that the camera cannot have come to where only coarse chunks are.
+  /// Draws the last frame again from uploaded buffers, which must give the same bytes. loaded: the world is in the
+  /// state that load() has left, in which the camera cannot be at a place with coarse chunks only.
   Picture check(const ViewPoint& view, bool loaded) {
     const Picture picture = frames_.picture();
     const Picture other = uploaded_.draw(world_, drawn_, view.units(), view.matrix(aspect_));
@@ -70,7 +70,7 @@ class Flight {
 
   uint64_t frames() const { return frames_.submitted(); }
   size_t compared() const { return compared_; }
-  const DrawList& drawn() const { return drawn_; }  ///< in the last frame
+  const DrawList& drawn() const { return drawn_; }  ///< the draw list of the last frame
   const Scene& scene() const { return scene_; }
 
  private:
@@ -88,7 +88,7 @@ class Flight {
     must(sgm_world_set_viewers(world_, &viewer, 0, 1, &error), error);
   }
 
-  /// Until it is empty: then what is drawn is closed.
+  /// Processes events until there are none; then the drawn surface is closed.
   void poll() {
     sgm_error error = SGM_ERROR_INIT;
     sgm_world_event events[64];
@@ -102,7 +102,7 @@ class Flight {
   sgm_world* world_;
   bool closed_;
   double aspect_;
-  Scene scene_;  // outlives the frames that draw its meshes
+  Scene scene_;  // must outlive the frames, which draw its meshes
   Frames frames_;
   UploadedPath uploaded_;
   DrawList drawn_;

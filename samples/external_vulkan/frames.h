@@ -1,5 +1,5 @@
 #pragma once
-// Frames in flight: the host records one while the device still draws those before it.
+// Frames in flight: the host records a frame while the device still draws earlier ones.
 
 #include <vulkan/vulkan.h>
 
@@ -15,10 +15,10 @@
 #include "view_point.h"
 #include "vulkan_device.h"
 
-/// Frames are counted from 1. One thread may use it.
+/// Frames are numbered from 1. Not thread-safe.
 class Frames {
  public:
-  /// count: how many may be in flight. Device and pipeline must outlive it.
+  /// count: maximum number of frames in flight. Device and pipeline must outlive this object.
   Frames(VulkanDevice& device, const ChunkPipeline& pipeline, size_t count) : device_(device), pipeline_(pipeline) {
     VkSemaphoreTypeCreateInfo type{};
     type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
@@ -32,19 +32,20 @@ class Frames {
   }
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
-  /// Waits for all of them: what they draw ends after this.
+  /// Waits until the device has drawn all frames, so that the objects which they use may be destroyed afterwards.
   ~Frames() { static_cast<void>(wait(submitted_)); }
 
   uint64_t submitted() const { return submitted_; }
 
-  /// The last one that the device has ended.
+  /// Number of the last frame that the device has completed.
   uint64_t ended() const {
     uint64_t value = 0;
     must(vkGetSemaphoreCounterValue(device_.handle(), ended_.get(), &value), "vkGetSemaphoreCounterValue");
     return value;
   }
 
-  /// Waits only where as many frames as may be are in flight. What is drawn must be kept until the frame has ended.
+  /// Submits a frame. Waits only if the maximum number of frames is in flight. The buffers of the list must live until
+  /// the frame has completed.
   void draw(const DrawList& list, const Matrix& matrix) {
     Slot& slot = slotOf(submitted_ + 1);
     if (submitted_ + 1 > slots_.size()) await(submitted_ + 1 - slots_.size());
@@ -53,7 +54,7 @@ class Frames {
     submit(slot, list);
   }
 
-  /// What the last frame shows.
+  /// The picture of the last frame.
   Picture picture() {
     await(submitted_);
     return slotOf(submitted_).target.picture();
@@ -74,7 +75,7 @@ class Frames {
       must(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "vkAllocateCommandBuffers");
     }
 
-    /// The list's records, then its commands.
+    /// Writes the list's records, then its commands, into the slot's buffer.
     void write(const VulkanDevice& device, const DrawList& list) {
       commands_at = list.records.size() * sizeof(ChunkRecord);
       const VkDeviceSize bytes = commands_at + list.draws.size() * sizeof(VkDrawIndexedIndirectCommand);
@@ -119,7 +120,7 @@ class Frames {
     must(vkBeginCommandBuffer(slot.commands, &begin), "vkBeginCommandBuffer");
     slot.target.begin(slot.commands, pipeline_);
     vkCmdPushConstants(slot.commands, pipeline_.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof matrix, matrix.data());
-    // One call for all that lies in one buffer.
+    // One call draws all parts that lie in the same buffer.
     for (size_t first = 0, next = 0; first < list.draws.size(); first = next) {
       const VkBuffer buffer = list.draws[first].buffer;
       while (next < list.draws.size() && list.draws[next].buffer == buffer) ++next;
@@ -135,7 +136,8 @@ class Frames {
     must(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
   }
 
-  /// The device waits until the meshes are there, and not the host: what the value stands for is in the queue already.
+  /// Submits the frame. The device, not the host, waits for the meshes: the work that signals the semaphore's value is
+  /// already in the queue.
   void submit(const Slot& slot, const DrawList& list) {
     const uint64_t frame = submitted_ + 1;
     const VkSemaphore ended = ended_.get();
@@ -163,7 +165,8 @@ class Frames {
 
   VulkanDevice& device_;
   const ChunkPipeline& pipeline_;
-  Owned<VkSemaphore, vkDestroySemaphore> ended_;  // has the number of the last frame that the device has ended
+  // Its value is the number of the last frame that the device has completed.
+  Owned<VkSemaphore, vkDestroySemaphore> ended_;
   std::vector<Slot> slots_;
   uint64_t submitted_ = 0;
 };

@@ -1,7 +1,7 @@
 // external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--cuda] [--validate]: an engine that
-// lends its Vulkan device to the library, flies a viewer through a grammar's world, and draws the meshes from where
-// they were made, or with --cuda from where CUDA has put them. Every K-th frame is drawn once more from buffers that
-// were uploaded, and must be the same picture.
+// provides its Vulkan device to the library, flies a viewer through a grammar's world, and draws the meshes from the
+// buffers in which they were made, or with --cuda from buffers that CUDA has filled. Every K-th frame is also drawn
+// from uploaded buffers, and both pictures must be equal.
 
 #include <sgm/sgm.h>
 #include <sgm/sgm_vulkan.h>
@@ -25,9 +25,10 @@
 
 namespace {
 
-constexpr int kSkipped = 77;  // no device here: nothing was tested
+constexpr int kSkipped = 77;  // exit status if there is no suitable device: nothing was tested
 constexpr double kMetresPerFrame = 0.25;
-constexpr auto kFrameTime = std::chrono::milliseconds(16);  // leaves the device time to mesh, as a display does
+// Leaves the device time for meshing, as a display's refresh rate does.
+constexpr auto kFrameTime = std::chrono::milliseconds(16);
 constexpr const char* kUsage =
     "usage: external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--cuda] [--validate]\n";
 
@@ -93,7 +94,7 @@ FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, bool cuda
   desc.grammar = grammar;
   desc.seed = 7;
   desc.cell_units = SGM_UNITS_PER_METRE / 4;
-  desc.backend = cuda ? SGM_BACKEND_CUDA : SGM_BACKEND_VULKAN;  // software devices, too
+  desc.backend = cuda ? SGM_BACKEND_CUDA : SGM_BACKEND_VULKAN;  // including software devices
   sgm_field* field = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   must(sgm_field_create(runtime, &desc, &field, &error), error);
@@ -112,7 +113,7 @@ WorldOwner makeWorld(sgm_field* field) {
   return WorldOwner(world);
 }
 
-/// Whether there is rock wherever no shape is, without end.
+/// Whether everything outside the grammar's shapes is rock, without end.
 bool isClosed(const sgm_grammar* grammar) {
   sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
   if (sgm_grammar_domain(grammar, &domain) != SGM_OK) throw std::runtime_error("the grammar's domain is not known");
@@ -145,7 +146,7 @@ void print(const Flight& flight) {
 }
 
 void run(const Options& options, Validation* validation) {
-  std::optional<VulkanDevice> device;  // outlives the runtime that it is lent to
+  std::optional<VulkanDevice> device;  // must outlive the runtime that uses it
   const RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compileFile(runtime.get(), options.grammar.c_str());
   device.emplace(validation, options.cuda);
@@ -170,7 +171,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    Validation validation;  // also told of what the device finds wrong at its end
+    Validation validation;  // outlives the device, to receive the layer's messages about its destruction
     run(*options, options->validate ? &validation : nullptr);
     if (validation.messages > 0) throw std::runtime_error("the validation layer has found faults");
   } catch (const NoDevice& e) {

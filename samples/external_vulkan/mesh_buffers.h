@@ -1,5 +1,6 @@
 #pragma once
-// Where a chunk's triangles lie on the device: in the library's buffers, or in one that the engine has filled itself.
+// The places of a chunk's triangles on the device: in buffers of the library, or in one that the engine has filled
+// itself.
 
 #include <sgm/sgm.h>
 #include <sgm/sgm_vulkan.h>
@@ -18,7 +19,7 @@
 #include "vulkan_device.h"
 #include "vulkan_memory.h"
 
-/// The body, then the seams by face. No buffer: no triangles.
+/// The draw of a part: the body, or the seam over a face. A null buffer means that the part has no triangles.
 struct MeshPart {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDrawIndexedIndirectCommand command{};
@@ -32,8 +33,8 @@ inline sgm_mesh_view viewOf(const sgm_mesh* mesh) {
   return view;
 }
 
-/// Meshes uploaded by the engine, into one buffer as the library has it: vertices, then indices. What an engine must
-/// still be able to do, for meshes that found no room on the device.
+/// Meshes that the engine has uploaded into one buffer, in the library's format: vertices, then indices. An engine
+/// needs this for meshes for which the library found no memory on the device.
 class UploadedMeshes {
  public:
   UploadedMeshes(const VulkanDevice& device, std::span<const sgm_mesh_view> views) {
@@ -64,7 +65,8 @@ class UploadedMeshes {
   const MeshParts& parts(size_t mesh) const { return parts_[mesh]; }
 
  private:
-  /// Elements lie a stride apart: a later library's may be larger than those of the header that we were built with.
+  /// Copies elements that lie `stride` bytes apart: in a later version of the library, elements may be larger than
+  /// those of the header with which this program was built.
   template <class Element>
   void copy(const Element* elements, uint32_t count, uint32_t stride, size_t to) {
     const char* from = reinterpret_cast<const char*>(elements);
@@ -78,7 +80,7 @@ class UploadedMeshes {
   std::vector<MeshParts> parts_;
 };
 
-/// A mesh that the engine may draw until it releases it.
+/// A mesh that the engine may draw until it releases the mesh.
 class StreamedMesh {
  public:
   StreamedMesh() = default;
@@ -102,7 +104,7 @@ class StreamedMesh {
   }
 
   explicit operator bool() const { return mesh_ != nullptr; }
-  /// Drawn from the library's buffers; not so where there is nothing to draw.
+  /// Whether the mesh lies in the library's buffers. False if it has no triangles.
   bool resident() const { return semaphore_ != VK_NULL_HANDLE; }
   size_t bytes() const { return view_.vertex_count * sizeof(sgm_vertex) + view_.index_count * sizeof(uint32_t); }
   const MeshParts& parts() const { return parts_; }

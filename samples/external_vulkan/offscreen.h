@@ -1,6 +1,6 @@
 #pragma once
-// What the engine draws into instead of a window, and how: a colour and a depth image, and the pipeline of streamed
-// meshes.
+// The target into which the engine draws instead of a window (a colour and a depth image), and the pipeline for
+// streamed meshes.
 
 #include <sgm/sgm.h>
 #include <vulkan/vulkan.h>
@@ -23,7 +23,7 @@
 
 constexpr VkFormat kColour = VK_FORMAT_R8G8B8A8_SRGB, kDepth = VK_FORMAT_D32_SFLOAT;
 
-/// Draws DrawLists into pictures of one size.
+/// The pipeline that draws DrawLists into pictures of one size.
 class ChunkPipeline {
  public:
   ChunkPipeline(VkDevice device, VkExtent2D size) : size_(size) {
@@ -64,7 +64,7 @@ class ChunkPipeline {
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &to_colour;
     subpass.pDepthStencilAttachment = &to_depth;
-    // The picture is copied to the host as soon as it is drawn.
+    // The picture is copied to the host after it is drawn.
     VkSubpassDependency copied{};
     copied.srcSubpass = 0;
     copied.dstSubpass = VK_SUBPASS_EXTERNAL;
@@ -102,7 +102,7 @@ class ChunkPipeline {
     stages[0].module = vertex.get();
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     stages[1].module = fragment.get();
-    // The library's vertices as they lie in its buffers, and a record of ours for each chunk.
+    // Binding 0: vertices in the library's format; binding 1: a ChunkRecord of ours for each chunk.
     const VkVertexInputBindingDescription bindings[] = {{0, sizeof(sgm_vertex), VK_VERTEX_INPUT_RATE_VERTEX},
                                                         {1, sizeof(ChunkRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
     const VkVertexInputAttributeDescription attributes[] = {
@@ -137,7 +137,7 @@ class ChunkPipeline {
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
     depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // 1 is near, 0 endlessly far
+    depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // reversed depth: 1 is near, 0 is infinity
     VkPipelineColorBlendAttachmentState opaque{};
     opaque.colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
@@ -169,7 +169,7 @@ class ChunkPipeline {
   Owned<VkPipeline, vkDestroyPipeline> pipeline_;
 };
 
-/// One picture that is drawn, and comes back to the host.
+/// A picture that the device draws and then copies to the host.
 class Offscreen {
  public:
   Offscreen(const VulkanDevice& device, const ChunkPipeline& pipeline)
@@ -191,7 +191,7 @@ class Offscreen {
   }
 
   void begin(VkCommandBuffer commands, const ChunkPipeline& pipeline) const {
-    const VkClearValue clear[2]{};  // without colour, alpha 0 (Picture::uncovered), and endlessly far
+    const VkClearValue clear[2]{};  // black with alpha 0 (Picture::uncovered), and depth at infinity
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = pipeline.pass();
@@ -217,7 +217,7 @@ class Offscreen {
                          0, nullptr);
   }
 
-  /// Once the device has ended it.
+  /// The picture; valid once the device has completed the frame.
   Picture picture() const {
     Picture picture{size_.width, size_.height, std::vector<uint8_t>(back_.size())};
     std::memcpy(picture.rgba.data(), back_.data(), back_.size());

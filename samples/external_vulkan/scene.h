@@ -1,6 +1,6 @@
 #pragma once
-// What an engine keeps of a streamed world that lies on its device: meshes by chunk, what of them is drawn, and those
-// that the device has not done with.
+// An engine's view of a streamed world whose meshes lie on its device: the meshes of each chunk, which of them are
+// drawn, and removed meshes that the device may still be drawing.
 
 #include <sgm/sgm.h>
 
@@ -21,7 +21,8 @@
 
 inline ChunkName nameOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
-/// From the camera to a chunk. The vertex shader reckons in 1/256 of a unit, so 8,192 m are the farthest.
+/// The record of a chunk relative to the camera. The vertex shader computes in 1/256 of a unit, so the distance must be
+/// less than 8,192 m.
 inline ChunkRecord recordOf(const sgm_mesh_view& mesh, const UnitPlace& camera) {
   constexpr int64_t kFarthest = 8000 * SGM_UNITS_PER_METRE;
   const int64_t edge = int64_t{SGM_CHUNK_CELLS} * mesh.cell_units;
@@ -34,12 +35,13 @@ inline ChunkRecord recordOf(const sgm_mesh_view& mesh, const UnitPlace& camera) 
   return record;
 }
 
-/// The device must have done with all its meshes before it ends.
+/// The device must have completed all frames that draw its meshes before the scene is destroyed.
 class Scene {
  public:
   explicit Scene(const VulkanDevice& device) : device_(device) {}
 
-  /// Takes over the event's mesh. submitted: the last frame that was given to the device, and may still draw what goes.
+  /// Processes an event, and becomes the owner of its mesh. submitted: number of the last submitted frame, which may
+  /// still draw the mesh that is replaced.
   void take(const sgm_world_event& event, uint64_t submitted) {
     const ChunkName name = nameOf(event.key);
     switch (event.kind) {
@@ -74,7 +76,7 @@ class Scene {
     }
   }
 
-  /// Releases what was last drawn in a frame that has ended.
+  /// Releases removed meshes that were last drawn in a completed frame.
   void release(uint64_t ended) {
     while (!retired_.empty() && retired_.front().first <= ended) retired_.pop_front();
   }
@@ -92,7 +94,7 @@ class Scene {
         list.draws.push_back({buffer, command, name, part});
         list.draws.back().command.firstInstance = record;
       }
-      // One semaphore for all meshes: the largest of its values counts.
+      // All meshes have the same semaphore, so the largest of their values suffices.
       if (!mesh.resident()) continue;
       list.semaphore = mesh.semaphore();
       list.value = std::max(list.value, mesh.value());
@@ -102,7 +104,7 @@ class Scene {
   }
 
   size_t residentChunks() const { return resident_; }
-  size_t residentBytes() const { return resident_bytes_; }  ///< of all chunks that came, not uploaded
+  size_t residentBytes() const { return resident_bytes_; }  ///< of all chunks that arrived in device memory
 
  private:
   struct Chunk {
@@ -125,6 +127,7 @@ class Scene {
 
   const VulkanDevice& device_;
   std::map<ChunkName, Chunk> chunks_;
-  std::deque<std::pair<uint64_t, StreamedMesh>> retired_;  // by the frame that may have drawn it last
+  // Removed meshes, with the number of the last frame that may draw them.
+  std::deque<std::pair<uint64_t, StreamedMesh>> retired_;
   size_t resident_ = 0, resident_bytes_ = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The same frame once more, as an engine draws it that uploads: from what the world says that it draws, and the bytes
-// that the host has of it.
+// Draws the same frame again as an engine without shared device memory does: from the world's list of drawn chunks, and
+// from the meshes' bytes on the host.
 
 #include <sgm/sgm.h>
 
@@ -22,8 +22,8 @@ class UploadedPath {
  public:
   UploadedPath(VulkanDevice& device, const ChunkPipeline& pipeline) : device_(device), frames_(device, pipeline, 1) {}
 
-  /// Draws in the other's order, so that two surfaces at one depth come out alike. Throws where the other draws not
-  /// just what the world does: then its events were misunderstood.
+  /// Draws in the order of `other`, so that surfaces at equal depth give the same picture. Throws if `other` does not
+  /// contain exactly the chunks that the world draws: then its events were processed wrongly.
   Picture draw(sgm_world* world, const DrawList& other, const UnitPlace& camera, const Matrix& matrix) {
     size_t count = 0;
     sgm_error error = SGM_ERROR_INIT;

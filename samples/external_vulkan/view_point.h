@@ -1,5 +1,5 @@
 #pragma once
-// Where the camera is and what it sees. Its place is in whole units, so that chunks lie around it exactly.
+// Position and view of the camera. Its position is rounded to whole units, so that offsets to chunks are exact.
 
 #include <sgm/sgm.h>
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 
 using Place = std::array<double, 3>;       ///< metres
-using Matrix = std::array<float, 16>;      ///< column by column, as shaders have it
+using Matrix = std::array<float, 16>;      ///< column-major, as in shaders
 using UnitPlace = std::array<int32_t, 3>;  ///< units
 
 struct ViewPoint {
@@ -17,7 +17,7 @@ struct ViewPoint {
   static constexpr float kNear = 0.05f;  ///< metres
 
   Place at{};
-  Place forward{};  ///< one long, and not upright
+  Place forward{};  ///< unit length, not vertical
 
   UnitPlace units() const {
     UnitPlace units{};
@@ -27,7 +27,7 @@ struct ViewPoint {
     return units;
   }
 
-  /// From metres around units() to Vulkan's clip space: y down, depth 1 at kNear and 0 endlessly far.
+  /// The matrix from metres relative to units() to Vulkan's clip space: y down, depth 1 at kNear and 0 at infinity.
   Matrix matrix(double aspect) const {
     const double level = std::hypot(forward[0], forward[2]);
     const Place right{-forward[2] / level, 0, forward[0] / level};

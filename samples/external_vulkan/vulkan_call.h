@@ -1,5 +1,5 @@
 #pragma once
-// Vulkan's calls and handles as an engine wraps them: results that must be looked at, handles that end by themselves.
+// Wrappers of Vulkan's calls and handles: results are checked, and handles are destroyed automatically.
 
 #include <vulkan/vulkan.h>
 
@@ -7,18 +7,18 @@
 #include <string>
 #include <utility>
 
-/// No device here that this program can use.
+/// This machine has no device that this program can use.
 struct NoDevice : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-/// Every call that can fail comes through here.
+/// Throws an exception if a call has failed. Every call that can fail passes its result to this function.
 inline void must(VkResult result, const char* call) {
   if (result == VK_SUCCESS) return;
   throw std::runtime_error(std::string(call) + " failed: VkResult " + std::to_string(result));
 }
 
-/// A handle of a device's. The device must outlive it, and have done with it at its end.
+/// Owner of a device's handle. The device must outlive it, and must no longer use the handle when it is destroyed.
 template <class Handle, auto Destroy>
 class Owned {
  public:
@@ -40,7 +40,7 @@ class Owned {
   Handle handle_{};
 };
 
-/// What Create makes of its description.
+/// Calls `create` with `info`, and returns the owner of the new handle.
 template <auto Destroy, class Handle, class Info>
 Owned<Handle, Destroy> make(VkResult (*create)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*),
                             const char* call, VkDevice device, const Info& info) {
@@ -49,5 +49,5 @@ Owned<Handle, Destroy> make(VkResult (*create)(VkDevice, const Info*, const VkAl
   return {device, handle};
 }
 
-/// make, by the name of what is made.
+/// Calls make() for the Vulkan object with this name.
 #define MAKE_VULKAN(name, device, info) make<vkDestroy##name>(vkCreate##name, "vkCreate" #name, device, info)

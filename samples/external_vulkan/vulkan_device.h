@@ -1,5 +1,5 @@
 #pragma once
-// The engine's own device: one queue that draws and computes, which the engine and the library share.
+// The engine's own Vulkan device. It has one queue for drawing and computing, which the engine and the library share.
 
 #include <sgm/sgm_vulkan.h>
 #include <vulkan/vulkan.h>
@@ -17,7 +17,7 @@
 
 class VulkanDevice {
  public:
-  /// As VulkanInstance. share_memory: CUDA is to mesh for it. Throws NoDevice.
+  /// validation: as for VulkanInstance. share_memory: CUDA meshes into memory shared with this device. Throws NoDevice.
   VulkanDevice(Validation* validation, bool share_memory) : instance_(validation), share_memory_(share_memory) {
     openBest();
   }
@@ -28,13 +28,13 @@ class VulkanDevice {
   VkDevice handle() const { return device_; }
   uint32_t family() const { return family_; }
 
-  /// From any thread: a queue is used by one thread at a time, and the library is one of its users.
+  /// Thread-safe: a queue may be used by one thread at a time, and the library uses it too.
   void submit(const VkSubmitInfo& info) {
     const std::lock_guard lock(queue_mutex_);
     must(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit");
   }
 
-  /// What the library is told of the device, which must outlive the runtime.
+  /// The description of the device for the library. The device must outlive the runtime.
   sgm_vulkan_device_desc lend() {
     sgm_vulkan_device_desc desc = SGM_VULKAN_DEVICE_DESC_INIT;
     desc.api_version = VulkanInstance::kApiVersion;
@@ -53,7 +53,7 @@ class VulkanDevice {
     return desc;
   }
 
-  /// A type of memory that a resource can lie in.
+  /// Index of a memory type with the wanted properties among the types that a resource allows.
   uint32_t memoryType(uint32_t types, VkMemoryPropertyFlags wanted) const {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
@@ -87,7 +87,7 @@ class VulkanDevice {
     return {};
   }
 
-  /// Empty: the device can do all that is asked of it here.
+  /// The first required feature that a device lacks; empty if it has all.
   std::string lackOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) const {
     if (properties.apiVersion < VulkanInstance::kApiVersion) return "Vulkan 1.2";
     VkPhysicalDeviceVulkan12Features features12{};

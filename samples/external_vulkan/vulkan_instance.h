@@ -1,5 +1,5 @@
 #pragma once
-// The engine's Vulkan instance, watched by the validation layer where that is wanted.
+// The engine's Vulkan instance, with the validation layer if requested.
 
 #include <vulkan/vulkan.h>
 
@@ -11,7 +11,7 @@
 
 #include "vulkan_call.h"
 
-/// Shows what the validation layer says, of the engine's calls and the library's alike, and counts it. Any thread.
+/// Prints and counts the messages of the validation layer about calls of the engine and of the library. Thread-safe.
 struct Validation {
   std::atomic<int> messages{0};
 
@@ -39,7 +39,8 @@ class VulkanInstance {
  public:
   static constexpr uint32_t kApiVersion = VK_API_VERSION_1_2;
 
-  /// validation: NULL, or who listens to the layer; it must outlive the instance. Throws NoDevice.
+  /// validation: receives the layer's messages, and must outlive the instance; null: the layer is not loaded. Throws
+  /// NoDevice.
   explicit VulkanInstance(Validation* validation) {
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
@@ -55,7 +56,8 @@ class VulkanInstance {
     const char* layer = "VK_LAYER_KHRONOS_validation";
     const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     const VkValidationFeatureEnableEXT hazards = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-    // Chained, it also listens while the instance itself is made and ended.
+    // Chained to the instance's description, so that it also reports messages about creating and destroying the
+    // instance.
     const VkDebugUtilsMessengerCreateInfoEXT listener = validation->listener();
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;

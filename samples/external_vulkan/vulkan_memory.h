@@ -1,6 +1,6 @@
 #pragma once
-// Memory of the engine's own on the device: buffers that the host writes and reads, images that are drawn into. An
-// engine takes them from a few large blocks; here each has its own.
+// The engine's own device memory: buffers that the host writes and reads, and images that are drawn into. A real engine
+// would allocate them from a few large blocks; here each has an allocation of its own.
 
 #include <vulkan/vulkan.h>
 
@@ -23,7 +23,7 @@ inline MemoryOwner allocate(const VulkanDevice& device, const VkMemoryRequiremen
   return {device.handle(), memory};
 }
 
-/// Mapped for as long as it lives.
+/// A buffer in host-visible memory, which stays mapped.
 class HostBuffer {
  public:
   HostBuffer() = default;
@@ -47,13 +47,13 @@ class HostBuffer {
   std::byte* data() const { return data_; }
 
  private:
-  MemoryOwner memory_;  // outlives the buffer that lies in it
+  MemoryOwner memory_;  // must outlive the buffer in it
   Owned<VkBuffer, vkDestroyBuffer> buffer_;
   VkDeviceSize bytes_ = 0;
   std::byte* data_ = nullptr;
 };
 
-/// With one view of it whole.
+/// An image in device memory, with one view of the whole image.
 class DeviceImage {
  public:
   DeviceImage(const VulkanDevice& device, VkExtent2D size, VkFormat format, VkImageUsageFlags usage,

@@ -1,12 +1,12 @@
-/* mesh_region FILE.sgm OUT.obj: meshes 32 m around an anchor of the grammar's, or around the origin where it has none
- * near, and writes the welded surface as Wavefront OBJ. */
+/* mesh_region FILE.sgm OUT.obj: meshes a box of 32 m around an anchor of the grammar, or around the origin if no anchor
+ * is near, and writes the welded surface as Wavefront OBJ. */
 #include <inttypes.h>
 #include <sgm/sgm.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The whole file, ending in 0, or NULL. The caller frees it. */
+/* Reads a file. Returns its text, terminated by 0, which the caller frees; NULL on failure. */
 static char* read_file(const char* path) {
   FILE* file = fopen(path, "rb");
   char* text = NULL;
@@ -31,7 +31,7 @@ static char* read_file(const char* path) {
   return text;
 }
 
-/* The folder of a path: imports are read from there. */
+/* Writes the folder of a path to `folder`: imports are read from there. */
 static void folder_of(const char* path, char* folder, size_t room) {
   const char* slash = strrchr(path, '/');
   if (slash == NULL) {
@@ -68,7 +68,7 @@ static int report_progress(void* user, uint64_t done, uint64_t total) {
   return 0;
 }
 
-/* The first anchor within 128 m of the origin, in units; the origin where there is none. */
+/* Sets place to the first anchor within 128 m of the origin, in units; to the origin if there is none. */
 static sgm_result find_place(sgm_field* field, int32_t place[3], sgm_error* error) {
   const int32_t low[3] = {-128 * SGM_UNITS_PER_METRE, -128 * SGM_UNITS_PER_METRE, -128 * SGM_UNITS_PER_METRE};
   const int32_t high[3] = {128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE};

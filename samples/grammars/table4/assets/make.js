@@ -1,10 +1,11 @@
 // Makes the assets of cabral.sgm, house.glb, shuttered.glb and arcade.glb, beside this file: node make.js
-// A solid is an outline in x and y (metres), pulled back along z, with pockets cut into its front and bosses on it.
+// Each solid is an outline in x and y (metres) that is extruded along z; its front has recesses and raised parts
+// ("features").
 'use strict';
 const fs = require('fs');
 const path = require('path');
 
-// '' is the material of whoever fits the asset.
+// '' stands for the material of the statement that places the asset.
 const materials = ['', 'plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white', 'plaster_rose', 'paint_green'];
 
 class Body {
@@ -12,7 +13,8 @@ class Body {
 
   quad(material, a, b, c, d) { this.byMaterial[materials.indexOf(material)].push(a, b, c, a, c, d); }
 
-  /// The loop at z without its features, in strips between the heights of corners; then each feature.
+  /// Adds the polygon of the loop at z without its features, cut into strips at the heights of all corners; then each
+  /// feature.
   face(loop, z, material, features, towards = 1) {
     const loops = [loop, ...features.map((f) => f.loop)];
     const heights = [...new Set(loops.flat().map((p) => p[1]))].sort((a, b) => a - b);
@@ -40,7 +42,7 @@ class Body {
     }
   }
 
-  /// The sides of a loop from one z to another.
+  /// Adds the side faces of a loop from one z to another.
   band(loop, from, to, materialOf) {
     loop.forEach((a, i) => {
       const b = loop[(i + 1) % loop.length];
@@ -78,7 +80,7 @@ class Body {
 }
 
 const rect = (x0, y0, x1, y1) => [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
-/// A door with a round head of so many chords.
+/// The outline of a door with a round arch, which is approximated by `chords` chords.
 function arch(x0, y0, x1, spring, chords) {
   const r = (x1 - x0) / 2;
   const head = [...Array(chords - 1).keys()].map((i) => {
@@ -91,7 +93,7 @@ const octagon = (x, y, r) => [...Array(8).keys()].map((i) => {
   const turn = (Math.PI * (2 * i + 1)) / 8;
   return [x + r * Math.cos(turn), y + r * Math.sin(turn)];
 });
-/// A casement of four panes in a surround of stone, set back far enough that cells of a decimetre show straight edges.
+/// A window of four panes in a stone surround, recessed so far that its edges are straight with grid cells of 0.1 m.
 const window_ = (x0, y0, x1, y1) => {
   const middle = (x0 + x1) / 2, step = (y1 - y0 - 0.2) / 2;
   const panes = [];
@@ -108,7 +110,8 @@ const window_ = (x0, y0, x1, y1) => {
     }],
   }];
 };
-/// Two panes in a frame between open shutters, which are one plate with them: a border has few corners so.
+/// A window of two panes between open shutters. The shutters are one plate with the frame, so that the outline has few
+/// corners.
 const shuttered_ = (x0, y0, x1, y1) => {
   const middle = (x0 + x1) / 2, pane = { depth: -0.08, material: 'glass', sides: 'paint_white' };
   const panel = (l, r) => ({
@@ -127,7 +130,7 @@ const shuttered_ = (x0, y0, x1, y1) => {
 };
 const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.11, material: 'concrete_cream', sides: 'concrete_cream' });
 
-/// A gabled house; shuttered, it is of another colour.
+/// A house with a gabled roof; with shutters it also has another colour.
 function house(name, wall, shuttered) {
   const body = new Body();
   const outline = [[0.3, 0], [5.7, 0], [5.7, 6.4], [6, 6.4], [6, 6.6], [3, 9.6], [0, 6.6], [0, 6.4], [0.3, 6.4]];
