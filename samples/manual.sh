@@ -1,11 +1,9 @@
 #!/usr/bin/env bash
 # Extracts the examples of the manual, samples/grammars/README.md, and draws their pictures.
 #
-#   samples/manual.sh extract FOLDER    # writes each block ```sgm NAME OPTIONS... to FOLDER/NAME.sgm, the options to
-#   NAME.options
+#   samples/manual.sh extract FOLDER    # writes each block ```sgm NAME OPTIONS... to FOLDER/NAME.sgm and NAME.options
 #   samples/manual.sh draw SGM          # draws the changed examples with the command SGM, and records their hashes
-#   samples/manual.sh changed           # prints the names of examples that changed since they were drawn; status 1 if
-#   there are any
+#   samples/manual.sh changed           # prints the examples that changed since they were drawn; status 1 if any did
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 manual=$root/samples/grammars/README.md images=$root/samples/images/manual
