@@ -1,4 +1,5 @@
-// Every function with NULL, with structs of a wrong size and with numbers out of range: an error code, never a crash.
+// Calls every function with NULL, with structs of a wrong size and with numbers out of range: each call must return an
+// error code and not crash.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ struct World {
 
 sgm_chain extension = {sizeof(sgm_chain), 1, nullptr};
 
-/// A struct that is too small, too large, or continued by an extension that no version knows.
+/// Calls a function with structs that are too small, too large, or continued by an unknown extension.
 template <class Desc, class Call>
 void checkStruct(Desc good, Call&& call) {
   for (const uint32_t size : {0u, 4u, good.struct_size - 1, good.struct_size + 8, 0xFFFFFFFFu}) {

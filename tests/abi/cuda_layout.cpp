@@ -1,2 +1,2 @@
-// The layout once more, as C++20.
+// Compiles cuda_layout.c as C++20.
 #include "cuda_layout.c"

@@ -1,5 +1,5 @@
 #pragma once
-// An engine that lends its CUDA context, on a GPU that pretends.
+// An engine that provides its CUDA context to the library, on a simulated GPU.
 
 #include <dlfcn.h>
 #include <sgm/sgm_cuda.h>
@@ -8,9 +8,9 @@
 #include "cuda/fake_gpu.h"
 #include "fixture.h"
 
-/// Of the libcuda.so.1 that is in use.
+/// The simulated GPU of the libcuda.so.1 that this process has loaded.
 inline sgm::cuda::FakeState& pretendedGpu() {
-  // It begins when it is first asked.
+  // The simulated GPU is created when it is first requested.
   REQUIRE(sgm::cuda::openDriver());
   void* const library = dlopen("libcuda.so.1", RTLD_NOW | RTLD_NOLOAD);
   REQUIRE(library != nullptr);
@@ -19,7 +19,7 @@ inline sgm::cuda::FakeState& pretendedGpu() {
   return *state();
 }
 
-/// The engine's side.
+/// The engine: owns a CUDA context and optionally a stream, and describes them to the library.
 class CudaLender {
  public:
   explicit CudaLender(bool with_stream = false) {

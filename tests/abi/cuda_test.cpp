@@ -1,5 +1,5 @@
-// An engine that lends its CUDA context through the C interface, and reads meshes where they lie. On a GPU that
-// pretends, where LD_LIBRARY_PATH has its libcuda.so.1 first: its memory is the host's.
+// Tests an engine that provides its CUDA context through the C interface, and reads the meshes in device memory. With
+// LD_LIBRARY_PATH set, libcuda.so.1 is a simulated driver, whose GPU memory is the host's.
 
 #include <cstdlib>
 #include <cstring>
@@ -30,7 +30,7 @@ void checkPart(const sgm_mesh_view& view, const sgm_mesh_range& range, const sgm
   CHECK(different == 0);
 }
 
-/// What the GPU has is what the host has. Returns how many triangles there are.
+/// Checks that a mesh has the same bytes on the GPU and on the host. Returns the number of triangles.
 size_t checkMesh(const MeshOwner& mesh) {
   const sgm_mesh_view view = viewOf(mesh);
   sgm_cuda_mesh_view place = SGM_CUDA_MESH_VIEW_INIT;

@@ -1,4 +1,4 @@
-// Edits, colliders and what outlasts a world, through the C interface alone.
+// Tests edits, colliders and data that outlast a world, through the C interface alone.
 
 #include <cmath>
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace {
 
-/// Solid rock: whatever is void in it was dug.
+/// Solid rock: any void in it was dug.
 constexpr const char* kRock =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) cut sphere(5m); }\n";
 
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 
-/// Keeps what events say, and releases it.
+/// Records the world's events, and releases their meshes.
 struct Engine {
   ~Engine() {
     for (const auto& [key, mesh] : meshes) sgm_mesh_release(mesh);

@@ -1,4 +1,5 @@
-// Handles that are ended once too often: each time a code and a line in the log, and nothing else happens.
+// Tests destroying handles twice: each second call must return an error code, write a line to the log, and have no
+// other effect.
 
 #include <atomic>
 #include <deque>
@@ -31,7 +32,7 @@ constexpr const char* kCavedRock =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) cut sphere(5m); }\n";
 
-/// An allocator that counts, and has nothing to give while it is told so; and a log.
+/// An allocator that counts, and can be made to fail; and a log.
 struct Watch {
   std::atomic<int64_t> blocks{0}, bytes{0};
   std::atomic<bool> lacking{false};
@@ -107,7 +108,7 @@ uint64_t liveBytes(const RuntimeOwner& runtime) {
   return live;
 }
 
-/// Ends a handle, which works, and then again, which does not, though memory is lacking too.
+/// Destroys a handle, which must succeed, and then again, which must fail, even without memory.
 template <class Handle>
 void endTwice(Watch& watch, const char* function, sgm_result (*end)(Handle*), Handle* handle) {
   CAPTURE(function);
@@ -133,7 +134,7 @@ void endTwice(Watch& watch, const char* function, sgm_result (*end)(Handle*), Ha
 using ChunkId = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 ChunkId idOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
-/// Keeps what is drawn and collided with, and gives it back; where it is careless, also what it has given back before.
+/// Holds the drawn meshes and colliders, and releases them; on request, releases handles a second time.
 class CarelessEngine {
  public:
   CarelessEngine(bool careless, uint32_t seed) : careless_(careless), random_(seed) {}
@@ -153,7 +154,7 @@ class CarelessEngine {
     }
   }
 
-  /// The bodies and seams that the world says it draws, and the triangles to collide with.
+  /// The drawn bodies and seams, and the collision triangles, as the world reports them.
   std::map<ChunkId, std::tuple<uint64_t, uint32_t, uint32_t>> drawn(sgm_world* world) {
     size_t count = 0;
     REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
@@ -202,7 +203,7 @@ class CarelessEngine {
   std::mt19937 random_;
   std::map<ChunkId, sgm_mesh*> meshes_;
   std::map<ChunkId, sgm_collider*> colliders_;
-  std::deque<std::function<sgm_result()>> ended_;  ///< the last first
+  std::deque<std::function<sgm_result()>> ended_;  ///< destroy calls to repeat, the last first
   size_t wrong_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Memory that gives out where a test says so: the caller's allocator, and the whole program's heap (memory_test.cpp).
+// Memory that runs out where a test requests it: the allocator that the caller provides, and the program's whole heap
+// (memory_test.cpp).
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +9,7 @@
 #include <cstdlib>
 #include <new>
 
-/// Fails the n-th allocation from now, and those after it, or so many of them.
+/// An allocator that fails after `left` more allocations: `failures` allocations fail, or all if it keeps its default.
 struct Failing {
   std::atomic<int64_t> left{INT64_MAX};
   std::atomic<int64_t> failures{INT64_MAX};
@@ -27,9 +28,9 @@ struct Failing {
   }
 };
 
-/// Allocations of the C++ heap that are left before it fails on this thread; below 0: never.
+/// Number of C++ heap allocations that succeed on this thread before all further ones fail; below 0: none fails.
 inline thread_local int64_t heap_left = -1;
-/// The same on all threads together, and how many fail then.
+/// Number of allocations on all threads together that succeed before the next ones fail, and the number of these.
 inline std::atomic<int64_t> heap_left_everywhere{INT64_MAX}, heap_failures{INT64_MAX};
 
 inline void* heapAllocate(size_t size, size_t alignment) {

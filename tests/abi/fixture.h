@@ -1,5 +1,5 @@
 #pragma once
-// Owners for the C interface's handles, and the little worlds that its tests use.
+// Owners of the C interface's handles, and the small worlds that its tests use.
 
 #include <sgm/sgm.h>
 
@@ -11,7 +11,7 @@
 #include "catch.h"
 
 struct EndRuntime {
-  // Every test hands back what it made: a runtime that is still in use at its end is a leak.
+  // Every test must release what it has created: destroying a runtime that is still in use fails, which reveals a leak.
   void operator()(sgm_runtime* runtime) const { CHECK(sgm_runtime_destroy(runtime) == SGM_OK); }
 };
 template <auto End>
@@ -30,7 +30,7 @@ using MeshOwner = std::unique_ptr<sgm_mesh, EndWith<sgm_mesh_release>>;
 using WorldOwner = std::unique_ptr<sgm_world, EndWith<sgm_world_destroy>>;
 using SurfaceOwner = std::unique_ptr<sgm_surface, EndWith<sgm_surface_destroy>>;
 
-/// A ball of 3 m around (4, 4, 4) m.
+/// A ball with a radius of 3 m around (4, 4, 4) m.
 inline constexpr const char* kBall =
     "sgm 1;\nunits m;\nparam radius = 3m in 1m..3.5m animated \"radius\";\nparam count = 2 in 1..4;\nparam turn = "
     "30deg;\n"
@@ -105,7 +105,8 @@ inline sgm_surface_view viewOf(const SurfaceOwner& surface) {
   return view;
 }
 
-/// A view of a mesh or of a surface has wedges, of the triangles that it has, each with one pair of materials.
+/// Checks that the view of a mesh or surface has wedges, that its triangles use all of them, and that each triangle has
+/// one pair of materials.
 template <class View>
 void checkWedges(const View& view) {
   REQUIRE(view.wedges != nullptr);

@@ -51,7 +51,7 @@ float ball(double x, double y, double z, double centre, double radius) {
       std::sqrt((x - centre) * (x - centre) + (y - centre) * (y - centre) + (z - centre) * (z - centre)) - radius);
 }
 
-/// Directed edges that have no partner.
+/// Number of directed edges without an opposite edge.
 size_t openEdges(const sgm_surface_view& view) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (uint64_t i = 0; i < view.index_count; i += 3) {

@@ -1,4 +1,5 @@
-// A field of the host's through C: sampled, asked about, streamed, and refused where it makes no sense.
+// Tests a field that the host computes, through the C interface: it is sampled, queried and streamed, and rejected
+// where it cannot be used.
 
 #include <atomic>
 #include <cmath>
@@ -8,7 +9,7 @@
 
 namespace {
 
-/// Solid below a height, in metres, until told to fail.
+/// Solid below a height in metres, until it is made to fail.
 struct Ground {
   double height = 4;
   std::atomic<bool> fails{false};

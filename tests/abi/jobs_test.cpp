@@ -1,4 +1,4 @@
-// Job systems that behave in every way the contract allows.
+// Tests job systems that behave in all ways that the contract allows.
 
 #include <chrono>
 #include <deque>
@@ -14,7 +14,8 @@ struct Job {
   void* argument;
 };
 
-/// A thread that takes a job now and then, the newest first; where it helps, callers take the others.
+/// A job system with one thread that takes a job now and then, the newest first; if it supports help, callers run the
+/// other jobs.
 struct Lazy {
   std::mutex mutex;
   std::deque<Job> waiting;
@@ -67,7 +68,8 @@ sgm_job_system table(Lazy& lazy) {
           &lazy};
 }
 
-/// Of a surface; 0 where a call fails. Without assertions, which Catch2 allows one thread at a time only.
+/// The hash of a surface; 0 if a call fails. Makes no assertions, since Catch2 allows them in one thread at a time
+/// only.
 uint64_t gridHash(sgm_runtime* runtime) {
   std::vector<float> values(40 * 40 * 40);
   for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 97) - 50.0f;
@@ -81,7 +83,7 @@ uint64_t gridHash(sgm_runtime* runtime) {
   return hash;
 }
 
-/// One of everything that submits jobs; the hash of it all.
+/// Calls every function that submits jobs once; returns the hash of all results.
 uint64_t workOn(sgm_runtime* runtime) {
   const GrammarOwner grammar = compile(runtime, kBall);
   const FieldOwner field = makeField(runtime, grammar.get());

@@ -1,4 +1,5 @@
-// Tests that have a runtime choose a backend load every Vulkan driver of the machine, and unload it again.
+// Keeps Vulkan drivers loaded: tests in which a runtime chooses a backend would otherwise load and unload all drivers
+// again.
 
 #include "backend/vulkan/instance.h"
 #include "vulkan/keep_libraries.h"

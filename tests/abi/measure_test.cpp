@@ -1,4 +1,4 @@
-// Measures of meshes by the C interface: one of ours, and ones that are damaged.
+// Tests measures of meshes by the C interface: of a mesh that the library has made, and of damaged ones.
 
 #include <atomic>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A ball of that radius in a grid of n^3 samples, meshed by the library.
+/// A ball with a given radius in a grid of n^3 samples, meshed by the library.
 struct Ball {
   std::vector<float> values;
   SurfaceOwner surface;
@@ -53,7 +53,7 @@ sgm_measures measured(sgm_runtime* runtime, const sgm_measure_desc& desc) {
   return measures;
 }
 
-/// Memory of the system, counted.
+/// An allocator that counts the bytes in use.
 struct Counting {
   std::atomic<int64_t> live{0}, most{0};
 

@@ -1,4 +1,5 @@
-// Every allocation fails in turn: each call then says so, nothing leaks, and the next try works.
+// Makes every allocation fail in turn: each time the call must report it, nothing may leak, and the next attempt must
+// succeed.
 
 #include <cmath>
 #include <cstdlib>
@@ -21,7 +22,7 @@ struct Handles {
   sgm_surface* grid = nullptr;
 };
 
-/// The whole way through the interface, to the first failure.
+/// Calls functions of the whole interface, until the first one fails.
 sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threads, sgm_error* error) {
   sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
   runtime.allocator = &allocator;
@@ -106,7 +107,7 @@ void endAll(Handles& h) {
 
 }  // namespace
 
-// The whole program's heap, the shared library's included.
+// Replaces operator new of the whole program, including the shared library.
 void* operator new(size_t size) {
   if (void* memory = heapAllocate(size, alignof(std::max_align_t))) return memory;
   throw std::bad_alloc();
@@ -150,7 +151,7 @@ TEST_CASE("each allocation from the allocator fails in turn") {
 
 namespace {
 
-/// Fails the n-th allocation of the C++ heap and those after it, for ever larger n.
+/// Makes the n-th allocation of the C++ heap and all later ones fail, for increasing n.
 template <class Begin, class End>
 void failHeap(uint32_t threads, Begin begin, End end) {
   const sgm_allocator allocator{[](void*, size_t size, size_t alignment) {

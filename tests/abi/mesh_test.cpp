@@ -11,7 +11,7 @@ namespace {
 
 using Place = std::array<int64_t, 3>;
 
-/// A vertex's place in 1/256 units of the world, exact.
+/// A vertex's position in 1/256 units of the world, which is exact.
 Place placeOf(const sgm_mesh_view& view, uint32_t index) {
   const sgm_vertex& v = view.vertices[index];
   const std::array<int16_t, 3> p{v.x, v.y, v.z};

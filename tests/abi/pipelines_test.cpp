@@ -1,5 +1,5 @@
-// sgm_runtime_desc.pipeline_folder where it cannot be used. What is kept there is tested where fewer shaders are
-// compiled for it (tests/unit/backend), and by the command (tests/cli/fly_test.sh).
+// Tests sgm_runtime_desc.pipeline_folder with folders that cannot be used. Caching in a usable folder is tested where
+// fewer shaders must be compiled (tests/unit/backend), and with the command (tests/cli/fly_test.sh).
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether there is a device to compile for; if not, that is said.
+/// Whether there is a device to compile for; prints a message if not.
 bool haveDevice() {
   const RuntimeOwner runtime = makeRuntime();
   sgm_backend_info info = SGM_BACKEND_INFO_INIT;
@@ -31,7 +31,7 @@ struct Warnings {
   std::vector<std::string> texts;
 };
 
-/// What a runtime with that folder warns of while its device meshes a ball.
+/// The warnings of a runtime with that folder while its device meshes a ball.
 std::vector<std::string> warningsOfABall(const fs::path& folder) {
   Warnings warnings;
   const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {

@@ -1,4 +1,4 @@
-// Events of a world whose memory gives out while they are handed over.
+// Tests events of a world whose memory runs out while they are handed over.
 
 #include <array>
 #include <map>
@@ -15,7 +15,7 @@ constexpr const char* kPolledHollows =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 16m reach 4m { start Ball; }\n"
     "rule Ball { at(4m, 4m, 4m) cut sphere(3m); }\n";
 
-/// What an engine keeps of a world's events.
+/// An engine's state according to a world's events.
 struct Polled {
   using Key = std::array<int32_t, 4>;
   std::map<Key, MeshOwner> meshes;

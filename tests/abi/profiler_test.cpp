@@ -1,4 +1,4 @@
-// What an engine's profiler is told, under everything that can become of a call.
+// Tests the calls of an engine's profiler, for every outcome of the library's functions.
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +17,7 @@ const std::set<std::string> kZones = {"sgm.derive", "sgm.compile", "sgm.mesh", "
                                       "sgm.plan",   "sgm.update",  "sgm.poll", "sgm.region"};
 const std::set<std::string> kPlots = {"sgm.queued", "sgm.in_work", "sgm.mesh_bytes"};
 
-/// Follows each thread's zones. Told by any thread, asked when all work has ended.
+/// Records the zones of each thread. Any thread may report; results may be read when all work has ended.
 class ZoneRecord {
  public:
   sgm_profiler table() {
@@ -32,13 +32,14 @@ class ZoneRecord {
     return profiler;
   }
 
-  std::map<std::string, size_t> counts;                          ///< of zones, by name
-  std::map<std::pair<std::string, std::string>, size_t> within;  ///< (outer, inner): "" for the outermost
+  std::map<std::string, size_t> counts;  ///< number of zones by name
+  /// Number of zones by the names of the enclosing zone and the zone; "" if there is no enclosing zone.
+  std::map<std::pair<std::string, std::string>, size_t> within;
   std::map<std::string, std::vector<double>> plots;
-  std::map<std::string, std::set<const void*>> pointers;  ///< by name
+  std::map<std::string, std::set<const void*>> pointers;  ///< addresses of each name
   std::map<std::thread::id, std::vector<std::string>> thread_names;
   std::set<std::thread::id> threads;
-  size_t crossed = 0;  ///< ends that were not of their thread's last zone
+  size_t crossed = 0;  ///< number of ends that did not belong to their thread's innermost zone
 
   size_t open() const {
     size_t sum = 0;
@@ -103,7 +104,7 @@ constexpr const char* kOneLayer =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
-/// Some balls around the origin; what stands on them asks for the layer below while it is derived.
+/// Some balls around the origin, with shapes on them that query the layer below while they are derived.
 constexpr const char* kTwoLayers =
     "sgm 1; units m; domain infinite;\n"
     "layer l cell 32m reach 8m { start Ball; }\n"
@@ -135,7 +136,7 @@ void lookFrom(sgm_world* world, double x) {
   REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
 }
 
-/// An update, and all that it tells, thrown away; whether the update was done.
+/// Updates the world, and discards all events. Returns whether the update succeeded.
 bool drawFrame(sgm_world* world) {
   const bool updated = sgm_world_update(world, 1 << 20, nullptr) == SGM_OK;
   sgm_world_event events[16];
@@ -146,7 +147,8 @@ bool drawFrame(sgm_world* world) {
   }
 }
 
-/// Frames until the world's figures are as wanted; how many. This thread runs no job meanwhile.
+/// Draws frames until the world's statistics satisfy a condition; returns their number. This thread runs no jobs
+/// meanwhile.
 template <class Wanted>
 size_t drawUntil(sgm_world* world, Wanted wanted) {
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;

@@ -1,4 +1,4 @@
-// Questions to the field through C: a ball's surface, a floor, and the same from many threads.
+// Tests queries of a field through the C interface: of a ball's surface and a floor, also from many threads.
 
 #include <algorithm>
 #include <array>
@@ -187,11 +187,11 @@ TEST_CASE("the radius that a way is widest for has none, and the number before i
 
 namespace {
 
-/// What a callback of progress was told: of each run that begins with 1, how far it came and its total.
+/// The calls of a progress callback: for each run that begins with 1, the last progress and its total.
 struct Told {
   std::vector<std::array<uint64_t, 2>> runs;
-  size_t calls = 0, stop_at = 0;  ///< at this call the work is to stop; 0: at none
-  bool steady = true;             ///< done rose by one, to a total that stayed
+  size_t calls = 0, stop_at = 0;  ///< number of the call that cancels the work; 0: none
+  bool steady = true;             ///< whether `done` rose by one each time, and the total stayed the same
 };
 
 int32_t tell(void* user, uint64_t done, uint64_t total) {

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds whose meshes stay on a device, for tests of what engines lend.
+// Worlds whose meshes stay in device memory, for tests of devices that engines provide.
 
 #include <random>
 
@@ -7,7 +7,7 @@
 #include "rounds.h"
 #include "seed.h"
 
-/// Balls, and lumps around them.
+/// A grammar of balls with lumps around them.
 inline constexpr const char* kLumps =
     "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m detail 1m { start Lump; }\n"
     "rule Lump { at(8m, 8m, 8m) { scatter 5 on disc(4m) sphere(rand(1m, 3m)); } }\n";
@@ -15,7 +15,7 @@ inline constexpr const char* kBalls =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
-/// What a world would not wait for is waited for here: the device meshes then, not the CPU in its stead.
+/// Waits until the device is ready. A streamed world would not wait, but mesh on the CPU instead.
 inline void makeReady(sgm_field* field) {
   std::vector<sgm_chunk_request> requests;
   for (int level = 0; level < 4; ++level) {
@@ -73,8 +73,8 @@ inline void waitIdle(sgm_world* world) {
   pollAll(world);
 }
 
-/// A viewer who goes about at random in a world of the field's, made of `text`, and in the CPU's. check(mesh) looks at
-/// every mesh of the first where it lies, and says how many triangles it has.
+/// Moves a viewer at random in two equal worlds of `text`: one on `field`, one on the CPU. Calls check(mesh) for every
+/// mesh of the first world, where it lies in device memory; check returns the mesh's number of triangles.
 template <class Check>
 void wanderBeside(sgm_field* field, const char* text, const Check& check) {
   const unsigned seed = sgm::testSeed();
@@ -98,7 +98,7 @@ void wanderBeside(sgm_field* field, const char* text, const Check& check) {
     size_t triangles = 0;
     for (const MeshOwner& mesh : meshes) triangles += check(mesh);
     CHECK(triangles > 0);
-    // What the engine holds is not overwritten by what comes after.
+    // Meshes that the engine holds must not be overwritten by meshes that are made later.
     for (const MeshOwner& mesh : kept) check(mesh);
     kept = std::move(meshes);
   }

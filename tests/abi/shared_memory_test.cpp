@@ -1,5 +1,5 @@
-// An engine that draws with Vulkan what CUDA has meshed: its device lent with external memory. CUDA is a GPU that
-// pretends to be the Vulkan device, where LD_LIBRARY_PATH has its libcuda.so.1 first.
+// Tests an engine that draws with Vulkan the meshes that CUDA makes; its device has external memory. With
+// LD_LIBRARY_PATH set, libcuda.so.1 is a simulated driver whose GPU stands for the Vulkan device.
 
 #include <chrono>
 #include <cstdlib>
@@ -13,14 +13,14 @@
 #include "vulkan/have_device.h"
 #include "vulkan_lender.h"
 
-/// To a leak checker: what the validation layer keeps in circles of its own. Of ours it has to say, at the device's
-/// end, that everything was destroyed.
+/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
+/// destroyed is checked by the layer at the device's end.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
 namespace {
 
-/// The one GPU of both APIs, with what is imported on it counted.
+/// The GPU that both APIs use; counts the imported memory.
 class OneGpu {
  public:
   explicit OneGpu(const Lender& lender) : state_(pretendedGpu()), before_(state_.imports + state_.mapped) {
@@ -44,7 +44,7 @@ class OneGpu {
   const int before_;
 };
 
-/// What making a field says.
+/// The result of making a field on a backend.
 sgm_result fieldOn(const RuntimeOwner& runtime, sgm_backend backend, sgm_error& error) {
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;

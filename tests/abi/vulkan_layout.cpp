@@ -1,2 +1,2 @@
-// The layout once more, as C++20.
+// Compiles vulkan_layout.c as C++20.
 #include "vulkan_layout.c"

@@ -1,5 +1,5 @@
 #pragma once
-// An engine that lends its Vulkan device, and reads meshes from where they lie on it.
+// An engine that provides its Vulkan device to the library, and reads the meshes in the device's memory.
 
 #include <sgm/sgm_vulkan.h>
 
@@ -15,10 +15,10 @@
 
 namespace vk = sgm::vulkan;
 
-/// The engine's side: a device, its queue behind a mutex, and a way to read what lies in its memory.
+/// The engine: owns a device and a mutex for its queue, and can read the device's memory.
 class Lender {
  public:
-  /// external_memory: another API may reach its memory.
+  /// external_memory: enables sharing of its memory with another API.
   explicit Lender(bool external_memory = false)
       : engine_(vk::Validation::synchronization, external_memory), external_memory_(external_memory) {
     vk::BorrowedDevice own = engine_.lend();
@@ -62,7 +62,7 @@ class Lender {
     REQUIRE(engine_.calls.vkWaitSemaphores(device_->handle(), &info, UINT64_MAX) == VK_SUCCESS);
   }
 
-  /// By the device: bytes of a buffer of the runtime's.
+  /// Reads bytes of a buffer that belongs to the runtime, by a copy on the device.
   template <class T>
   std::vector<T> read(VkBuffer buffer, VkDeviceSize offset, size_t count) {
     std::vector<T> values(count);
@@ -129,7 +129,7 @@ inline void checkPart(Lender& lender, const sgm_mesh_view& view, const sgm_mesh_
   CHECK(std::equal(indices.begin(), indices.end(), view.indices + range.first_index));
 }
 
-/// What the device has is what the host has. Returns how many triangles there are.
+/// Checks that a mesh has the same bytes on the device and on the host. Returns the number of triangles.
 inline size_t checkMesh(Lender& lender, const MeshOwner& mesh) {
   const sgm_mesh_view view = viewOf(mesh);
   if (view.index_count == 0) return 0;

@@ -1,4 +1,4 @@
-// An engine that lends its Vulkan device through the C interface, and draws meshes from where they lie on it.
+// Tests an engine that provides its Vulkan device through the C interface, and reads the meshes in its memory.
 
 #include <cstring>
 #include <filesystem>
@@ -9,8 +9,8 @@
 extern "C" int sgm_vulkan_inits_c(void);
 extern "C" int sgm_vulkan_inits_cpp(void);
 
-/// To a leak checker: what the validation layer keeps in circles of its own. Of ours it has to say, at the device's
-/// end, that everything was destroyed.
+/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
+/// destroyed is checked by the layer at the device's end.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 

@@ -1,5 +1,5 @@
-// A streamed world whose memory gives out, anywhere: it goes on, says so, and is at rest with the right frame once
-// memory is back.
+// Tests a streamed world whose memory runs out at any allocation: it must continue, report it, and draw the right frame
+// once memory is available again.
 
 #include <chrono>
 #include <cstring>
@@ -28,14 +28,14 @@ struct Log {
   }
 };
 
-/// What an engine does, and does again where memory was lacking. Without assertions, which take memory themselves.
+/// An engine that repeats a call if memory was lacking. It makes no assertions, since these allocate memory themselves.
 struct Session {
   sgm_field* field = nullptr;
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   sgm_world* world = nullptr;
   bool looks = false;
   int frames = 0, digs = 0;
-  sgm_result wrong = SGM_OK;  ///< neither done nor out of memory
+  sgm_result wrong = SGM_OK;  ///< an error code other than out of memory
 
   ~Session() { sgm_world_destroy(world); }
 
@@ -105,7 +105,7 @@ struct Session {
   }
 };
 
-/// A folder of its own for each session's journal and chunks.
+/// A temporary folder for one session's journal and chunks.
 struct Folder : sgm::TemporaryFolder {
   std::string journal = (path / "edits").string(), cache = (path / "chunks").string();
 };
@@ -123,7 +123,7 @@ sgm_world_desc troubledWorld(const Folder& folder, bool by_distance) {
   return desc;
 }
 
-/// A field to stream whose memory and words are ours.
+/// A field to stream, with an allocator and a log of the test.
 struct Scene {
   sgm_allocator allocator;
   Log log;
@@ -146,7 +146,7 @@ struct Outcome {
   uint64_t drawn = 0, edits = 0;
 };
 
-/// One session, in trouble from begin() to end(). Whether memory ever gave out: troubled().
+/// Runs one session with failures from begin() to end(). troubled(): returns whether an allocation has failed.
 template <class Begin, class End, class Troubled>
 Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubled troubled) {
   Outcome outcome;
@@ -176,7 +176,7 @@ Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubl
   return outcome;
 }
 
-/// Sessions in which memory gives out ever later, until it does not any more: for a while, or until the end.
+/// Runs sessions in which the failures start later and later, until none occurs: temporary ones, and permanent ones.
 template <class Run>
 void everLater(Run run) {
   for (uint32_t seed = 1; seed <= 2 * sgm::rounds(1); ++seed) {

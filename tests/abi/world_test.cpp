@@ -1,4 +1,4 @@
-// A streamed world through the C interface alone, as an engine uses it.
+// Tests a streamed world through the C interface alone, as an engine uses it.
 
 #include <chrono>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Some balls around the origin, in a void that ends nowhere.
+/// Some balls around the origin, in an infinite void.
 constexpr const char* kBalls =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
@@ -47,7 +47,7 @@ struct Drawn {
   friend bool operator==(const Drawn&, const Drawn&) = default;
 };
 
-/// Keeps, from events alone, what is drawn.
+/// Tracks which chunks are drawn, from the events alone.
 class Engine {
  public:
   void poll(sgm_world* world) {

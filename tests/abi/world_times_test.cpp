@@ -1,4 +1,4 @@
-// What a monitor is told of a world: its settings, its viewers and its times, while an engine updates it.
+// Tests the data for monitors of a world: settings, viewers and times, while an engine updates the world.
 
 #include <algorithm>
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Balls without end.
+/// A grammar with balls everywhere.
 constexpr const char* kWatchedBalls =
     "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
@@ -47,7 +47,7 @@ struct Watched {
     viewer.position[0] = x;
     REQUIRE(sgm_world_set_viewers(world.get(), &viewer, 0, 1, nullptr) == SGM_OK);
   }
-  /// Polls until nothing is left; how many calls that took.
+  /// Polls until no events are left; returns the number of calls.
   uint64_t pollAll() const {
     std::vector<sgm_world_event> events(16);
     for (uint64_t calls = 1;; ++calls) {
@@ -83,7 +83,7 @@ uint64_t meshedIn(const sgm_world_times& times) {
   return all;
 }
 
-/// What the buckets' bounds leave open.
+/// Checks that a histogram's sum is possible for its counts and bucket bounds.
 void checkSum(const sgm_time_histogram& times) {
   double least = 0, most = 0;
   size_t last = 0;

@@ -1,8 +1,8 @@
-// A device's backend beside the CPU's: the chunks around a viewer in the sample cave, meshed by both in turn.
+// Compares the backend of a device with the CPU's: both mesh the chunks around a viewer in the sample cave, in turn.
 //
 //   sgm_bench_backends [GRAMMAR [CELL_UNITS [THREADS [vulkan | cuda]]]]
 //
-// Software Vulkan takes its number of threads from LP_NUM_THREADS: set it to THREADS as well.
+// Software Vulkan takes its number of threads from LP_NUM_THREADS: set it to THREADS too.
 
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +20,7 @@ using bench::must, bench::now;
 namespace {
 
 constexpr int kRuns = 5;
-constexpr size_t kBatchChunks = 256;  // as many as a device takes at one time
+constexpr size_t kBatchChunks = 256;  // number of chunks that a device takes in one batch
 std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 std::vector<ChunkJob> jobsAround(const WorldField& world) {
@@ -34,7 +34,7 @@ std::vector<ChunkJob> jobsAround(const WorldField& world) {
 struct Run {
   double whole = 0, submitting = 0;  ///< ms
   size_t triangles = 0, with_surface = 0;
-  ContentHash hash;  ///< sums of all parts'
+  ContentHash hash;  ///< sum of the hashes of all parts
 };
 
 Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {

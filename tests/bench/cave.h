@@ -1,5 +1,6 @@
 #pragma once
-// A grammar's world, and the chunks around a viewer in the sample cave: what the stages are measured on.
+// The inputs of the benchmarks of pipeline stages: a grammar's world, and the chunks around a viewer in the sample
+// cave.
 
 #include <fstream>
 #include <sstream>
@@ -20,7 +21,7 @@ T must(sgm::Result<T> result) {
   return std::move(*result);
 }
 
-/// path: of a grammar. Cells of half a metre.
+/// Settings of a world with grid cells of 0.5 m. path: file of the grammar.
 inline sgm::WorldFieldSettings settingsOf(const char* path, uint64_t seed) {
   std::ifstream in(path);
   std::stringstream text;

@@ -1,4 +1,5 @@
-// What it takes to keep a chunk on disk, beside what it takes to mesh it: on the cave's chunks around a viewer.
+// Compares the time to store a chunk on disk and read it with the time to mesh it, for the cave's chunks around a
+// viewer.
 
 #include <unistd.h>
 
@@ -25,7 +26,7 @@ std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 using Bytes = std::pmr::vector<std::byte>;
 
-/// The chunks with triangles, of a frame of half-metre cells; prints what meshing takes.
+/// The chunks with triangles in a frame with grid cells of 0.5 m. Prints the time to mesh them.
 std::vector<ChunkRecord> caveChunks(const char* path) {
   const WorldField world(bench::settingsOf(path, 7), heap);
   const auto jobs = must(makeThreadPool(1));
@@ -56,7 +57,7 @@ Bytes plain(const ChunkRecord& record) {
   return bytes;
 }
 
-/// Microseconds a chunk, best of several runs over all.
+/// Microseconds for each chunk, the best of several runs over all chunks.
 template <class Work>
 double each(size_t count, const Work& work) {
   const auto all = [&] {
@@ -91,7 +92,7 @@ void files(const std::vector<ChunkRecord>& records, const std::filesystem::path&
   std::printf("encode and put %.0f us a chunk; get and decode %.0f us\n", put, get);
 }
 
-/// A frame of quarter-metre cells, chunk by chunk as a world asks for them, with and without the cache.
+/// Meshes a frame with grid cells of 0.25 m, chunk by chunk as a world requests them, with and without the cache.
 void throughCache(const char* path, const std::filesystem::path& folder) {
   WorldFieldSettings settings = bench::settingsOf(path, 7);
   settings.finest_cell = kUnitsPerMetre / 4;

@@ -1,6 +1,6 @@
-// What measuring chunks takes beside meshing them, each right after it was meshed, as a streamed world does: on one
-// thread, around a place of a sample grammar, three levels, each chunk with a seam to its coarser neighbour below.
-// Medians over runs.
+// Compares the time to measure chunks with the time to mesh them. Each chunk is measured right after it was meshed, as
+// in a streamed world: on one thread, around a place of a sample grammar, at three levels, each chunk with a seam to
+// its coarser neighbour below. Prints medians over runs.
 //
 //   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
 
@@ -29,7 +29,7 @@ struct Place {
   Int3 at;  ///< metres
   bool sharp;
 };
-constexpr int kAround = 2;  ///< chunks to each side
+constexpr int kAround = 2;  ///< number of chunks on each side of the place
 
 struct Times {
   double meshing = 0, measuring = 0;

@@ -1,7 +1,7 @@
-// How often models are put into the right class: held-out models of every family, of seeds and parameters that no
-// master was made of, and meshes that are nothing but noise, which must be unknown.
+// Measures how often models are classified correctly: models of every family with seeds and parameters from which no
+// reference histogram was made, and meshes of noise, which must be unknown.
 //
-//   sgm_bench_classify [MODELS] [SEED]       so many in all, as many of each class (300); fails below 95 % right
+//   sgm_bench_classify [MODELS] [SEED]       MODELS in all, equally many of each class (300); fails below 95 % correct
 
 #include <cmath>
 #include <cstdio>
@@ -35,8 +35,8 @@ struct Judge {
   std::exit(1);
 }
 
-/// A torus of quadrangles whose points are then moved at random, by up to `most` of an edge's length: closed, and of a
-/// kind that no master is made of.
+/// A torus of quadrangles whose points are moved at random by up to `most` of an edge's length: a closed mesh of a kind
+/// from which no reference histogram is made.
 masters::ModelMesh noise(double edge, double most, unsigned seed) {
   constexpr uint32_t kAround = 96, kAcross = 32;
   std::mt19937 random(seed);

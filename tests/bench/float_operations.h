@@ -1,7 +1,7 @@
 #pragma once
-// How many operations it takes to sample a field: the interpreter once more, with numbers that remember where they come
-// from. What nothing depends on that is kept, a gradient where only the value is wanted, is not counted: compilers drop
-// it, too.
+// Counts the operations of sampling a field. It runs the interpreter with numbers that record how they were computed.
+// Operations on which no used result depends are not counted, for example those of a gradient if only the value is
+// used, because compilers remove them too.
 
 #include <cstdint>
 
@@ -11,13 +11,14 @@ namespace bench {
 
 struct OperationCount {
   uint64_t arithmetic = 0;  ///< additions, subtractions and products of floats
-  uint64_t others = 0;      ///< comparisons, selections, conversions, integers; reads that differ by sample
+  /// Comparisons, selections, conversions, integer operations; memory accesses whose address differs between samples.
+  uint64_t others = 0;
 };
 
-/// Of this thread's calls of the evaluator below, since the last time that this was asked.
+/// The operations of this thread's calls of the counting evaluator, since the last call of this function.
 OperationCount takeOperationCount();
 
-/// As sgm::scalarKernels(), in the same bits; slow.
+/// An evaluator with the same results as sgm::scalarKernels(), bit by bit, that counts operations; slow.
 const sgm::FieldKernels& floatCountingKernels();
 
 }  // namespace bench

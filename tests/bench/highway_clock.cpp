@@ -1,5 +1,5 @@
-// Highway measures its clock by rdtscp as it is loaded, which valgrind refuses where the processor does not announce
-// that instruction. Nothing here reads that clock: this stands in the place of the library's own function.
+// Replaces Highway's function that measures the clock by rdtscp when the library is loaded: valgrind rejects that
+// instruction if the processor does not announce it. Nothing here reads that clock.
 
 #include <cstdint>
 

@@ -1,8 +1,7 @@
-// The work whose instructions are counted (instructions.sh): one chunk of a fixed field, stage by stage, on this
-// thread.
+// The work whose instructions instructions.sh counts: one chunk of a fixed field, stage by stage, on this thread.
 //
 //   sgm_bench_instructions --list            prints the names of the pieces of work
-//   sgm_bench_instructions PATH WORK         does one, PATH being the evaluator: scalar, sse4.2, avx2, avx512
+//   sgm_bench_instructions PATH WORK         does one piece; PATH is the evaluator: scalar, sse4.2, avx2, avx512
 
 #include <cstdio>
 #include <functional>
@@ -21,7 +20,7 @@ using namespace sgm;
 
 constexpr int32_t kCell = 256;  // units
 
-// Forty leaves of several kinds: a smooth group with noise on it, a sum, and loose ones.
+// A field with forty leaf shapes of several kinds: a smooth group with noise on it, a sum, and single shapes.
 GrammarChunk makeField() {
   GrammarChunk chunk;
   PathKey key{1};
@@ -81,7 +80,7 @@ GrammarChunk makeField() {
   return chunk;
 }
 
-/// This thread alone.
+/// A job system without threads other than the caller's.
 struct Alone final : JobSystem {
   unsigned concurrency() const override { return 1; }
   void submit(void (*function)(void*), void* argument, int) override { function(argument); }
@@ -159,7 +158,7 @@ struct Work {
     mesh_kernels->polygonize(samples, grid, true, scratch.mesh, part);
     mesh_kernels->hash(part);
   }
-  /// As a backend does: from a compiled program to a chunk's mesh.
+  /// Does the same as a backend: makes a chunk's mesh from a compiled program.
   void meshWhole() {
     ChunkJob job;
     job.grid = grid;
@@ -168,7 +167,7 @@ struct Work {
     meshChunk({*kernels, *mesh_kernels}, job, scratch, made);
     part = std::move(made.body);
   }
-  /// A caller's grid of floats, with normals.
+  /// Meshes a caller's grid of floats, with normals.
   void meshGrid() {
     constexpr size_t side = kChunkSamples;
     std::vector<float> values(samples.q.size());
@@ -194,7 +193,7 @@ const std::map<std::string, Piece> kWork = {
 
 }  // namespace
 
-// What valgrind counts, by this name.
+// Valgrind counts the instructions of the function with this name.
 extern "C" __attribute__((noinline)) void measured(const Piece& piece, Work& on) { piece(on); }
 
 int main(int argc, char** argv) {

@@ -1,10 +1,10 @@
-// The CUDA kernels alone: from programs that lie on the GPU to meshes that lie there.
+// Benchmarks the CUDA kernels alone: from programs in GPU memory to meshes in GPU memory.
 //
 //   sgm_bench_kernels [GRAMMAR [CELL_UNITS]]
 //
-// Loads: 256 chunks with a surface, from around a viewer in the sample cave, and as many in each of several batches at
-// one time, as worlds give them to a device; the cubes of 64^3 and 256^3 cells about that viewer. Each is meshed over
-// and over by launches alone. Where the meshes of a load differ from the CPU's it fails.
+// Loads: 256 chunks with a surface around a viewer in the sample cave, alone and in several concurrent batches as
+// worlds submit them; cubes of 64^3 and 256^3 cells around that viewer. Each load is meshed repeatedly by launches
+// alone. Fails if the meshes of a load differ from the CPU's.
 
 #include <algorithm>
 #include <cstdio>
@@ -34,15 +34,15 @@ void check(const Result<void>& result) {
   if (!result) throw std::runtime_error(result.error().message);
 }
 
-/// Chunks to mesh, and what the CPU makes of them.
+/// Chunks to mesh, and the CPU's results for them.
 struct Load {
   std::string name;
   std::vector<ChunkJob> jobs;
-  size_t distinct = 0;  ///< the first so many, after which they come again
+  size_t distinct = 0;  ///< number of different chunks; the list then repeats them
   size_t with_surface = 0, vertices = 0, indices = 0;
-  uint64_t fields = 0;  ///< instructions of pruned programs, a sample each
+  uint64_t fields = 0;  ///< instructions of the pruned programs, each counted once for each sample
   bench::OperationCount floats;
-  ContentHash hash;  ///< sums of all parts'
+  ContentHash hash;  ///< sum of the hashes of all parts
 
   void add(const ChunkMesh& mesh) {
     const auto addPart = [this](const MeshPart& part) {
@@ -63,7 +63,7 @@ ChunkMesh meshOnCpu(const FieldKernels& kernels, const ChunkJob& job, ChunkScrat
   return mesh;
 }
 
-/// Meshes it on the CPU, and counts what that takes.
+/// Meshes the load on the CPU, and counts the operations.
 void finish(Load& load) {
   bench::takeOperationCount();
   ChunkScratch scratch(heap);
@@ -113,7 +113,7 @@ Load cubeLoad(const WorldField& world, int cells) {
   return load;
 }
 
-/// The batches of a load, with their programs on the device.
+/// The batches of a load, with their programs in GPU memory.
 class Resident {
  public:
   Resident(cuda::Device& device, const cuda::Room& room, const Load& load)
@@ -128,7 +128,7 @@ class Resident {
     }
   }
 
-  /// All kernels of all batches, `repeats` times, a batch's one after the other as its stream has them.
+  /// Launches all kernels of all batches `repeats` times. The kernels of a batch run in order, in its stream.
   void run(int repeats) {
     for (int i = 0; i < repeats; ++i) {
       for (const auto& part : parts_) {
@@ -139,7 +139,7 @@ class Resident {
     for (const auto& part : parts_) check(part->memory.stream->wait());
   }
 
-  /// Each kernel by itself, waited for: the time of launching and waiting is in it.
+  /// The time of each kernel by itself, including launching and waiting.
   std::vector<double> eachKernel() {
     std::vector<double> times(static_cast<size_t>(cuda::Kernel::count));
     for (const auto& part : parts_) {
@@ -156,7 +156,7 @@ class Resident {
     return times;
   }
 
-  /// With the way there and back. Sums the parts' hashes.
+  /// Meshes the load including uploads and downloads. Returns the sum of the parts' hashes.
   ContentHash whole() {
     ContentHash hash;
     for (const auto& part : parts_) check(mesher_->submit(part->plan, part->memory));
@@ -183,7 +183,7 @@ class Resident {
   std::vector<std::unique_ptr<Part>> parts_;
 };
 
-/// Bytes a second that a copy from the device's memory to itself reads and writes.
+/// Bytes per second that a copy within the device's memory reads and writes.
 double copyBandwidth(cuda::Device& device) {
   const auto stream = must(device.makeStream());
   const size_t bytes = std::min<uint64_t>(device.info().memory / 8, size_t{1} << 30);
@@ -197,7 +197,7 @@ double copyBandwidth(cuda::Device& device) {
   return 2e3 * static_cast<double>(bytes) / bench::timed(kWarm, kRuns, copy).least;
 }
 
-/// Milliseconds that it takes to give the device next to nothing, and to wait for it.
+/// Milliseconds to submit almost no work to the device, and to wait for it.
 double leastWait(cuda::Device& device) {
   const auto stream = must(device.makeStream());
   cuda::Memory some;
@@ -209,7 +209,8 @@ double leastWait(cuda::Device& device) {
   return bench::timed(kWarm, 100, clear).median;
 }
 
-/// Additions, subtractions or products a second at most: the contract forbids the fused ones that makers count double.
+/// Maximum number of additions, subtractions or products per second: the arithmetic contract forbids fused operations,
+/// which manufacturers count as two.
 double floatRate(const cuda::DeviceInfo& info) {
   const int capability = 10 * info.capability_major + info.capability_minor;
   const double lanes = capability < 86 ? 64 : 128;  // of a multiprocessor, in single precision
@@ -221,8 +222,8 @@ constexpr const char* kKernelNames[] = {
     "seam vertices", "list cells", "body triangles",   "seam triangles",  "sums"};
 static_assert(std::size(kKernelNames) == static_cast<size_t>(cuda::Kernel::count));
 
-/// What meshing cannot do without: samples read once and indices written, and beside vertices' normals, which are the
-/// field's once more, their packed bytes.
+/// Bytes that meshing must transfer at least: samples, read once, and indices, written once; with `vertices` also the
+/// packed bytes of vertices, without their normals, which need the field again.
 double meshingBytes(const Load& load, bool vertices) {
   return static_cast<double>(load.jobs.size() * cuda::kSamples * sizeof(int32_t) + load.indices * sizeof(uint32_t) +
                              (vertices ? load.vertices * sizeof(Vertex) : 0));

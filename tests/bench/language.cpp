@@ -1,5 +1,5 @@
-// What the language costs: compiling a grammar of 2,000 lines, deriving a city, block by block, and filling lattices
-// with tiles.
+// Measures costs of the grammar language: compiling a grammar of 2,000 lines, deriving a city block by block, and
+// filling lattices with tiles.
 //
 //   sgm_bench_language CITY.sgm [RUNS]
 
@@ -19,14 +19,15 @@ namespace {
 
 using namespace sgm;
 
-constexpr int kHouses = 330;  // of six lines each
+constexpr int kHouses = 330;  // number of rules, each of six lines
 
 int fail(const std::string& message) {
   std::fprintf(stderr, "sgm_bench_language: %s\n", message.c_str());
   return 1;
 }
 
-/// Houses with guards, weights, displacements, cuts, loops and labels, each with two heads, and a street of them all.
+/// A grammar of houses with guards, weights, displacements, cuts, loops and labels, each with two alternatives, and a
+/// street of all houses.
 std::string longGrammar() {
   const auto number = [](int i) { return std::to_string(i); };
   std::string text =
@@ -48,7 +49,7 @@ std::string longGrammar() {
   return text;
 }
 
-/// Castles without what stands in their tiles, 12 of them, in cells of 16 by 4 by 16 places.
+/// A grammar of castles with empty tiles: 12 tiles, in grammar cells of 16 by 4 by 16 places.
 const char* const kCastles = R"(sgm 1;
 domain infinite axes xz;
 layer castles cell 96m reach 96m { start Castle; }
@@ -72,9 +73,9 @@ rule Castle {
 )";
 constexpr double kPlaces = 16 * 4 * 16;
 
-constexpr int32_t kBlocks = 4;  // along each axis
+constexpr int32_t kBlocks = 4;  // blocks along each axis
 
-/// What 4 by 4 cells of every layer come to.
+/// The result of deriving 4 by 4 grammar cells of every layer.
 struct Derived {
   bench::Times times;
   size_t shapes = 0, bytes = 0;

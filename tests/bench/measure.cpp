@@ -10,7 +10,8 @@
 namespace bench {
 namespace {
 
-// An edge in a face of the cube that is meshed is open by right: the surface goes on outside.
+// Whether an edge lies on an outer face of the meshed cube. Such an edge may be open, since the surface continues
+// outside.
 bool inOuterFace(const float* a, const float* b, double extent) {
   for (int axis = 0; axis < 3; ++axis) {
     const double p = a[axis], q = b[axis];

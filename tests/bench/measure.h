@@ -1,5 +1,5 @@
 #pragma once
-// What two meshes of one surface are compared by, and what a row of the table holds.
+// Measures by which meshes of the same surface are compared, and the times in a row of the table.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bench {
 
-/// A mesh in floats in cells of the grid: x y z a vertex, three indices a triangle.
+/// A mesh with float positions in units of a grid cell: x y z for each vertex, three indices for each triangle.
 struct Mesh {
   std::vector<float> positions;
   std::vector<uint32_t> indices;
@@ -17,35 +17,35 @@ struct Mesh {
 struct Shape {
   size_t vertices = 0, triangles = 0;
   double area = 0;        ///< square cells
-  size_t open_edges = 0;  ///< directed edges without their opposite, but for those in the cube's outer faces
-  long euler = 0;         ///< vertices that triangles use, less edges, plus triangles
+  size_t open_edges = 0;  ///< directed edges without an opposite edge, except those on the cube's outer faces
+  long euler = 0;         ///< Euler characteristic: used vertices - edges + triangles
 };
 
-/// extent: cells on an edge of the cube that the mesh lies in.
+/// extent: edge of the cube that contains the mesh, in grid cells.
 Shape measure(const Mesh& mesh, double extent);
 
 struct Times {
   double median = 0, least = 0, most = 0;  ///< milliseconds
   int runs = 0;
-  double processor = 0;  ///< time of all threads by the clock's, over all runs; of timed() alone
+  double processor = 0;  ///< set by timed() alone: processor time of all threads divided by wall time, over all runs
 };
 
-/// Milliseconds of processor time that this process's threads have taken.
+/// Milliseconds of processor time that all threads of this process have used.
 double processorTime();
 
-/// Most memory that this process has had resident, MB.
+/// Peak resident memory of this process, MB.
 double peakMemory();
 
-/// `runs` timed calls of work after `warm_up` untimed ones.
+/// Calls work `warm_up` times without and then `runs` times with time measurement.
 template <class Work>
 Times timed(int warm_up, int runs, Work&& work);
 
-/// Milliseconds of a clock that never steps back.
+/// Milliseconds of a monotonic clock.
 double now();
 
 Times statistics(std::vector<double> milliseconds);
 
-/// Keeps this process on the first `threads` processors that it may use, so that a row says what it claims.
+/// Restricts this process to the first `threads` processors that it may use, so that a row really measures that number.
 void pin(int threads);
 
 template <class Work>

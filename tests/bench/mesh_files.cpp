@@ -1,6 +1,6 @@
-// What it takes to read files of triangles: time on one core, and memory beyond the file's own bytes. The first time,
-// memory comes from the system, which on a virtual machine may take longer than the reading ("of memory": so much of
-// it, touched by itself); later it is at hand.
+// Measures reading mesh files: time on one core, and memory beyond the file's own bytes. In the first run, memory comes
+// from the system, which on a virtual machine may take longer than the reading (the column "of memory" is the time to
+// touch that much memory); later the allocator has it.
 //
 //   sgm_bench_mesh_files [TRIANGLES [RUNS]]
 
@@ -48,7 +48,7 @@ namespace {
 
 using namespace sgm;
 
-/// A bumpy torus of `side` by `side` quads, with normals, of four materials.
+/// A bumpy torus of `side` by `side` quadrangles, with normals and four materials.
 WorldMesh bumpyTorus(uint32_t side) {
   WorldMesh mesh;
   for (uint32_t i = 0; i < side * side; ++i) {
@@ -65,7 +65,7 @@ WorldMesh bumpyTorus(uint32_t side) {
   return mesh;
 }
 
-/// The same with points of their own for each triangle, as flat shading has them.
+/// The same mesh with separate points for each triangle, as for flat shading.
 WorldMesh withoutSharedPoints(const WorldMesh& mesh) {
   WorldMesh out;
   for (const uint32_t corner : mesh.indices) {
@@ -76,7 +76,7 @@ WorldMesh withoutSharedPoints(const WorldMesh& mesh) {
   return out;
 }
 
-/// Milliseconds that the system takes to give so much memory for the first time.
+/// Milliseconds that the system needs to provide this much memory for the first time.
 double touched(size_t bytes) {
   malloc_trim(0);
   const double start = bench::now();

@@ -1,8 +1,8 @@
-// What each part of measureMesh() takes for a torus and for the surface of a random field: wall time and processor
-// time, which is the larger where threads share the work, and the smaller where they wait. The first run pays for fresh
-// memory.
+// Measures the time of each part of measureMesh() for a torus and for the surface of a random field: wall time, and
+// processor time, which is larger if threads share the work, and smaller if they wait. The first run includes the time
+// to obtain memory.
 //
-//   sgm_bench_measure [TRIANGLES [THREADS [FILE.glb]]]     FILE.glb: the torus, for sgm measure
+//   sgm_bench_measure [TRIANGLES [THREADS [FILE.glb]]]     FILE.glb: writes the torus for sgm measure
 
 #include <sys/resource.h>
 

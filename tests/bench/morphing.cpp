@@ -1,10 +1,10 @@
-// What morphic rules save: nodes, operations and time of one scene whose shapes are halfway between two, told in
-// several ways.
+// Measures the savings by morphic rules: nodes, operations and time of a scene whose shapes are halfway between two,
+// written in several ways.
 //
 //   sgm_bench_morphing [RUNS]
 //
-// The paper gives 41 operations a point for morphing by operations on both shapes, and 14 where a morphic production
-// collapses them (equations at its section 8): a third.
+// The paper gives 41 operations for each point for morphing by operations on both shapes, and 14 if a morphic
+// production collapses them (equations in its section 8): a third.
 
 #include <cstdio>
 #include <cstdlib>
@@ -24,7 +24,7 @@ using namespace sgm;
 
 struct Way {
   std::string name;
-  std::string body;  ///< rule Body, the shape halfway
+  std::string body;  ///< text of the rule Body, the shape halfway
 };
 
 constexpr const char* kHead =

@@ -1,9 +1,9 @@
-// What streaming from a baked store saves: chunks of the cave, read and derived, in one run.
+// Measures the savings by streaming from a baked store: reads and derives the same chunks of the cave in one run.
 //
 //   sgm_bench_store FOLDER [METRES] [LEVELS] [ADDRESS]
 //
-//   FOLDER   where the store is made, on the disk that is to be measured
-//   ADDRESS  http://...: where a web server shows that folder, which is then read from there
+//   FOLDER   where the store is made, on the disk to be measured
+//   ADDRESS  http://...: URL under which a web server offers that folder; the store is then read from there
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -43,7 +43,8 @@ WorldFieldSettings caveSettings() {
   return settings;
 }
 
-/// Milliseconds of each chunk, one after the other. What is far is looked for before, as in a streamed world.
+/// Milliseconds of each chunk, one after the other. Parts in a store on a server are searched beforehand, as in a
+/// streamed world.
 std::vector<double> meshAll(const ChunkMesher& mesher, const std::vector<ChunkRequest>& requests) {
   std::vector<double> times;
   for (const ChunkRequest& request : requests) {

@@ -1,8 +1,9 @@
-// A device's backend gives the CPU's scalar bytes: every op, random programs, the sample grammars. The same body for
-// every kind of device; which one it is SGM_TEST_MACHINE says, a header that defines TestedMachine.
+// Tests that a device's backend gives the same bytes as the scalar CPU backend: for every operation, random programs,
+// and the sample grammars. The file is compiled for each kind of device; SGM_TEST_MACHINE names the header that defines
+// TestedMachine.
 //
-// One backend for all cases: Vulkan makes pipelines for the instructions that it has met, which takes seconds, so the
-// first batch holds them all.
+// All test cases share one backend: Vulkan makes pipelines for the instructions that it has met, which takes seconds,
+// so the first batch contains all instructions.
 
 #include <algorithm>
 #include <iostream>
@@ -36,7 +37,7 @@ TestedMachine& machine() {
   return one;
 }
 
-/// Whether there is a device, with pipelines of every instruction.
+/// Whether there is a device. Meshes every instruction once, so that all pipelines exist afterwards.
 bool ready() {
   static const bool made = [] {
     if (!machine()) return false;
@@ -52,7 +53,7 @@ struct Seen {
   size_t triangles = 0, in_seams = 0;
 };
 
-/// Meshes the jobs in batches of this size by both.
+/// Meshes the jobs with both backends, in batches of this size, and compares the meshes.
 Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
   Seen seen;
   for (size_t first = 0; first < named.size(); first += batch) {
@@ -70,7 +71,7 @@ Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
   return seen;
 }
 
-/// What of the chunks since then the device has not done.
+/// Checks how many of the chunks since its construction the device has not meshed.
 struct OnDevice {
   BackendCounters before = machine().device().counters();
   uint64_t byCpu() const { return machine().device().counters().on_cpu - before.on_cpu; }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether two backends have made the same of a job, byte by byte, and where they have not.
+// Compares the meshes that two backends have made for the same job, byte by byte, and describes the first difference.
 
 #include <cstring>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// The first word in which two parts differ; empty: they are equal.
+/// Describes the first word in which two parts differ; empty if they are equal.
 inline std::string differenceOf(const MeshPart& expected, const MeshPart& found) {
   const auto count = [](const char* what, size_t a, size_t b) {
     return std::to_string(b) + " " + what + " instead of " + std::to_string(a);
@@ -36,7 +36,8 @@ inline std::string differenceOf(const MeshPart& expected, const MeshPart& found)
   return expected.hash == found.hash ? std::string() : "the hash";
 }
 
-/// The samples that a chunk counts as solid where all have one sign, which the signs, if there are any, must say too.
+/// Whether all samples of a chunk have the same sign, according to the number of solid samples. The signs, if the mesh
+/// has them, must agree.
 inline bool ofOneSign(const ChunkMesh& mesh) {
   constexpr uint64_t kRow = (uint64_t{1} << kChunkSamples) - 1;
   const bool solid = mesh.solid_samples > 0;
@@ -46,8 +47,8 @@ inline bool ofOneSign(const ChunkMesh& mesh) {
   return mesh.solid_samples == (solid ? uint32_t{kChunkCells} * kChunkCells * kChunkCells : 0u);
 }
 
-/// The first thing in which two meshes of one job differ; empty: they are equal. A chunk that one backend proves
-/// uniform another may have sampled, and found to be of one sign: that is no difference.
+/// Describes the first difference between two meshes of one job; empty if they are equal. If one backend proves a chunk
+/// uniform, another may have sampled it and found a single sign: that is not a difference.
 inline std::string differenceOf(const ChunkMesh& expected, const ChunkMesh& found) {
   if (std::string body = differenceOf(expected.body, found.body); !body.empty()) return "body: " + body;
   if (expected.seams.size() != found.seams.size()) return "the count of seams";

@@ -1,4 +1,4 @@
-// One body of comparisons that every backend runs: bytes against the scalar evaluator.
+// Tests that every evaluator gives the same bytes as the scalar evaluator.
 
 #include <cstdlib>
 #include <iostream>
@@ -19,11 +19,12 @@ uint32_t fromEnvironment(const char* name, uint32_t otherwise) {
   return text ? static_cast<uint32_t>(std::strtoul(text, nullptr, 10)) : otherwise;
 }
 uint32_t seedFromEnvironment() { return fromEnvironment("SGM_TEST_SEED", 20'260'101u); }
-// An emulated processor, which is some hundred times slower, takes fewer.
+// An emulated processor is some hundred times slower, so its environment sets smaller numbers.
 uint32_t roundsOfEachOp() { return fromEnvironment("SGM_TEST_ROUNDS", 12); }
 uint32_t randomPrograms() { return fromEnvironment("SGM_TEST_PROGRAMS", sgm::rounds(150)); }
 
-// All that run here, or SGM_TEST_INSTRUCTION_SET alone: where that one is the question, leaving it out is no answer.
+// The evaluators that this machine can run, or only the one that SGM_TEST_INSTRUCTION_SET names; it is an error if that
+// one cannot run.
 std::vector<const FieldKernels*> compared() {
   std::vector<const FieldKernels*> kernels;
   const char* only = std::getenv("SGM_TEST_INSTRUCTION_SET");

@@ -1,4 +1,4 @@
-// The same source of every op as GLSL: one compute shader evaluates random programs, and no bit may differ.
+// Tests the GLSL version of the operations: a compute shader evaluates random programs, and no bit may differ.
 
 #include <bit>
 #include <cstdlib>
@@ -19,7 +19,7 @@ namespace {
 
 bool required() { return std::getenv("SGM_REQUIRE_VULKAN") || std::getenv("SGM_REQUIRE_ALL"); }
 
-// The words of shaders/conformance/field.glsl.
+// The buffers of shaders/conformance/field.glsl, as words.
 struct Packed {
   std::vector<uint32_t> instrs, params, groups, points, results;
 };

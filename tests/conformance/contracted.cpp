@@ -1,4 +1,4 @@
-// The scalar evaluator once more, compiled as the arithmetic contract forbids: with contraction into fma.
+// Compiles the scalar evaluator as the arithmetic contract forbids: with contraction into fused operations.
 
 #include <cstdint>
 #include <cstring>

@@ -1,11 +1,11 @@
 #pragma once
-// What the conformance suite must be able to catch.
+// Evaluators with fused multiply-add, which the conformance suite must detect as different.
 
 #include "field/evaluate.h"
 
 namespace sgm {
 
-/// Compiled with -ffp-contract=fast for a processor with fma: run it only on one.
+/// These kernels are compiled with -ffp-contract=fast for processors with FMA: call them only on such a processor.
 const FieldKernels& contractedKernels();
 
 }  // namespace sgm

@@ -1,4 +1,5 @@
-// A build with contraction on must fail the conformance suite: else the suite proves nothing.
+// Tests the conformance suite itself: a build with contraction must fail it, since otherwise the suite would prove
+// nothing.
 
 #include <iostream>
 

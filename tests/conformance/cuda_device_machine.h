@@ -1,5 +1,5 @@
 #pragma once
-// The CUDA backend on a GPU of this machine, and the CPU backend that it is compared with.
+// The CUDA backend on a GPU of this machine, and the CPU backend with which it is compared.
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +13,7 @@
 
 namespace sgm {
 
-/// Where there is no GPU the whole program is skipped, as status 77 tells, unless SGM_REQUIRE_CUDA forbids it.
+/// If there is no GPU, the whole program is skipped with exit status 77, unless SGM_REQUIRE_CUDA forbids that.
 struct CudaDeviceMachine {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
@@ -38,7 +38,7 @@ struct CudaDeviceMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  bool silent() const { return true; }  ///< what the driver finds wrong makes a batch fail
+  bool silent() const { return true; }  ///< always true: errors that the driver detects make a batch fail
 };
 
 using TestedMachine = CudaDeviceMachine;

@@ -1,5 +1,5 @@
 #pragma once
-// The CUDA backend with its kernels on the CPU, and the CPU backend that it is compared with.
+// The CUDA backend with its kernels running on the CPU, and the CPU backend with which it is compared.
 
 #include <memory>
 #include <vector>
@@ -35,7 +35,7 @@ struct CudaMachine {
 
   static constexpr bool kAnyPrism = true;
   Backend& device() const { return *cuda; }
-  /// There is no validation layer; the driver's own checks need the GPU.
+  /// Always true: CUDA has no validation layer, and the driver's own checks need a GPU.
   bool silent() const { return true; }
 
   static cuda::HostDeviceOptions shuffled() {

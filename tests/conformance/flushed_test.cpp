@@ -1,5 +1,5 @@
-// A game's threads often run with denormals flushed to zero, and Vulkan devices may without saying so: no bit may
-// depend on it (arithmetic contract, rule 3).
+// Tests that no bit depends on the treatment of denormals (arithmetic contract, runtime/README.md): threads of games
+// often flush them to zero, and Vulkan devices may do so without reporting it.
 
 #include <xmmintrin.h>
 
@@ -11,7 +11,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr unsigned kFlushAll = 0x8040;  // FTZ and DAZ of MXCSR
+constexpr unsigned kFlushAll = 0x8040;  // the flags FTZ and DAZ of the register MXCSR
 
 bool flushes() {
   volatile float small = 1e-30f;
@@ -19,7 +19,8 @@ bool flushes() {
   return product == 0.0f;
 }
 
-// Around, and on the axes of each primitive's centre: there alone the tiny entries of a frame's rows matter.
+// Random points, and points on the axes through each primitive's centre: only there the tiny entries of a frame's rows
+// matter.
 PointSet pointsFor(const FieldProgram& program, std::mt19937& random, Int3 centre) {
   PointSet points = randomPoints(random, centre, 20'000, 100);
   size_t primitives = 0;

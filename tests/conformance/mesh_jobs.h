@@ -1,5 +1,6 @@
 #pragma once
-// Jobs over every op and over random programs, near the origin and near the world's end: what backends are compared on.
+// Jobs with every operation and with random programs, near the origin and near the world's end, on which backends are
+// compared.
 
 #include <memory>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace sgm {
 
-/// A job and what to call it where it differs.
+/// A job, and its name in messages about differences.
 struct NamedJob {
   ChunkJob job;
   std::string name;
@@ -23,7 +24,8 @@ inline std::shared_ptr<const FieldProgram> shared(FieldProgram program) {
   return std::make_shared<FieldProgram>(std::move(program));
 }
 
-/// The chunk of this cell with the place in its midst, on the grid of the level above too.
+/// The chunk with this cell size that contains the place in its middle, aligned to the grid of the next coarser level
+/// too.
 inline ChunkGrid gridAround(Int3 place, int32_t cell) {
   ChunkGrid grid{{}, cell, 0};
   const int64_t step = 2 * int64_t{cell};
@@ -34,7 +36,8 @@ inline ChunkGrid gridAround(Int3 place, int32_t cell) {
   return grid;
 }
 
-/// A layer that adds and cuts, and a smooth one above it: what no program of one op holds.
+/// A program with a layer that adds and cuts, and a smooth layer above it, which programs of a single operation do not
+/// contain.
 inline FieldProgram layered(Int3 centre) {
   constexpr float kMetre = kUnitsPerMetre;
   ProgramBuilder b(512, false, makeLabel(1, 0));
@@ -49,7 +52,7 @@ inline FieldProgram layered(Int3 centre) {
   return b.finish();
 }
 
-/// Every op, `often` times, each in a chunk of its own: at a place and of a cell that change from one to the next.
+/// For every operation, `often` jobs with one chunk each, at places and cell sizes that differ from job to job.
 inline std::vector<NamedJob> jobsOfEveryOp(uint32_t seed, uint32_t often) {
   std::vector<NamedJob> jobs;
   for (uint32_t round = 0; round < often; ++round) {
@@ -72,7 +75,7 @@ inline std::vector<NamedJob> jobsOfEveryOp(uint32_t seed, uint32_t often) {
   return jobs;
 }
 
-/// A random program with seams on random faces to another one, everything that a job may ask for asked for at random.
+/// A job with a random program, with seams on random faces to another random program, and with random request flags.
 inline NamedJob randomJob(uint32_t seed, int depth) {
   std::mt19937 random(seed);
   RandomProgramOptions options;
@@ -95,7 +98,7 @@ inline NamedJob randomJob(uint32_t seed, int depth) {
   return named;
 }
 
-/// By one batch that is waited for.
+/// Submits the jobs as one batch, and waits for their meshes.
 inline std::vector<ChunkMesh> meshesOf(Backend& backend, const std::vector<ChunkJob>& jobs) {
   Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
   REQUIRE(batch);

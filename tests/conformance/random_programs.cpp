@@ -17,8 +17,8 @@ uint32_t randomLabel(std::mt19937& random) {
   return makeLabel(material, tag);
 }
 
-// Every draw is a statement, an initialiser in braces or the only draw among a call's arguments: the order of arguments
-// is the compiler's, and one seed must mean one program everywhere.
+// Every random draw is a statement of its own, an initialiser in braces, or the only draw among a call's arguments: the
+// compiler chooses the order in which arguments are evaluated, and a seed must give the same program everywhere.
 class Generator {
  public:
   Generator(std::mt19937& random, Int3 centre, int32_t extent, int32_t finest_cell, bool solid, uint32_t domain,

@@ -7,7 +7,7 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMaxPushBytes = 128;  // what every Vulkan device has
+constexpr size_t kMaxPushBytes = 128;  // the minimum that Vulkan guarantees
 
 Result<void> checkBuffers(const VulkanDevice& device, std::span<const ComputeBuffer> buffers) {
   for (const ComputeBuffer& buffer : buffers) {

@@ -1,5 +1,5 @@
 #pragma once
-// A Vulkan backend whose device the validation layer watches, and the CPU backend that it is compared with.
+// A Vulkan backend whose device the validation layer checks, and the CPU backend with which it is compared.
 
 #include <cstdio>
 #include <cstdlib>
@@ -16,24 +16,25 @@
 
 namespace sgm {
 
-/// Software devices count too. All of its tests end with CHECK(machine.silent()).
+/// Software devices are accepted too. All tests with it end with CHECK(machine.silent()).
 struct VulkanMachine {
   std::shared_ptr<vulkan::MessageLog> log = std::make_shared<vulkan::MessageLog>();
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
-  std::unique_ptr<Backend> vulkan;  ///< null, after saying so, where this machine has no usable device
+  std::unique_ptr<Backend> vulkan;  ///< null, after printing the reason, if this machine has no usable device
 
-  std::vector<std::string> warnings;  ///< of the Vulkan backend
+  std::vector<std::string> warnings;  ///< warnings of the Vulkan backend
 
-  static constexpr bool kAnyPrism = false;  ///< a shader's window holds few corners
+  /// A shader's window holds few corners, so not every prism can be meshed on the device.
+  static constexpr bool kAnyPrism = false;
   Backend& device() const { return *vulkan; }
 
   using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
 
-  /// open: instead of a device of our own that the layer watches.
+  /// open: opens the device to use; null: a device of our own, which the validation layer checks.
   explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr)
       : VulkanMachine(optionsOf(room, open)) {}
-  /// Where options.open is null: as above.
+  /// If options.open is null, opens a device of our own, which the validation layer checks.
   explicit VulkanMachine(VulkanBackendOptions options) {
     options.warn = [this](const std::string& text) { warnings.push_back(text); };
     if (!options.open) options.open = [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
@@ -69,7 +70,7 @@ struct VulkanMachine {
     return device;
   }
 
-  /// Whether the validation layer has had nothing to say.
+  /// Whether the validation layer has reported nothing.
   bool silent() const { return silent(log->texts()); }
   static bool silent(const std::vector<std::string>& texts) {
     for (const std::string& text : texts) UNSCOPED_INFO(text);

@@ -1,5 +1,5 @@
-// The mesher's shaders under GPU-assisted validation, which puts a check before each of their accesses: none reaches
-// beyond its buffer. That the layer would say so is tested beside the device (tests/unit/vulkan).
+// Runs the mesher's shaders under GPU-assisted validation, which checks each of their memory accesses: none may exceed
+// its buffer. Another test shows that the layer would report such an access (tests/unit/vulkan).
 
 #include "catch.h"
 #include "compare_meshes.h"
@@ -10,8 +10,8 @@ using namespace sgm;
 
 namespace {
 
-/// Two layers of spheres that add, cut and blend, some with seams to others, some to none. Few kinds of instructions:
-/// each is compiled with its checks.
+/// Jobs with two layers of spheres that add, cut and blend, some with seams to others. They use few kinds of
+/// instructions, because each is compiled with its checks.
 std::vector<ChunkJob> layeredBalls(uint32_t seed, size_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;

@@ -1,4 +1,4 @@
-// A consumer in C++: the header as C++, and an error that comes back as a value.
+// A consumer in C++: includes the header as C++, and receives an error as a value.
 #include <sgm/sgm.h>
 
 #include <cstdio>

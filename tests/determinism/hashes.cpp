@@ -1,11 +1,11 @@
-// Hashes of fixed pieces of the grammars that figures are compared by, over builds and machines.
+// Prints or checks hashes of fixed pieces of grammars, to compare builds and machines.
 //
 //   sgm_hashes GRAMMARS GOLDEN [--record | --threads N [--first]]
 //
-// Each line of GOLDEN is: grammar seed cell level x y z edge [sharp] hash. The cube's lowest corner and its edge are in
-// chunks of that level, cells in units. Every piece is meshed with 1, 2 and 8 threads, or with N alone; with --first of
-// each grammar the first piece alone.
-// --record writes the hashes of today.
+// Each line of GOLDEN is: grammar seed cell level x y z edge [sharp] hash. x y z is the cube's lowest corner; corner
+// and edge are in chunks of that level, cell is in units. Every piece is meshed with 1, 2 and 8 threads, or with N
+// only; with --first only the first piece of each grammar.
+// --record writes the current hashes.
 
 #include <sgm/sgm.h>
 
@@ -36,7 +36,7 @@ void check(sgm_result result, const sgm_error& error, const Piece& piece) {
                            ": " + sgm_result_name(result) + ": " + error.message);
 }
 
-// What meshed the pieces: a set that this processor lacks has not been compared.
+// The instruction set that has meshed the pieces: sets that this processor lacks are not compared.
 std::string instructionSet() {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc with = SGM_RUNTIME_DESC_INIT;

@@ -1,5 +1,5 @@
-// Grammars that compile, derived: it must end within its caps, without undefined behaviour, and what is proven of reach
-// must hold. The first two bytes choose the seed and the cell; the rest is the text.
+// Compiles and derives grammars of arbitrary text: derivation must end within its limits without undefined behaviour,
+// and the proven reach must hold. The first two bytes choose the seed and the grammar cell; the rest is the text.
 
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Rock above the height 0.
+/// A lower layer with rock above the height 0.
 class Ceiling : public sgm::LowerLayers {
  public:
   bool solid(uint32_t, sgm::Int3 p) const override { return p.y >= 0; }

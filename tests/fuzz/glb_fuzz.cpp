@@ -1,4 +1,5 @@
-// Any bytes as an asset: read, closed, fitted and taken apart, or refused with a message.
+// Reads arbitrary bytes as an asset: it must be read, closed, fitted and divided into convex pieces, or rejected with a
+// message.
 
 #include <cstddef>
 #include <cstdint>

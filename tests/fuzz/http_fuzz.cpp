@@ -1,5 +1,5 @@
-// Any bytes as what a client sends, cut into pieces as the first four bytes say: read, or refused with a status, and
-// the same in one piece, in these, and byte by byte.
+// Parses arbitrary bytes as a client's request, in pieces whose sizes the first four bytes choose: the result must be a
+// request or a rejection with a status, and the same for one piece, these pieces, and single bytes.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The masters that a client may put: whatever the text, it is refused, or a set that a base may hold.
+// Parses arbitrary text as reference histograms that a client uploads: it must be rejected, or give a set that the
+// database can store.
 
 #include <cmath>
 #include <cstdlib>

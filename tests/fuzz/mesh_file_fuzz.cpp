@@ -1,4 +1,5 @@
-// Any bytes as a file of triangles, of the kind that the first byte says: read, or refused with a message.
+// Reads arbitrary bytes as a mesh file, in the format that the first byte chooses: it must be read, or rejected with a
+// message.
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The language on hostile text: it must end, within its caps, without undefined behaviour, and printing what parses
-// must be a fixed point that keeps the meaning.
+// Compiles arbitrary text: the compiler must end within its limits without undefined behaviour, and printing a parsed
+// text must be a fixed point that keeps the meaning.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Every import is the text itself again: circles, depth and count caps are met on the way.
+/// Every import resolves to the text itself, so that cycles and the limits of depth and number are reached.
 class SameText : public sgm::ImportResolver {
  public:
   explicit SameText(std::string_view text) : text_(text) {}

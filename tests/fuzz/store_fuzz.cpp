@@ -1,5 +1,5 @@
-// Files of a store that were written by whoever: each is made well first, then changed as the input says, and its
-// checksums mended, so that what reads it gets further than these.
+// Reads files of a store with arbitrary contents: each file is first made correctly, then changed according to the
+// input, and its checksums are corrected, so that readers do not stop at the checksums.
 
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr size_t kMostChanges = 12;
 
-/// Numbers of the input, 0 where it has ended.
+/// Reads numbers from the input; 0 after its end.
 struct Input {
   const uint8_t* at;
   size_t left;
@@ -30,7 +30,7 @@ struct Input {
   }
 };
 
-/// Changes bytes from `first` on, and may cut the end off.
+/// Changes bytes from `first` on, and may truncate the bytes.
 void change(Input& input, std::vector<std::byte>& bytes, size_t first) {
   for (size_t i = 0; i < kMostChanges && input.left > 0 && first < bytes.size(); ++i) {
     const size_t at = first + input.next(3) % (bytes.size() - first);
@@ -110,7 +110,7 @@ struct InMemory final : store::StoredFile {
   }
 };
 
-/// An index of two levels, as it is written.
+/// An index with two levels, in the format of its file.
 std::vector<std::byte> writtenIndex() {
   std::string name = (std::filesystem::temp_directory_path() / "sgm_fuzz_XXXXXX").string();
   require(mkdtemp(name.data()) != nullptr);
@@ -129,7 +129,7 @@ std::vector<std::byte> writtenIndex() {
   return {bytes.begin(), bytes.end()};
 }
 
-/// So that the file's end and directory count as whole, whatever is in them.
+/// Corrects the checksums of the file's end and directory, whatever they contain.
 void mendChecksums(std::vector<std::byte>& bytes) {
   if (bytes.size() < store::kIndexEnd) return;
   const auto put = [&](size_t at, uint64_t number) { std::memcpy(bytes.data() + at, &number, sizeof number); };

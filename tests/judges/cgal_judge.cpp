@@ -1,4 +1,4 @@
-// What CGAL says of the meshes of a file (meshes.h): a line each.
+// Prints CGAL's results for the meshes of a file (meshes.h), one line for each.
 //
 //   sgm_judge_cgal FILE
 
@@ -30,8 +30,8 @@ bool collinear(const Soup& soup, const Corners& t) {
   return CGAL::collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
 }
 
-/// CGAL::Polygon_mesh_processing has none of a soup before 6.0: its rule for two faces (do_faces_intersect), by
-/// numbers.
+/// Whether two triangles of a soup intersect, by the rule of CGAL for two faces of a mesh (do_faces_intersect), applied
+/// to point numbers: before version 6.0, CGAL::Polygon_mesh_processing has no such function for soups.
 bool meet(const Soup& soup, const Corners& a, const Corners& b) {
   const auto point = [&](std::size_t v) { return soup.points[v]; };
   const auto has = [](const Corners& t, std::size_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };

@@ -1,9 +1,9 @@
-// How far CGAL says that the meshes of a file (meshes.h) lie from each other, two by two: a line each, the distance
-// from the mesh to its other one (Hausdorff, one-sided), which is off by no more than ERROR.
+// Prints CGAL's distances between the meshes of a file (meshes.h), which form pairs: for each pair one line with the
+// one-sided Hausdorff distance from the first to the second mesh, with an error of at most ERROR.
 //
 //   sgm_judge_distance ERROR FILE
 
-// The kernel comes first: distance.h looks for functions of it that it does not declare.
+// The kernel must be included first: distance.h uses functions of it without declaring them.
 #include "soup_file.h"
 
 #include <CGAL/Polygon_mesh_processing/distance.h>

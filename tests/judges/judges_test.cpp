@@ -1,4 +1,4 @@
-// Our measures against those of CGAL and of Manifold, which share no line with ours.
+// Compares our measures with those of CGAL and of Manifold, which share no code with ours.
 
 #include <cstdlib>
 #include <map>
@@ -41,8 +41,8 @@ SelfIntersections crossings(const Triangles& mesh) {
   return selfIntersections(mesh, Bvh(mesh, *jobs), uint64_t{1} << 40, *jobs);
 }
 
-/// A region's mesh ends at its border: each loop of it gets a cone, whose tip is its first point moved outward. What is
-/// closed so may cut itself, which area and volume do not mind.
+/// Closes a region's mesh, which ends at the region's border: each border loop gets a cone whose tip is its first point
+/// moved outward. The closed mesh may intersect itself, which does not matter for area and volume.
 void closeBorders(Mesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> sides;
   for (const Triangle& t : mesh.triangles) {
@@ -87,7 +87,7 @@ struct Named {
   Mesh mesh;
 };
 
-/// Five shapes at five densities.
+/// Five shapes, each at five densities.
 const std::vector<Named>& shapes() {
   static const std::vector<Named> all = [] {
     std::vector<Named> made;
@@ -110,7 +110,8 @@ const std::vector<Named>& shapes() {
 
 bool near(double ours, double theirs) { return std::fabs(ours - theirs) <= 1e-5 * std::fabs(theirs); }
 
-/// On a lattice of so few places that corners on edges and common planes are frequent, and with common corners.
+/// Random triangles on a lattice with few places, so that corners on edges, common planes and common corners are
+/// frequent.
 Mesh latticeSoup(std::mt19937& random, uint32_t places, uint32_t triangles) {
   Mesh mesh;
   for (uint32_t i = 0; i < triangles; ++i) {
@@ -129,7 +130,7 @@ Mesh latticeSoup(std::mt19937& random, uint32_t places, uint32_t triangles) {
   return mesh;
 }
 
-/// Triangles anywhere, large ones among small ones.
+/// Random triangles anywhere, large and small.
 Mesh soup(std::mt19937& random, uint32_t triangles) {
   Mesh mesh;
   const auto place = [&](double reach) {
@@ -180,15 +181,16 @@ TEST_CASE("five shapes at five densities have Manifold's area, volume and genus"
   }
 }
 
-// How CGAL 5.5 counts, and where that is not what triangle_pair.h says:
-//  - Triangles without area: CGAL lists each as one that meets itself, and looks no further. Ours meet nothing; the
-//    judge takes these away.
-//  - A triangle and the same one turned over, joined along their edges (a closed surface of two triangles): CGAL looks
-//    at one common edge, and calls it a fold. Ours are duplicates, which checkTriangles() counts.
-//  - CGAL has no count of soups before 6.0, and none of a surface with three triangles at an edge: the judge asks its
-//    predicates of all pairs, sorted by how many corners they share by number. Of a surface both of its counts are
-//    equal but for the second difference, where that rule is ours.
-//  - Points with equal places but different numbers are different: triangles that touch there meet. So it is with both.
+// Differences between the counts of CGAL 5.5 and the rules of triangle_pair.h:
+//  - Triangles without area: CGAL lists each as intersecting itself, and examines it no further. Ours intersect
+//    nothing; the judge removes these from CGAL's list.
+//  - A triangle and its reverse, joined along their edges (a closed surface of two triangles): CGAL examines one common
+//    edge, and reports a fold. Ours are duplicates, which checkTriangles() counts.
+//  - CGAL cannot count in soups before 6.0, nor in a surface with three triangles at an edge: the judge applies CGAL's
+//    predicates to all pairs, according to the number of point indices that they share. For a surface both counts are
+//    equal, except for the second difference, where the judge follows our rule.
+//  - Points with equal positions but different indices are different points: triangles that touch there intersect. This
+//    rule is the same in both.
 TEST_CASE("CGAL counts as many pairs that meet in soups, on a lattice and off it", "[cgal]") {
   JudgedMeshes meshes;
   std::vector<uint64_t> ours;

@@ -1,9 +1,9 @@
 #pragma once
-// Meshes as judges read them, and what judges say.
+// Meshes in the file format of the judges (independent programs that examine meshes), and the judges' results.
 //
-// A file holds meshes one after another: three whole numbers of 32 bits (what is asked: kWeld, kSoup; points;
-// triangles), then the points, three doubles each, then the triangles, three whole numbers of 32 bits each. A judge
-// prints a line a mesh.
+// A file contains meshes one after another: three 32-bit whole numbers (flags kWeld and kSoup; number of points; number
+// of triangles), then the points, three doubles each, then the triangles, three 32-bit whole numbers each. A judge
+// prints one line for each mesh.
 
 #include <array>
 #include <cstdio>
@@ -16,8 +16,9 @@
 
 namespace sgm::measure {
 
-inline constexpr uint32_t kWeld = 1;  ///< points with equal coordinates are one
-inline constexpr uint32_t kSoup = 2;  ///< count the pairs of a mesh that is no surface: all against all
+inline constexpr uint32_t kWeld = 1;  ///< flag: points with equal coordinates count as one point
+/// flag: for a mesh that is not a surface, count intersecting pairs by testing all pairs.
+inline constexpr uint32_t kSoup = 2;
 
 class JudgedMeshes {
  public:
@@ -35,7 +36,7 @@ class JudgedMeshes {
     ++count_;
   }
 
-  /// What the judge says of each; the command gets the file as its last argument.
+  /// Runs the command with the file as its last argument. Returns the judge's results, one for each mesh.
   template <class Verdict>
   std::vector<Verdict> judge(const std::string& command) {
     file_.flush();
@@ -67,12 +68,13 @@ class JudgedMeshes {
 
 struct CgalVerdict {
   bool finite = false, manifold = false, closed = false;
-  /// Of meshes that are closed and do not cut themselves. `outward` judges one part, `bounds` how parts face and nest.
+  /// Set for closed meshes that do not intersect themselves. `outward`: each part encloses its inside; `bounds`: the
+  /// parts are oriented and nested as the boundary of a solid.
   bool outward = false, bounds = false;
   uint64_t components = 0, flat = 0, pairs = 0, soup_pairs = 0;
   double area = 0, volume = 0;
 
-  /// Nothing is the surface of nothing.
+  /// Whether the mesh is the surface of a solid. An empty mesh is valid.
   bool valid() const { return finite && manifold && closed && flat == 0 && pairs == 0 && outward && bounds; }
   friend std::istream& operator>>(std::istream& in, CgalVerdict& v) {
     return in >> v.finite >> v.manifold >> v.closed >> v.outward >> v.bounds >> v.components >> v.flat >> v.pairs >>
@@ -80,7 +82,7 @@ struct CgalVerdict {
   }
 };
 
-/// From the mesh to the other one of its pair.
+/// The Hausdorff distance from the mesh to the other mesh of its pair.
 struct CgalDistance {
   double distance = 0;
 
@@ -98,7 +100,7 @@ struct ManifoldVerdict {
   }
 };
 
-/// The places as a file in single precision has them, which is all that Manifold takes.
+/// The mesh with coordinates rounded to single precision, which is all that Manifold accepts.
 inline Mesh inFloats(const Mesh& mesh) {
   return mesh.moved([](Point p) {
     const auto rounded = [](double v) { return static_cast<double>(static_cast<float>(v)); };

@@ -1,5 +1,5 @@
 #pragma once
-// A navigation mesh as games make it, by Recast and Detour, for one kind of agent.
+// A navigation mesh as games make it, with Recast and Detour, for one kind of agent.
 
 #include <DetourNavMesh.h>
 #include <DetourNavMeshBuilder.h>
@@ -17,15 +17,15 @@
 
 namespace sgm::test {
 
-/// Metres and degrees.
+/// Properties of an agent, in metres and degrees.
 struct Agent {
   float radius = 0.4f, height = 1.8f, climb = 0.4f, slope = 45;
 };
 
-/// Where an agent can walk on a mesh.
+/// The places on a mesh where an agent can walk.
 class Navmesh {
  public:
-  /// Recast's voxels are `cell` metres wide and half as high.
+  /// cell: edge of Recast's voxels in metres; they are half as high.
   Navmesh(const WorldMesh& mesh, const Agent& agent, float cell) {
     std::vector<float> points;
     for (const std::array<double, 3>& p : mesh.positions)
@@ -90,9 +90,9 @@ class Navmesh {
 
   int polygons() const { return polygons_; }
 
-  /// The corners of a way from one of the places to one of the others, metres from the mesh's origin; empty where there
-  /// is none. A place may lie so far above the floor, and aside: it may be the top of a boulder that the agent does not climb,
-  /// which is why there are several.
+  /// The corners of a path from one of the places in `from` to one of those in `to`, in metres from the mesh's origin;
+  /// empty if there is none. A place may lie some distance above the floor or beside it, for example on a boulder that
+  /// the agent cannot climb; several places are passed for that reason.
   std::vector<std::array<double, 3>> way(std::span<const std::array<double, 3>> from,
                                          std::span<const std::array<double, 3>> to) const {
     for (const std::array<double, 3>& start : from) {
@@ -104,7 +104,7 @@ class Navmesh {
     return {};
   }
 
-  /// The place nearest to another that can be reached from a place, to say where a way ends.
+  /// The place nearest to `to` that the agent can reach from `from`, to report where a path ends.
   std::array<double, 3> reached(const std::array<double, 3>& from, const std::array<double, 3>& to) const {
     constexpr int kMost = 4096;
     const dtQueryFilter all;
@@ -120,9 +120,9 @@ class Navmesh {
   }
 
  private:
-  /// The floor next to two places.
+  /// The polygons of the floor next to two places.
   struct Ends {
-    dtPolyRef first = 0, goal = 0;  ///< 0: there is none
+    dtPolyRef first = 0, goal = 0;  ///< 0: there is no floor near that place
     std::array<float, 3> at{}, last{};
 
     Ends(const dtNavMeshQuery& query, const std::array<double, 3>& from, const std::array<double, 3>& to) {

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of a file (meshes.h) as CGAL's programs read them.
+// Reads a file of meshes (meshes.h) for the judges that use CGAL.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -19,7 +19,7 @@ struct Soup {
   std::vector<Corners> triangles;
 };
 
-/// Calls judge(soup) with each. Whether the file ended behind one.
+/// Calls judge(soup) for each mesh. Returns whether the file ended after a complete mesh.
 template <class Judge>
 bool forSoups(std::ifstream& file, Judge&& judge) {
   const auto read = [&file](auto* values, std::size_t count) {

@@ -1,8 +1,8 @@
-// Caves that one can walk through, by a navigation mesh as games make it, and passages that are no pipes.
+// Tests that sample caves are walkable, with a navigation mesh as games make it, and that their passages vary in
+// cross-section.
 //
-//   SGM_WALK_SEEDS=100 test_walk   so many seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: samples with that in
-//   their
-//                                  name alone
+//   SGM_WALK_SEEDS=100 test_walk   tests 100 seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: only samples
+//                                  with "cave" in their names
 
 #include <algorithm>
 #include <chrono>
@@ -23,15 +23,17 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr double kCell = 0.2;  // metres, of the mesh and of Recast's voxels
+constexpr double kCell = 0.2;  // metres, edge of the mesh's grid cells and of Recast's voxels
 
-/// A sample whose halls are connected within a block of so many cells, as its `expect components(air)` says.
+/// A sample whose halls are connected within a block of `cells` grammar cells, according to its `expect
+/// components(air)`.
 struct Walk {
   const char* grammar;
-  int32_t cells;       ///< on an edge of the block: a power of two, which links of a tree connect
-  double far;          ///< metres: halls that lie nearer than that may be neighbours
-  double hall;         ///< metres: so far from a hall's anchor a passage may still be part of it
-  const char* beyond;  ///< the tag of halls that one cannot walk to, beyond a shaft or a sump; "": there are none
+  int32_t cells;  ///< grammar cells along an edge of the block: a power of two, within which links of a tree connect
+  double far;     ///< metres: halls that are nearer to each other may be neighbours
+  double hall;    ///< metres: within this distance of a hall's anchor, a passage may still be part of the hall
+  /// Tag of halls to which nobody can walk, because they lie beyond a shaft or a sump; "": there are none.
+  const char* beyond;
 };
 
 const Walk kWalks[] = {
@@ -64,7 +66,7 @@ std::string placeText(const Point& p) {
   return out.str();
 }
 
-/// Where one may stand in a hall: around its anchor.
+/// Places around a hall's anchor where an agent may stand.
 std::vector<Point> placesAround(const Point& anchor) {
   std::vector<Point> places{anchor};
   for (const double far : {2.0, 4.0}) {
@@ -76,7 +78,7 @@ std::vector<Point> placesAround(const Point& anchor) {
   return places;
 }
 
-/// Points along a way, a metre apart.
+/// Points along a path, one metre apart.
 std::vector<Point> eachMetre(const std::vector<Point>& corners) {
   std::vector<Point> points;
   double left = 0;
@@ -94,8 +96,8 @@ std::vector<Point> eachMetre(const std::vector<Point>& corners) {
   return points;
 }
 
-/// The void's cross-section at a place, square metres: of the part, in the plane across a direction, that is connected
-/// with the place; at most what lies within kFar of it.
+/// Measures cross-sections of the void, in square metres: the connected part around a place in the plane perpendicular
+/// to a direction, within kFar of the place.
 class CrossSections {
  public:
   explicit CrossSections(const WorldField& world) : world_(world) {}
@@ -149,13 +151,13 @@ class CrossSections {
   EvalScratch scratch_;
 };
 
-/// Twenty metres of a way whose cross-sections vary least.
+/// A part of a path, twenty metres long, whose cross-sections vary little.
 struct Window {
-  double variation = 1;       ///< their standard deviation by their mean
-  std::vector<double> areas;  ///< square metres, a metre apart
+  double variation = 1;       ///< standard deviation of the areas divided by their mean
+  std::vector<double> areas;  ///< square metres, at places one metre apart
 };
 
-/// Of all windows of a way between two halls; of what is nearer than `hall` to either end nothing counts.
+/// The part of a path between two halls with the least variation. Places nearer than `hall` to either end do not count.
 Window leastVaried(CrossSections& sections, const std::vector<Point>& way, double hall) {
   constexpr ptrdiff_t kWindow = 20;
   const std::vector<Point> points = eachMetre(way);

@@ -1,2 +1,2 @@
-// Of a program whose headers are compiled ahead (tests/CMakeLists.txt): they are all that there is of it.
+// The only source of a program that exists to precompile headers (tests/CMakeLists.txt).
 int main() { return 0; }

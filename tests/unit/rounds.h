@@ -1,13 +1,13 @@
 #pragma once
-// How often a property is tried on something random.
+// The number of random cases with which a property is tested.
 
 #include <algorithm>
 #include <cstdlib>
 
 namespace sgm {
 
-/// As often as said, and ten times as often in the long run (tests/run.sh --long). Under a sanitizer, which looks for
-/// other faults than the property's and is slow, a fifth of that.
+/// Returns `often`, and ten times as many in the long run (tests/run.sh --long). With a sanitizer, which is slow and
+/// looks for other faults than those of the property, a fifth of that.
 inline unsigned rounds(unsigned often) {
   if (std::getenv("SGM_LONG") != nullptr) often *= 10;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -1,5 +1,6 @@
 #pragma once
-// A machine on which threads do not start. Sanitizers reserve memory of their own with every thread, so not under them.
+// Simulates a machine on which threads cannot be started. Not available with sanitizers, which reserve memory of their
+// own for every thread.
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
@@ -20,11 +21,11 @@
 
 #include "catch.h"
 
-/// While it lives, the address space has room for the stacks of about so many more threads.
+/// During its lifetime, the address space has room for the stacks of about `threads` more threads.
 class ScarceThreads {
  public:
   explicit ScarceThreads(unsigned threads) {
-    // Large stacks: none that glibc has kept of earlier threads will do.
+    // With large stacks, glibc cannot reuse a cached stack of an earlier thread.
     constexpr size_t kStack = size_t{256} << 20;
     pthread_attr_t large;
     REQUIRE(pthread_getattr_default_np(&usual_) == 0);

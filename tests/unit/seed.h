@@ -1,5 +1,5 @@
 #pragma once
-// The seed of a test's random numbers.
+// The seed of the random numbers in a test.
 
 #include <cstdio>
 #include <cstdlib>
@@ -7,9 +7,10 @@
 
 namespace sgm {
 
-/// Returns the same number in every run, so that only a change of the code can make a test fail. The long run
-/// (tests/run.sh --long) draws a new number. SGM_SEED=n repeats a failed run; of a long run, SGM_LONG=1 SGM_SEED=n
-/// does, for rounds() counts more there. The caller prints the number with each failure: CAPTURE(seed).
+/// Returns the same number in every run, so that only a change of the code can make a test fail. In the long run
+/// (tests/run.sh --long) it returns a new number. SGM_SEED=n repeats a failed run; a failure of the long run needs
+/// SGM_LONG=1 SGM_SEED=n, because rounds() is larger there. The caller must print the number with each failure:
+/// CAPTURE(seed).
 inline unsigned testSeed() {
   if (const char* chosen = std::getenv("SGM_SEED")) {
     char* end = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for a test's files, and what they hold.
+// A temporary folder for a test's files, and functions that read them.
 
 #include <cstdlib>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// Ends with its owner, and all that is in it.
+/// A folder that is removed with its contents by the destructor.
 struct TemporaryFolder {
   std::filesystem::path path;
 

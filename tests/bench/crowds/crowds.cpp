@@ -1,14 +1,15 @@
-// Many viewers, many worlds, many edits, small budgets and long flights, through the C interface alone: the rows that
-// streaming.sh has beside the flights of `sgm fly`. Cells of half a metre, two threads: one worker beside the engine's.
+// Benchmarks with many viewers, many worlds, many edits, small budgets and long flights, through the C interface alone.
+// streaming.sh prints these rows together with flights of `sgm fly`. Grid cells of 0.5 m, two threads: one worker and
+// the engine's thread.
 //
 //   crowds GRAMMAR ROW [--seconds S] [--count N] [--rate HZ] [--speed M_S] [--spread M]
 //
-//   walkers   N viewers at 2 m/s: when all of them see cells of at most 4 m within 32 m
-//   worlds    N worlds with a viewer each, updated HZ times a second: chunks meshed and not in vain
-//   fast      4 viewers at 5, 30, 100 and 300 m/s, and 80 edits a second: likewise
-//   budget    two seconds with 65,536 bytes an update, then 1 MiB: when level 0 is there, as without a limit
+//   walkers   N viewers at 2 m/s: the time until all of them see cells of at most 4 m within 32 m
+//   worlds    N worlds with a viewer each, updated HZ times a second: chunks that were meshed and used
+//   fast      4 viewers at 5, 30, 100 and 300 m/s, and 80 edits a second: chunks that were meshed and used
+//   budget    two seconds with 65,536 bytes an update, then 1 MiB: the time until level 0 is drawn, also without limit
 //   walk      a viewer that walks and digs: colliders, and those that replace one with the same bytes
-//   far       a flight over new ground: resident memory after a sixth of it, and the most after that
+//   far       a flight over new ground: resident memory after a sixth of the flight, and its maximum afterwards
 //
 // Prints one line of JSON.
 
@@ -37,7 +38,7 @@ struct Options {
   std::string grammar, row;
   double seconds = 10, rate = 125, speed = 60;
   unsigned count = 0;
-  int32_t spread = 1000;  ///< metres from the origin, on each axis
+  int32_t spread = 1000;  ///< maximum metres from the origin on each axis
 };
 
 void walkers(const Options& options) {

@@ -1,5 +1,5 @@
 #pragma once
-// A small engine around one streamed world, on the C interface alone: it believes nothing but events.
+// A small engine for one streamed world, through the C interface alone: it knows only what the world's events report.
 
 #include <sgm/sgm.h>
 
@@ -29,13 +29,13 @@ using FieldOwner = Owner<sgm_field, sgm_field_destroy>;
 using WorldOwner = Owner<sgm_world, sgm_world_destroy>;
 using MeshOwner = Owner<sgm_mesh, sgm_mesh_release>;
 
-/// Ends the program with the error's message.
+/// If a call has failed, prints the error's message and ends the program.
 void must(sgm_result result, const sgm_error& error);
 
-using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, place
+using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
 using Place = std::array<double, 3>;                         ///< metres
 
-/// Metres from a place to a chunk's box; 0 inside.
+/// Distance in metres from a place to a chunk's box; 0 inside the box.
 double distanceTo(const Key& key, const Place& place, double finest_cell_m);
 
 class Engine {
@@ -43,23 +43,23 @@ class Engine {
   Engine(sgm_field* field, const sgm_world_desc& desc);
 
   void setViewers(std::span<const sgm_viewer> viewers);
-  /// One frame: an update and all of its events.
+  /// One frame: an update, then all of its events.
   void frame(uint64_t max_bytes);
   sgm_world_stats stats() const;
   sgm_world_times times() const;
   sgm_world* world() const { return world_.get(); }
 
-  /// Whether cells of at most `cell` metres are drawn within `radius` metres of a place, and something is. Chunks
-  /// without triangles are never told of: what is coarser shows that one is not there.
+  /// Whether something is drawn within `radius_m` of a place, and all of it has grid cells of at most `cell_m`. No
+  /// events report chunks without triangles, so only the presence of a coarser chunk shows that a finer one is missing.
   bool isDrawn(const Place& place, double radius_m, double cell_m) const;
   size_t countDrawn(int32_t level) const;
 
   struct Counts {
     uint64_t failed = 0;
-    uint64_t most_bytes = 0;       ///< handed over in one frame
-    uint64_t colliders = 0;        ///< handed over
-    uint64_t equal_colliders = 0;  ///< in place of one with the same bytes
-    uint64_t most_colliders = 0;   ///< in one frame
+    uint64_t most_bytes = 0;       ///< maximum number of bytes handed over in one frame
+    uint64_t colliders = 0;        ///< number of colliders handed over
+    uint64_t equal_colliders = 0;  ///< number of colliders that replaced one with the same bytes
+    uint64_t most_colliders = 0;   ///< maximum number of colliders handed over in one frame
   };
   const Counts& counts() const { return counts_; }
 
@@ -70,9 +70,9 @@ class Engine {
   double finest_cell_m_;
   std::map<Key, MeshOwner> meshes_;
   std::set<Key> drawn_;
-  std::map<Key, uint64_t> colliders_;  ///< a hash of their bytes
+  std::map<Key, uint64_t> colliders_;  ///< a hash of each collider's bytes
   Counts counts_;
-  uint64_t bytes_ = 0, frame_colliders_ = 0;  ///< of this frame
+  uint64_t bytes_ = 0, frame_colliders_ = 0;  ///< of the current frame
 };
 
 }  // namespace crowds

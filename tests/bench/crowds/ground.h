@@ -1,5 +1,5 @@
 #pragma once
-// What the rows share: the ground, places in its void, viewers that move, and what jobs came to.
+// Code that the benchmark's rows share: the ground's field, places in its void, moving viewers, and counts of jobs.
 
 #include <algorithm>
 #include <atomic>
@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 inline constexpr uint32_t kSeed = 1;
 
-/// The time that zones of one name took, on all threads.
+/// Total time on all threads of profiler zones with one name.
 struct ZoneTimes {
   static constexpr const char* kPlan = "sgm.plan";
   std::atomic<uint64_t> plan_ns{0};
@@ -86,7 +86,7 @@ inline sgm_world_desc worldDesc() {
   return desc;
 }
 
-/// Places in the void with two metres around them, within `reach` metres of the origin.
+/// Places in the void with two metres of void around them, within `reach_m` metres of the origin.
 inline std::vector<Place> placesInVoid(const Ground& ground, size_t count, int32_t reach_m) {
   std::mt19937 random(kSeed);
   std::vector<Place> places;
@@ -113,7 +113,7 @@ inline std::vector<Place> placesInVoid(const Ground& ground, size_t count, int32
   return places;
 }
 
-/// A viewer that moves on straight ahead, in a plane.
+/// A viewer that moves straight ahead in a horizontal plane.
 struct Mover {
   Place from{};
   double speed = 0, turn = 0;  ///< m/s, radians
@@ -131,7 +131,7 @@ struct Mover {
   }
 };
 
-/// Calls frame(seconds) `rate` times a second; where it is late, the frames that it missed are left out.
+/// Calls frame(seconds) `rate` times a second. If it is late, the missed frames are skipped.
 inline void paced(double seconds, double rate, const std::function<bool(double)>& frame) {
   const Clock::time_point start = Clock::now();
   const auto now = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
@@ -152,7 +152,7 @@ inline void dig(const Engine& engine, const Place& place, double radius_m) {
   must(sgm_world_edit(engine.world(), &brush, nullptr, &error), error);
 }
 
-/// What jobs came to, of all worlds.
+/// Numbers and times of the finished jobs of all worlds.
 struct Work {
   uint64_t meshed = 0, in_vain = 0, plans = 0, seams = 0;
   double mesh_seconds = 0, longest_update = 0;

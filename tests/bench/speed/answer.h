@@ -1,5 +1,5 @@
 #pragma once
-// What every side of the benchmark prints: one line of key=value.
+// The output that every program of the benchmark prints: one line of key=value pairs.
 
 #include <cstdio>
 

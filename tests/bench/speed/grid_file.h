@@ -1,6 +1,6 @@
 #pragma once
-// The same samples for every program: a grid as a file. Four int32 (samples on x, y, z; 0), then float32, x fastest, in
-// cells, negative inside the solid.
+// Reads and writes samples on a grid as a file, so that every program meshes the same samples. The file has four int32
+// (numbers of samples on x, y, z; 0), then float32 values in units of a cell, x fastest, negative inside the solid.
 
 #include <cstdint>
 #include <fstream>

@@ -1,8 +1,9 @@
-// What this machine can do, measured in the same run as everything else: the floors that ratios are printed beside.
+// Measures what this machine can do at most, in the same run as the benchmarks, so that their times can be compared
+// with it.
 //
 //   sgm_bench_machine signs GRID THREADS RUNS     a pass that reads every sample's sign
-//   sgm_bench_machine output BYTES THREADS RUNS   writing so many bytes once
-//   sgm_bench_machine float THREADS RUNS          products and sums without fused ones, as the contract has them
+//   sgm_bench_machine output BYTES THREADS RUNS   writing BYTES bytes once
+//   sgm_bench_machine float THREADS RUNS          products and sums without fused operations, as the contract requires
 //   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs
 
 #include <atomic>
@@ -22,7 +23,7 @@ namespace {
 
 using namespace bench;
 
-/// work(first, last) for equal shares of 0..count, each on a thread of its own, the caller's among them.
+/// Calls work(first, last) for equal parts of 0..count, each on a thread of its own, among them the caller's.
 template <class Work>
 void shared(int threads, size_t count, const Work& work) {
   std::vector<std::thread> others;
@@ -52,7 +53,7 @@ Times output(size_t bytes, int threads, int runs) {
   });
 }
 
-constexpr size_t kChains = 128;  // independent ones, so that no operation waits for another
+constexpr size_t kChains = 128;  // number of independent chains of operations, so that no operation waits for another
 constexpr size_t kRounds = 200000;
 
 Times floats(int threads, int runs) {
@@ -70,8 +71,8 @@ Times floats(int threads, int runs) {
   });
 }
 
-/// The scene blobs as somebody would write it who knows it: the sum of (1 - d^2 / R^2)^3 within R = 2 r of each blob,
-/// whose surface lies at r where it is alone. In cells, the centres from the cube's middle.
+/// The scene blobs as a program written for it would compute it: the sum of (1 - d^2 / R^2)^3 over the blobs within R =
+/// 2 r, so that a single blob's surface lies at r. Centres are relative to the cube's middle, in units of a cell.
 struct Blobs {
   std::vector<float> x, y, z, scale;  ///< scale: 1 / R^2
 };
@@ -89,7 +90,7 @@ Blobs blobsIn(int cells) {
   return blobs;
 }
 
-/// N samples of a row, from x on, all in registers while the blobs pass by.
+/// Computes N samples of a row, from x on. They stay in registers while the loop runs over the blobs.
 template <size_t N>
 void samplesOf(const Blobs& blobs, float x, float y, float z, float* out) {
   float place[N], sum[N];

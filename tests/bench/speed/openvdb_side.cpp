@@ -1,4 +1,5 @@
-// OpenVDB's volumeToMesh on a grid from a file. Building its sparse grid from the samples is not in the time.
+// Benchmarks OpenVDB's volumeToMesh on a grid from a file. The time to build its sparse grid from the samples is not
+// included.
 //
 //   sgm_bench_openvdb GRID THREADS RUNS
 

@@ -1,14 +1,15 @@
-// Our side of the benchmark, one stage a process: speed.mjs runs it beside the peers. See ../README.md.
+// Benchmarks our library, one stage in each process; speed.mjs runs it together with the other programs. See
+// ../README.md.
 //
-//   sgm_bench_ours write SCENE CELLS FILE            the scene's samples, for every side
+//   sgm_bench_ours write SCENE CELLS FILE            writes the scene's samples, for all programs
 //   sgm_bench_ours grid FILE THREADS RUNS            sgm_surface_from_grid, with normals
-//   sgm_bench_ours grid-plain FILE THREADS RUNS      without
-//   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, cells derived before
+//   sgm_bench_ours grid-plain FILE THREADS RUNS      the same without normals
+//   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, with cells derived beforehand
 //   sgm_bench_ours region SCENE CELLS THREADS RUNS   sgm_surface_from_region: one welded mesh
-//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      its surface chunks one by one, from derived cells to packed meshes
-//   sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid after the other, in cache, without normals
+//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      surface chunks one by one, from derived cells to meshes
+//   sgm_bench_ours grid-chunks FILE RUNS             blocks of 32^3 cells one by one, in cache, without normals
 //
-// SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from wider vectors.
+// SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from using wider vectors.
 
 #ifdef SGM_BENCH_HIGHWAY
 #include <hwy/targets.h>
@@ -26,7 +27,7 @@ namespace {
 
 using namespace bench;
 
-/// As if this processor had no more. The library asks the same copy of Highway.
+/// Limits the vector width as if this processor had no wider one. The library queries the same copy of Highway.
 void limitVectors() {
   const char* set = std::getenv("SGM_BENCH_SET");
   if (set == nullptr) return;
@@ -38,8 +39,8 @@ void limitVectors() {
   throw std::runtime_error(std::string("SGM_BENCH_SET knows no ") + set + " here");
 }
 
-/// Squares between samples whose signs are equal across both diagonals alone: there each rule joins what it chooses,
-/// and a genus may differ by one.
+/// Number of grid squares whose samples have equal signs only across the diagonals. Meshing algorithms connect these in
+/// different ways, so that the genus of their surfaces may differ by one for each.
 size_t ambiguousFaces(const Grid& grid) {
   size_t count = 0;
   const auto nx = static_cast<size_t>(grid.size[0]), ny = static_cast<size_t>(grid.size[1]);
@@ -93,7 +94,7 @@ int regionStage(const Scene& scene, int cells, int threads, int runs) {
   return 0;
 }
 
-/// The median over chunks, of each run: `chunks()` gives the milliseconds of one after the other.
+/// Prints the median over chunks of each run. `chunks()` returns the milliseconds of each chunk.
 template <class Chunks>
 int medianChunk(const char* stage, Ours& ours, int runs, const Chunks& chunks) {
   chunks();

@@ -1,5 +1,5 @@
 #pragma once
-// Our side of the benchmark, through the C interface alone.
+// The benchmark of our library, through the C interface alone.
 
 #include <memory>
 #include <string>
@@ -17,40 +17,41 @@ struct sgm_surface;
 
 namespace bench {
 
-/// One scene in one runtime. Every function throws std::runtime_error with the library's message when a call fails.
+/// A runtime with one scene. Every function throws std::runtime_error with the library's message if a call fails.
 class Ours {
  public:
-  /// Without a scene: for grids alone.
+  /// A runtime without a scene, for meshing grids only.
   explicit Ours(int threads);
   Ours(const Scene& scene, int cells, int threads);
   ~Ours();
   Ours(const Ours&) = delete;
   Ours& operator=(const Ours&) = delete;
 
-  std::string device() const;  ///< instruction set in use
+  std::string device() const;  ///< name of the instruction set in use
 
-  /// Evaluates and meshes every chunk of the cube: what an engine would ask for. Returns the triangles.
+  /// Evaluates and meshes every chunk of the cube, as an engine would request them. Returns the number of triangles.
   size_t meshChunks();
-  /// Milliseconds of one chunk of a level after the other, from derived cells to packed meshes: of those that have a
-  /// surface. At each level as many chunks on an axis as the cube has at level 0.
+  /// Meshes the chunks of a level one by one, from derived cells to packed meshes. Returns the milliseconds of each
+  /// chunk that has a surface. At each level, the number of chunks on an axis is that of the cube at level 0.
   std::vector<double> surfaceChunks(int level);
-  /// Evaluates and meshes the cube as one welded mesh. Returns the triangles.
+  /// Evaluates and meshes the cube as one welded mesh. Returns the number of triangles.
   size_t meshRegion();
-  /// The same surface as one welded mesh, in cells from the cube's lowest corner.
+  /// The cube's surface as one welded mesh, in units of a cell from the cube's lowest corner.
   Mesh welded();
-  /// The scene's field on the corners of all cells, in cells.
+  /// Samples the scene's field at the corners of all cells; values are in units of a cell.
   Grid sample();
-  /// Meshes a grid, with normals from its gradient where they are wanted. Returns the triangles.
+  /// Meshes a grid of samples; normals: also computes normals from its gradient. Returns the number of triangles.
   size_t meshGrid(const Grid& grid, bool normals);
   Mesh gridMesh(const Grid& grid);
-  /// Milliseconds of one block of 32^3 cells of a grid after the other, without normals: of those that have a surface.
+  /// Meshes the blocks of 32^3 cells of a grid one by one, without normals. Returns the milliseconds of each block that
+  /// has a surface.
   std::vector<double> gridChunks(const Grid& grid);
 
  private:
   std::vector<sgm_chunk_request> allRequests(int level) const;
   sgm_surface* makeRegion();
   void mesh(const sgm_chunk_request* requests, size_t count, sgm_mesh** meshes);
-  /// Lets go of a mesh; returns its triangles.
+  /// Releases a mesh. Returns its number of triangles.
   static size_t release(sgm_mesh* mesh);
 
   Scene scene_{};

@@ -13,9 +13,9 @@ namespace bench {
 namespace {
 
 constexpr int32_t kUnits = 1024;
-constexpr int32_t kEdge = 64 * kUnits;  // of the cube that the synthetic scenes fill, centred on the origin
+constexpr int32_t kEdge = 64 * kUnits;  // edge of the cube that the synthetic scenes fill, centred on the origin
 
-// A counter-based draw (the finaliser of splitmix64), so that no library's generator enters the scenes.
+// A counter-based random number (the finaliser of splitmix64), so that scenes do not depend on any library's generator.
 uint64_t draw(uint64_t counter) {
   uint64_t x = counter * 0x9E3779B97F4A7C15u;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -26,7 +26,7 @@ int32_t within(uint64_t counter, int32_t lo, int32_t hi) {
   return lo + static_cast<int32_t>(draw(counter) % static_cast<uint64_t>(hi - lo + 1));
 }
 
-// Units as metres, exactly: 1/1024 has ten decimals.
+// Writes units as metres, exactly: 1/1024 has ten decimals.
 std::string metres(int32_t units) {
   char text[40];
   std::snprintf(text, sizeof text, "%.10fm", units / double{kUnits});

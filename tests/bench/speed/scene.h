@@ -1,5 +1,5 @@
 #pragma once
-// The fixed scenes of the benchmarks, as grammar texts: what is measured is what a user would write.
+// The fixed scenes of the benchmarks. They are grammar texts, so that the benchmarks measure what a user would write.
 
 #include <cstdint>
 #include <string>
@@ -9,19 +9,19 @@ namespace bench {
 
 struct Scene {
   std::string name;
-  std::string text;    ///< the grammar
-  int32_t cell_units;  ///< edge of a cell where the scene is meshed with `cells` cells on an axis
-  int32_t origin[3];   ///< lowest corner of the cube that is meshed, units, on a chunk border
+  std::string text;    ///< text of the grammar
+  int32_t cell_units;  ///< edge of a grid cell, if the scene is meshed with `cells` cells on an axis
+  int32_t origin[3];   ///< lowest corner of the meshed cube, units; on a chunk border
 };
 
-/// sphere; blobs, a sum of 200; caves, 300 tunnels and noise cut out of rock; spheres, a union of 1,000, or of N as
-/// spheres:N, with radii that leave as much filled; cave, 128 m of the sample that cave_path names; and world, as much
-/// of it as `cells` of half a metre make. Each fills a cube of `cells` cells on an edge: whole chunks, and of all but
-/// world one of 32, 64, ... 2048. The same numbers give the same scenes on every machine. Throws std::runtime_error for
-/// an unknown name and for other cells.
+/// Makes a scene by its name: sphere; blobs, a sum of 200 balls; caves, 300 tunnels and noise cut out of rock; spheres,
+/// a union of 1,000 (or N as spheres:N) whose radii keep the filled volume equal; cave, 128 m of the sample that
+/// cave_path names; world, as much of that sample as `cells` cells of 0.5 m cover. Each fills a cube of `cells` cells
+/// on an edge, which must be whole chunks, and except for world one of 32, 64, ... 2048. Every machine makes the same
+/// scenes. Throws std::runtime_error for an unknown name and for any other number of cells.
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path);
 
-/// Blob i of the scene blobs: its centre and radius in units.
+/// Ball i of the scene blobs: its centre and radius in units.
 struct Ball {
   int32_t centre[3], radius;
 };

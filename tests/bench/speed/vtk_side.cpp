@@ -1,9 +1,9 @@
-// VTK's filters on a grid from a file. A process of its own, so that neither side's memory, threads or start-up enters
-// the other's times.
+// Benchmarks VTK's filters on a grid from a file. It is a separate process, so that memory, threads and start-up of VTK
+// and of our library do not influence each other's times.
 //
 //   sgm_bench_vtk flying-edges|flying-edges-plain|marching-cubes|contour GRID THREADS RUNS
 //
-// flying-edges computes normals; the others do not. marching-cubes and contour use one thread whatever is allowed.
+// flying-edges computes normals; the others do not. marching-cubes and contour use one thread, whatever THREADS is.
 
 #include <vtkCellArray.h>
 #include <vtkContourFilter.h>

@@ -1,4 +1,4 @@
-// Blocks that are kept: they hold what is written, never overlap, come back, and stay within bounds.
+// Tests the cache of memory blocks: blocks keep their contents, never overlap, are reused, and the cache is bounded.
 
 #include "api/kept_blocks.h"
 
@@ -23,7 +23,8 @@ struct Held {
   unsigned char mark;
 };
 
-/// Takes and gives back blocks of all sizes, each marked at its ends and in its middle; counts the marks that are gone.
+/// Allocates and frees blocks of all sizes; each is marked at its ends and in its middle. Returns the number of
+/// overwritten marks.
 size_t useBlocks(KeptBlocks& blocks, uint32_t seed, unsigned steps) {
   std::mt19937 random(seed);
   std::vector<Held> held;

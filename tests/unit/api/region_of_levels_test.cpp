@@ -1,4 +1,4 @@
-// A region in chunks of several levels, as a picture has it.
+// Tests regions with chunks of several levels, as pictures use them.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace sgm;
 
 namespace {
 
-/// Edges with one triangle that do not lie in the extent's faces.
+/// Number of edges with one triangle that do not lie in the faces of the region.
 size_t holesIn(const WorldMesh& mesh, const IntBox& extent) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {

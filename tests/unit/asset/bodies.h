@@ -1,5 +1,5 @@
 #pragma once
-// Meshes for tests of assets: boxes, prisms and what is made of them.
+// Meshes for tests of assets: boxes, prisms and bodies composed of them.
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace sgm::asset {
 
-/// Collects triangles as a modelling tool would export them: no point is shared.
+/// Collects triangles that share no points, as some modelling tools export them.
 class MeshMaker {
  public:
   void triangle(Point a, Point b, Point c, uint32_t material = kNoMaterial) {
@@ -21,7 +21,7 @@ class MeshMaker {
     mesh.materials.push_back(material);
   }
 
-  /// Corners counter-clockwise seen from outside.
+  /// Adds a quadrangle; corners are counter-clockwise as seen from outside.
   void quad(Point a, Point b, Point c, Point d, uint32_t material = kNoMaterial) {
     triangle(a, b, c, material);
     triangle(a, c, d, material);
@@ -31,7 +31,8 @@ class MeshMaker {
     prism({{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}, low.z, high.z, material);
   }
 
-  /// A polygon in x and y, counter-clockwise seen from +z, from one z to another.
+  /// Adds a prism: a polygon in x and y, counter-clockwise as seen from +z, that is extruded from z = back to z =
+  /// front.
   void prism(const std::vector<std::array<double, 2>>& outline, double back, double front,
              uint32_t material = kNoMaterial) {
     const size_t n = outline.size();
@@ -74,10 +75,10 @@ class MeshMaker {
   }
 };
 
-/// Of a mesh that is one.
+/// The polyhedron of a mesh, which must be the surface of a solid.
 inline Polyhedron solidOf(const TriangleMesh& mesh) { return *makePolyhedron(mesh); }
 
-/// A bay of an arcade, 3 m wide, 4 m high, 1 m deep: a wall with an arched opening of so many chords.
+/// A bay of an arcade, 3 m wide, 4 m high, 1 m deep: a wall with an arched opening of `chords` chords.
 inline TriangleMesh archedBay(size_t chords) {
   std::vector<std::array<double, 2>> outline{{0, 0}, {0.5, 0}};
   constexpr double kHalfTurn = 3.14159265358979323846;
@@ -92,7 +93,7 @@ inline TriangleMesh archedBay(size_t chords) {
   return maker.mesh;
 }
 
-/// A house with a gable, its roof a material of its own: 6 m wide, 4 m to the eaves, 6 m to the ridge, 8 m deep.
+/// A house with a gable, whose roof has its own material: 6 m wide, 4 m to the eaves, 6 m to the ridge, 8 m deep.
 inline TriangleMesh gabledHouse() {
   MeshMaker maker;
   maker.mesh.material_names = {"plaster", "slate"};
@@ -108,9 +109,9 @@ inline TriangleMesh gabledHouse() {
   return maker.mesh;
 }
 
-/// A wall with windows right through it, all of one mesh.
+/// A wall with windows that pass through it, as one mesh.
 inline TriangleMesh windowedWall(size_t columns, size_t rows) {
-  // Front and back as a grid of quads; the reveals of every hole.
+  // Front and back are grids of quads; each hole has four reveals (inner sides).
   MeshMaker maker;
   const double depth = 0.5;
   std::vector<double> xs{0}, ys{0};

@@ -1,4 +1,5 @@
-// Polyhedra as unions of convex pieces: every point inside lies strictly inside one of them, none outside does.
+// Tests the division of polyhedra into convex pieces: every point inside lies strictly inside a piece, no point outside
+// does.
 
 #include "asset/convex_cover.h"
 
@@ -15,7 +16,7 @@ using namespace sgm::asset;
 
 namespace {
 
-/// The least, over the pieces, of how far a point lies before a piece's sides.
+/// The minimum over the pieces of a point's distance from the piece's sides; negative strictly inside a piece.
 double fieldAt(const std::vector<ConvexPiece>& pieces, Point p) {
   double least = 1e9;
   for (const ConvexPiece& piece : pieces) {
@@ -26,8 +27,8 @@ double fieldAt(const std::vector<ConvexPiece>& pieces, Point p) {
   return least;
 }
 
-/// Points within cells, in the faces that they share, in those faces' edges and in corners: where pieces that only
-/// touch would leave a gap.
+/// Tests points within cells, on their common faces, on the edges of these faces, and at corners, where pieces that
+/// only touch would leave a gap.
 void checkCover(const Polyhedron& solid, std::mt19937& random) {
   const auto cells = cutIntoCells(solid);
   REQUIRE(cells);

@@ -1,4 +1,4 @@
-// Polygons become triangles that do not overlap, whatever their shape.
+// Tests ear clipping: polygons of any shape become triangles that do not overlap.
 
 #include "asset/read/ear_clipping.h"
 
@@ -23,7 +23,7 @@ double areaOf(const Polygon& p, const Cut& cut) {
   for (const auto& [a, b, c] : cut) sum += length(cross(p[b] - p[a], p[c] - p[a])) / 2;
   return sum;
 }
-/// As the shoelace formula has it, in the plane z = 0.
+/// Area by the shoelace formula, in the plane z = 0.
 double shoelace(const Polygon& p) {
   double sum = 0;
   for (size_t i = 0; i < p.size(); ++i) {
@@ -33,8 +33,8 @@ double shoelace(const Polygon& p) {
   return sum / 2;
 }
 
-/// Cuts it, and checks that the triangles use every edge of the polygon once and no other edge alone, all turn the same
-/// way, and fill the polygon's area: together that is a triangulation.
+/// Triangulates a polygon, and checks that the triangles use every edge of the polygon once, and every other edge in
+/// both directions, have the same orientation, and fill the polygon's area: together this means a triangulation.
 Cut checkedCut(const Polygon& polygon, double area, bool flat_allowed = false) {
   EarClipping clipping;
   Cut cut;
@@ -66,7 +66,7 @@ Clipped outcome(const Polygon& polygon) {
   return clipping.run(polygon, cut);
 }
 
-/// Turned and moved out of the plane z = 0, by a rotation with rational numbers.
+/// The polygon rotated out of the plane z = 0 by a rotation with rational numbers, and moved.
 Polygon tilted(Polygon polygon) {
   for (Point& p : polygon) {
     const Point one{p.x, 0.6 * p.y - 0.8 * p.z, 0.8 * p.y + 0.6 * p.z};

@@ -1,4 +1,4 @@
-// Assets in other sizes: their angles stay, their boxes are what was asked for, what is stiff stays as it was.
+// Tests assets in other sizes: their angles stay, their boxes have the requested size, and stiff parts are unchanged.
 
 #include "asset/fit.h"
 
@@ -19,7 +19,8 @@ std::string refusal(const TriangleMesh& mesh, Point size, const std::vector<FitZ
   return body ? "" : body.error().message;
 }
 
-/// Every corner lies in the planes of its faces, and these look the way that the asset's do.
+/// Checks that every corner lies in the planes of its faces, and that these have the same orientation as those of the
+/// asset.
 void checkAngles(const Polyhedron& body, const Polyhedron& asset) {
   for (size_t t = 0; t < body.triangles.size(); ++t) {
     const Plane& plane = body.faces[body.face_of[t]].plane;
@@ -37,7 +38,7 @@ void checkBox(const Polyhedron& body, Point size) {
   CHECK(length(body.high - 0.5 * size) < 1e-9);
 }
 
-/// Heights at which a body has corners, from its low end.
+/// The coordinates at which a body has corners on an axis, ascending.
 std::vector<double> levels(const Polyhedron& body, int axis) {
   std::vector<double> out;
   for (const Point& p : body.points) out.push_back(p[axis] - body.low[axis]);

@@ -1,5 +1,5 @@
 #pragma once
-// GLB files for tests, as bytes.
+// Makes the bytes of GLB files for tests.
 
 #include <cstring>
 #include <string>
@@ -30,7 +30,7 @@ inline std::string glbOf(std::string json, std::string binary) {
   return out + binary;
 }
 
-/// One primitive a material, without indices.
+/// The bytes of a GLB file with one primitive for each material, without indices.
 inline std::string glbOf(const TriangleMesh& mesh) {
   std::string binary, accessors, views, primitives, materials;
   std::vector<uint32_t> kinds;

@@ -1,4 +1,4 @@
-// GLB files as tools write them, and files that lie about themselves.
+// Tests reading GLB files as tools write them, and inconsistent ones.
 
 #include "asset/read/glb_reader.h"
 
@@ -24,7 +24,7 @@ std::string refusal(const std::string& bytes, const MeshLimits& limits = {}) {
   return mesh ? "" : mesh.error().message;
 }
 
-/// Three points of a triangle, then their numbers as bytes, shorts and words.
+/// The three points of a triangle, then their indices as bytes, shorts and words.
 std::string triangleBytes() {
   const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   std::string out(reinterpret_cast<const char*>(points), sizeof points);
@@ -37,7 +37,7 @@ std::string triangleBytes() {
   return out;
 }
 
-/// A file of one triangle. In the texts a part may be replaced: from, to.
+/// A file with one triangle. In its JSON, the text `from` is replaced by `to`.
 std::string triangleFile(const std::string& from = "", const std::string& to = "") {
   std::string json =
       R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"

@@ -1,5 +1,5 @@
 #pragma once
-// glTF files for tests, built part by part: each call gives the number that the JSON names.
+// Builds glTF files for tests, element by element: each call returns the index by which the JSON refers to the element.
 
 #include <cstdint>
 #include <cstring>
@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-/// Types of numbers, as glTF counts them.
+/// glTF's code for a component type.
 template <class T>
 constexpr int kComponent = 0;
 template <>
@@ -31,7 +31,7 @@ inline constexpr int kComponent<float> = 5126;
 
 class GltfBuilder {
  public:
-  /// Members of the root beside those that are built, such as `"nodes":[{"mesh":0}]`.
+  /// Members of the root object in addition to the built ones, such as `"nodes":[{"mesh":0}]`.
   std::string members = R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}])";
 
   template <class T>
@@ -43,7 +43,7 @@ class GltfBuilder {
               R"(,"byteLength":)" + std::to_string(binary_.size() - at) + more + "}";
     return view_count_++;
   }
-  /// more: further members, each behind a comma.
+  /// more: further members, each with a comma in front.
   int accessor(const std::string& type, int component, size_t count, const std::string& more) {
     accessors_ += (accessors_.empty() ? "" : ",") + std::string(R"({"componentType":)") + std::to_string(component) +
                   R"(,"count":)" + std::to_string(count) + R"(,"type":")" + type + '"' + more + "}";
@@ -55,7 +55,7 @@ class GltfBuilder {
     const std::string in = R"(,"bufferView":)" + std::to_string(view(values));
     return accessor(type, kComponent<T>, values.size() / each, in + more);
   }
-  /// The members of a primitive, without its braces; as a mesh of its own.
+  /// Adds a mesh with one primitive. primitive: its members, without braces.
   void mesh(const std::string& primitive, const std::string& more = "") {
     meshes_ += (meshes_.empty() ? "" : ",") + std::string(R"({"primitives":[{)") + primitive + "}]" + more + "}";
   }
@@ -73,13 +73,13 @@ class GltfBuilder {
   int view_count_ = 0, accessor_count_ = 0;
 };
 
-/// The corners of a cube of edge 2 about the origin, and its twelve triangles, which look outward.
+/// The corners of a cube with edge 2 around the origin, and its twelve triangles, which face outward.
 inline const std::vector<float> kCubePoints = {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1,
                                                -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
 inline const std::vector<uint16_t> kCubeIndices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                                    1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
 
-/// By the divergence theorem; what looks inward counts less than nothing.
+/// The volume by the divergence theorem; negative if the triangles face inward.
 inline double volumeOf(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) sum += dot(mesh.points[a], cross(mesh.points[b], mesh.points[c]));
@@ -92,7 +92,7 @@ inline Point middleOf(const TriangleMesh& mesh) {
   return (1.0 / static_cast<double>(mesh.points.size())) * sum;
 }
 
-/// Edges that have not as many triangles on one side as on the other, by the numbers of their points.
+/// Number of edges that triangles do not use equally often in both directions; edges are identified by point indices.
 inline size_t openEdgesOf(const TriangleMesh& mesh) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   size_t open = 0;

@@ -1,5 +1,5 @@
-// Every feature of glTF 2.0 that changes which triangles a static file shows (sections 3.6 and 3.7), and the extensions
-// that do: a file of each, made here, and the values that it must have, found by hand.
+// Tests every feature of glTF 2.0 that changes which triangles a static file shows (sections 3.6 and 3.7), and such
+// extensions: with one file for each, made here, and expected values that were derived by hand.
 
 #include <cmath>
 
@@ -31,7 +31,8 @@ bool isNear(const TextureCoordinates& a, float u, float v) {
   return std::fabs(a[0] - u) < 1e-6f && std::fabs(a[1] - v) < 1e-6f;
 }
 
-/// A cube of volume 8; more: further attributes, each behind a comma; behind: further members of the primitive.
+/// A cube with volume 8. more: further attributes, each with a comma in front; behind: further members of the
+/// primitive.
 GltfBuilder cube(const std::string& more = "", const std::string& behind = "", const std::string& of_mesh = "") {
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);

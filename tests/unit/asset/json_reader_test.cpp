@@ -1,4 +1,4 @@
-// JSON as it is written, and as it is not.
+// Tests reading valid and invalid JSON.
 
 #include "base/json_reader.h"
 #include "catch.h"

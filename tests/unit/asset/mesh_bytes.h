@@ -1,5 +1,5 @@
 #pragma once
-// Files of triangles for tests, and what their readers say of them.
+// Makes the bytes of mesh files for tests, and describes the readers' results.
 
 #include <cstring>
 #include <string>
@@ -19,7 +19,7 @@ inline TriangleMesh meshIn(const std::string& file, MeshFileKind kind) {
   return std::move(*mesh);
 }
 
-/// What is wrong, without what to do; empty where nothing is.
+/// The reason for which a file is rejected, without the remedy; empty if the file is valid.
 inline std::string refusalOf(const std::string& file, MeshFileKind kind, const MeshLimits& limits = {}) {
   const auto mesh = readMesh(bytesOf(file), kind, limits);
   if (mesh) return "";
@@ -33,7 +33,7 @@ inline std::string refusalOf(const std::string& file, MeshFileKind kind, const M
   return message.substr(0, advice);
 }
 
-/// A number's bytes, as this machine has them or the other way round.
+/// Appends a number's bytes in this machine's order, or reversed if `turned`.
 template <class T>
 void putNumber(std::string& out, T value, bool turned = false) {
   char bytes[sizeof value];

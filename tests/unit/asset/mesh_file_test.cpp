@@ -1,4 +1,4 @@
-// What we export reads back as it was, in every format, and no damage to it does any harm.
+// Tests that exported meshes are read back unchanged in every format, and that damaged files do no harm.
 
 #include "asset/read/mesh_file.h"
 
@@ -18,7 +18,7 @@ using namespace sgm::asset;
 
 namespace {
 
-/// Triangles that close nothing, in floats, so that no format loses anything of them.
+/// Random triangles without a closed surface, with float coordinates, so that no format loses precision.
 WorldMesh randomWorldMesh(std::mt19937& random) {
   WorldMesh mesh;
   const size_t points = 3 + random() % 60, triangles = 1 + random() % 120;
@@ -39,7 +39,7 @@ std::string exported(const WorldMesh& mesh, const ExportInfo& info, const std::s
   return contentOf(path);
 }
 
-/// A text's decimals read back as the number in doubles that is nearest to them.
+/// The double nearest to a coordinate that was written as a decimal float.
 Point roundedToFloat(Point p) {
   for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
   return p;
@@ -50,7 +50,7 @@ Point pointAt(const WorldMesh& mesh, uint32_t index) {
   return {p[0], p[1], p[2]};
 }
 
-/// Corners as the exporter orders them: by material, but for formats that have none.
+/// The corners in the exporter's order: sorted by material, for formats that have materials.
 std::vector<size_t> exportedOrder(const WorldMesh& mesh, bool by_material) {
   std::vector<size_t> order;
   const auto material = [&](size_t t) {
@@ -217,7 +217,7 @@ namespace {
 
 const std::string kTetrahedronObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-/// The same in units of so many bytes each, plain ASCII.
+/// ASCII text as units of `width` bytes each.
 std::string widened(const std::string& text, size_t width, bool big_endian, bool mark) {
   std::string out;
   const auto put = [&](uint32_t code) {

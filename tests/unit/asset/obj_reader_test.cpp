@@ -1,4 +1,4 @@
-// OBJ files as tools write them, and files that are wrong.
+// Tests reading OBJ files as tools write them, and invalid ones.
 
 #include "asset/read/obj_reader.h"
 

@@ -1,4 +1,4 @@
-// PLY files as tools write them, and files that are wrong.
+// Tests reading PLY files as tools write them, and invalid ones.
 
 #include "asset/read/ply_reader.h"
 
@@ -17,7 +17,7 @@ std::string plyRefusal(const std::string& file, const MeshLimits& limits = {}) {
   return refusalOf(file, MeshFileKind::ply, limits);
 }
 
-/// A square and a triangle, with elements and properties that nobody reads.
+/// A square and a triangle, with elements and properties that the reader ignores.
 const std::string kPlyHeader =
     "ply\nformat ascii 1.0\ncomment by hand\nobj_info none\nelement camera 2\nproperty list uchar short view\n"
     "property float far\nelement nothing 99999999999\nelement vertex 4\nproperty double x\nproperty double y\n"
@@ -29,7 +29,7 @@ const std::string kPlyNumbers =
     "2 7 8 1.5\n0 2.5\n0 0 255 0 0 0 0 2 0 0\n1 0 255 0 1 9 0 0 0.5 1 0\n1 1 255 -0.5 0 1 0 0 1 1\n"
     "0 1 255 0 2 8 9 0 1 0 0 1\n-1 4 0 1 2 3 0\n-1 3 0 1 2 6 0 0 1 0 1 1\n0 2 0 1 0\n7\n";
 
-/// The same as kPlyNumbers, in bytes.
+/// The contents of kPlyNumbers as binary data; turned: in reversed byte order.
 std::string plyBytes(bool turned) {
   std::string out;
   const auto put = [&](auto value) { putNumber(out, value, turned); };

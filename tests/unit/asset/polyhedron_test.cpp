@@ -1,4 +1,5 @@
-// Triangles to plane faces: what closes, what falls together, and what is refused with its place.
+// Tests making polyhedra from triangles: which meshes close, which points are merged, and which meshes are rejected and
+// where.
 
 #include "asset/polyhedron.h"
 

@@ -1,4 +1,4 @@
-// Messages of the mesh readers that no other test brings about, each from a file made here.
+// Tests the messages of the mesh readers that no other test causes, each with a file made here.
 
 #include <limits>
 
@@ -19,12 +19,12 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 Notes notesOf(const std::string& file, MeshFileKind kind = MeshFileKind::glb) { return meshIn(file, kind).notes; }
 std::string glbRefusal(const std::string& file) { return refusalOf(file, MeshFileKind::glb); }
 
-/// A primitive of a cube, as GltfBuilder::mesh() takes it: accessors 0 and 1 are its own.
+/// The members of a cube's primitive for GltfBuilder::mesh(): accessors 0 and 1 are the cube's.
 std::string cubePrimitive(const std::string& more = "", const std::string& behind = "") {
   return R"("attributes":{"POSITION":0)" + more + R"(},"indices":1)" + behind;
 }
 
-/// A mesh of these primitives, over the numbers of a cube.
+/// A mesh with these primitives, with the data of a cube.
 GltfBuilder cubesOf(const std::string& primitives = cubePrimitive()) {
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);
@@ -33,19 +33,19 @@ GltfBuilder cubesOf(const std::string& primitives = cubePrimitive()) {
   return file;
 }
 
-/// One primitive, and two of them.
+/// The same primitive once or twice.
 std::string times(int count, const std::string& primitive) {
   return count == 1 ? primitive : primitive + "},{" + primitive;
 }
 
-/// Four numbers at each corner of a cube.
+/// Four numbers for each corner of a cube.
 std::vector<float> fourEach(float first) {
   std::vector<float> out;
   for (int i = 0; i < 8; ++i) out.insert(out.end(), {first, 0, 0, 0});
   return out;
 }
 
-/// A cube that one joint holds by these weights.
+/// A cube with a skin of one joint and these weights.
 GltfBuilder boundCube(const std::vector<float>& weights, const std::string& joint = "{}",
                       const std::string& of_skin = "") {
   GltfBuilder file = cubesOf(cubePrimitive(R"(,"JOINTS_0":2,"WEIGHTS_0":3)"));
@@ -55,7 +55,7 @@ GltfBuilder boundCube(const std::vector<float>& weights, const std::string& join
   return file;
 }
 
-/// A cube with instances by these attributes; accessors from 2 on are for them.
+/// A cube with instances by these attributes; they use the accessors from 2 on.
 GltfBuilder placedCube(const std::string& attributes) {
   GltfBuilder file = cubesOf();
   file.members = R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{)" + attributes + "}}}}]";

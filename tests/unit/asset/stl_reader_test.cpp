@@ -1,4 +1,4 @@
-// STL files as tools write them, and files that are wrong.
+// Tests reading STL files as tools write them, and invalid ones.
 
 #include "asset/read/stl_reader.h"
 
@@ -12,7 +12,7 @@ using namespace sgm::asset;
 
 namespace {
 
-/// Two triangles; the header says `count`.
+/// A binary file with two triangles, whose header states `count`.
 std::string binaryStl(const std::string& header = "binary", uint32_t count = 2) {
   std::string out = header;
   out.resize(80, '\0');

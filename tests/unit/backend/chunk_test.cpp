@@ -1,4 +1,5 @@
-// Chunks from hand-built and random programs: pruned against brute force, all instruction sets, borders, octrees.
+// Tests meshing of chunks from hand-built and random programs: pruning against brute force, all instruction sets,
+// borders, octrees.
 
 #include <array>
 #include <atomic>
@@ -37,7 +38,7 @@ ChunkGrid gridAt(int level, Int3 at) {
   return {{at.x * kChunkCells * cell, at.y * kChunkCells * cell, at.z * kChunkCells * cell}, cell, level};
 }
 
-// A program around a place, with influence boxes as the compiler would make them: here simply everything.
+// A random program around a place, whose influence boxes are unbounded here.
 std::shared_ptr<const FieldProgram> programAround(uint32_t seed, Int3 centre, int32_t extent) {
   std::mt19937 random(seed);
   RandomProgramOptions options;
@@ -62,7 +63,7 @@ bool sameBytes(const MeshPart& a, const MeshPart& b) {
           std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
 }
 
-// All samples by the whole program, all attributes by the whole program: what pruning must not change.
+// Meshes a chunk with all samples and attributes evaluated by the whole program, for comparison with pruning.
 ChunkMesh bruteForce(const FieldProgram& field, const ChunkGrid& grid) {
   ChunkMesh mesh;
   ChunkSamples samples;

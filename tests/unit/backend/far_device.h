@@ -1,8 +1,9 @@
 #pragma once
-// A device that the host shares no memory with, made of one that shares all of it.
+// Simulates a device that shares no memory with the host, on a device that shares all of its memory.
 //
-// It tells three types of memory: the device's own, which cannot be mapped, and the host's, coherent or cached. What is
-// mapped of the cached one is a copy, which is as it was until it is invalidated. As Faults: statics, one at a time.
+// It reports three types of memory: the device's own memory, which cannot be mapped, and host memory, coherent or
+// cached. Mapping the cached memory gives a copy, which changes only when it is invalidated. Its state is static, as
+// that of Faults, so only one may exist at a time.
 
 #include <cstring>
 #include <map>
@@ -17,7 +18,7 @@ namespace sgm::vulkan {
 
 class FarDevice {
  public:
-  /// MemoryOptions::apart belongs to it.
+  /// Requires that MemoryOptions::apart is set too.
   static void wrap(BorrowedDevice& lent) {
     state().resolver = lent.get_instance_proc_addr;
     lent.get_instance_proc_addr = resolve;

@@ -1,5 +1,5 @@
 #pragma once
-// A backend on a lent device whose calls fail when told, and what it has left there.
+// A Vulkan backend on an engine's device whose calls fail on request, and checks of what it leaves there.
 
 #include <filesystem>
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace sgm {
 
-/// To open the device anew is to begin anew on an engine's device, which takes no time.
+/// Opening the device again after a failure takes no time, because the engine's device stays open.
 struct Faulty : vulkan::KeptEngine {
   vulkan::Faults faults;
 
-  Faulty() : KeptEngine(vulkan::Validation::core) {}  // of synchronization see VulkanMachine::silent
+  Faulty() : KeptEngine(vulkan::Validation::core) {}  // synchronization errors: see VulkanMachine::silent
 
   vulkan::BorrowedDevice lend() {
     vulkan::BorrowedDevice lent = engine.lend();
@@ -36,7 +36,7 @@ struct Faulty : vulkan::KeptEngine {
   }
 };
 
-// Tests in files of their own, on the one device: it makes their pipelines once.
+// Tests in files of their own that use the same device, so that its pipelines are made only once.
 void checkFarDevice(Faulty& faulty);       ///< vulkan_far_test.cpp
 void checkMeshesThatStay(Faulty& faulty);  ///< vulkan_resident_faults_test.cpp
 

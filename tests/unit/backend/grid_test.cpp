@@ -1,4 +1,4 @@
-// The grid's passes of every instruction set against the scalar ones, bit by bit.
+// Tests the passes over grids for every instruction set against the scalar ones, bit by bit.
 
 #include <sys/mman.h>
 
@@ -20,7 +20,7 @@ using namespace sgm;
 
 namespace {
 
-/// Of the instruction sets those that are here; a set that is not is named.
+/// The kernels of the instruction sets that this processor has; prints the names of those that it lacks.
 std::vector<std::pair<const char*, const MeshKernels*>> kernelSets() {
   std::vector<std::pair<const char*, const MeshKernels*>> sets;
   for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
@@ -32,7 +32,7 @@ std::vector<std::pair<const char*, const MeshKernels*>> kernelSets() {
   return sets;
 }
 
-/// Rows of 1,024 floats, with memory behind each that nobody may touch.
+/// Rows of 1,024 floats, each followed by memory that must not be accessed.
 class GuardedRows {
  public:
   static constexpr size_t kRow = 1024, kStride = 2 * kRow;
@@ -128,7 +128,7 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   return result;
 }
 
-/// Smooth, noise of many sizes, or both: values far beyond the range of Q, and some that are nearly 0.
+/// Smooth values, noise of many sizes, or both: some far beyond the range of quantised values, some nearly 0.
 std::vector<float> someValues(std::mt19937& random, size_t count) {
   std::vector<float> values(count);
   std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
@@ -141,7 +141,7 @@ std::vector<float> someValues(std::mt19937& random, size_t count) {
   return values;
 }
 
-/// A chunk of the same values, as its own polygonizer takes them.
+/// A chunk with the same values, for the polygonizer of chunks.
 ChunkSamples chunkOf(const GridJob& job) {
   ChunkSamples samples;
   for (size_t z = 0; z < kChunkSamples; ++z) {

@@ -1,5 +1,5 @@
 #pragma once
-// Pipelines that outlive the device that is lent, for tests.
+// Caches pipelines beyond the lifetime of the borrowed device object, for tests.
 
 #include <map>
 #include <mutex>
@@ -9,8 +9,8 @@
 
 namespace sgm::vulkan {
 
-/// Pipelines of one device that are made once, for all that are opened on it: software Vulkan takes seconds for each.
-/// As Faults: statics, one at a time; any thread may make pipelines.
+/// Pipelines of one device, made once for all device objects that borrow it: software Vulkan takes seconds to make
+/// each. The state is static, as that of Faults, so only one may exist at a time; any thread may make pipelines.
 class KeptPipelines {
  public:
   static void wrap(DeviceTable& table) {
@@ -32,7 +32,7 @@ class KeptPipelines {
     std::mutex mutex;
     DeviceTable calls;
     std::map<VkShaderModule, std::string> code;
-    std::map<std::string, VkPipeline> made;  ///< by the code and its constants
+    std::map<std::string, VkPipeline> made;  ///< indexed by the shader's code and its constants
   };
   static State& state() {
     static State one;
@@ -54,7 +54,7 @@ class KeptPipelines {
     state().code.erase(module);
     state().calls.vkDestroyShaderModule(device, module, allocator);
   }
-  /// Two that want the same one at one time: the second waits for it.
+  /// If two threads request the same pipeline concurrently, the second waits until the first has made it.
   static VKAPI_ATTR VkResult VKAPI_CALL createPipeline(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                        const VkComputePipelineCreateInfo* info,
                                                        const VkAllocationCallbacks* allocator, VkPipeline* pipeline) {
@@ -69,7 +69,7 @@ class KeptPipelines {
   }
 };
 
-/// An engine whose device keeps its pipelines to its end.
+/// An engine whose device keeps its pipelines until the end.
 struct KeptEngine {
   Engine engine;
 

@@ -1,5 +1,5 @@
-// Lists of primitives and boxes of lattices, of every instruction set, against one instruction and one point after the
-// other.
+// Tests lists of primitives and boxes of lattice points, for every instruction set, against evaluating one instruction
+// and one point after another.
 
 #include <random>
 
@@ -46,7 +46,7 @@ class ListMaker {
         return builder_.torus(frame, 2 * a, b, label);  // has no path of its own
     }
   }
-  /// Some of a kind, then some of another: lists that begin, end and follow each other.
+  /// Adds some primitives of one kind, then some of another, so that lists begin, end and follow each other.
   template <class Add>
   void some(const Add& add) {
     for (int runs = within(1, 3); runs > 0; --runs) {
@@ -97,7 +97,7 @@ FieldProgram listedProgram(std::mt19937& random) {
   return maker.finish();
 }
 
-/// A plane with noise on it, periods of many steps of the lattice, or octaves down to less than one.
+/// A plane with noise on it, with periods of many lattice steps, or with octaves down to less than one step.
 FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box, bool coarse) {
   ProgramBuilder builder(1 + static_cast<int32_t>(random() % 1024), false, 0);
   Frame frame;

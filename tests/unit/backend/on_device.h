@@ -1,5 +1,5 @@
 #pragma once
-// What lies on a lent device, as the engine that draws it finds it.
+// Checks the mesh parts in the memory of an engine's device, as the engine would read them.
 
 #include <cstring>
 #include <utility>
@@ -11,10 +11,10 @@
 
 namespace sgm {
 
-/// A part, and what must lie in it.
+/// A part in device memory, and its expected contents.
 using PartOnDevice = std::pair<const DevicePart*, const MeshPart*>;
 
-/// Waits for the device, has it copy the parts out, and compares them byte by byte.
+/// Waits until the device is idle, copies the parts to the host, and compares them byte by byte.
 inline void checkOnDevice(vulkan::Engine& engine, const std::vector<PartOnDevice>& parts) {
   if (parts.empty()) return;
   REQUIRE(engine.calls.vkDeviceWaitIdle(engine.device) == VK_SUCCESS);

@@ -1,4 +1,5 @@
-// The scalar evaluator once more, with one instruction after the other: what lists of primitives are held against.
+// Compiles the scalar evaluator without its paths for lists, as a reference that evaluates one instruction after
+// another.
 
 #include <cstdint>
 #include <cstring>

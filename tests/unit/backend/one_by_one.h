@@ -4,7 +4,7 @@
 
 namespace sgm {
 
-/// As scalarKernels(), without the paths of their own that lists of primitives have.
+/// Evaluators like scalarKernels(), but without the special paths for lists of primitives.
 const FieldKernels& oneByOneKernels();
 
 }  // namespace sgm

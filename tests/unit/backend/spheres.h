@@ -1,5 +1,5 @@
 #pragma once
-// Batches of spheres, and meshes that must be the same.
+// Batches of jobs with spheres, and comparisons of their meshes.
 
 #include <chrono>
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace sgm {
 
-/// Spheres, with seams to others: few kinds of instructions, and so pipelines that are soon made again.
+/// Jobs with spheres, with seams to other spheres. They use few kinds of instructions, so pipelines are made quickly.
 inline std::vector<ChunkJob> spheres(uint32_t seed, uint32_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;

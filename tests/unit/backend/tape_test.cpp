@@ -1,5 +1,5 @@
-// What becomes a part of other instructions of a tape, and what must not. That a tape gives the program's bytes the
-// conformance tests say.
+// Tests which instructions of a tape are merged into others, and which must not be. The conformance tests check that a
+// tape gives the same bytes as its program.
 
 #include "backend/vulkan/tape_schedule.h"
 

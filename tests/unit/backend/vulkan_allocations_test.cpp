@@ -1,5 +1,5 @@
-// What meshing on a device takes of the host's memory once buffers and pipelines are there: the meshes, and a number of
-// small things for each batch, not for each chunk.
+// Tests how much host memory meshing on a device allocates once buffers and pipelines exist: the meshes, and a number
+// of small blocks for each batch, not for each chunk.
 
 #include <atomic>
 
@@ -29,7 +29,7 @@ class CountingMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> taken_{0};
 };
 
-/// Balls that every second chunk has signs of, and every one seams to, but for those that nothing is in.
+/// Jobs with balls: every second chunk returns signs, and all have seams, except empty chunks.
 std::vector<ChunkJob> ballsAndVoid(uint32_t seed, size_t count) {
   std::mt19937 random(seed);
   std::vector<ChunkJob> jobs;
@@ -52,8 +52,8 @@ std::vector<ChunkJob> ballsAndVoid(uint32_t seed, size_t count) {
 }
 
 struct Taken {
-  uint64_t memory = 0;  ///< allocations from the backend's memory beside the meshes' arrays
-  uint64_t heap = 0;    ///< from this thread's heap, beside the meshes' lists of seams
+  uint64_t memory = 0;  ///< allocations from the backend's memory resource, without the meshes' arrays
+  uint64_t heap = 0;    ///< allocations from this thread's heap, without the meshes' lists of seams
 };
 
 Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJob> jobs) {

@@ -1,4 +1,4 @@
-// A device that the host shares no memory with: what is copied there and back, and what stays.
+// Tests a device that shares no memory with the host: uploads, downloads, and meshes that stay on the device.
 
 #include <algorithm>
 #include <iostream>
@@ -35,7 +35,8 @@ VulkanMachine farMachine(Faulty& faulty, const BatchRoom& room = {}) {
   return VulkanMachine(options);
 }
 
-/// Batches that grow and shrink in the buffers of the last, each read from host memory that must be invalidated.
+/// Meshes batches of growing and shrinking sizes in the same buffers; host memory must be invalidated before each is
+/// read.
 void compareFar(Faulty& faulty) {
   const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);
@@ -67,7 +68,7 @@ void overflowFar(Faulty& faulty) {
   }
 }
 
-/// Submissions and waits fail: those of the batch, and those of its reading.
+/// Makes submissions and waits fail: those of the batch, and those of its download.
 void failFar(Faulty& faulty) {
   const std::vector<ChunkJob> jobs = spheres(1, 5);
   uint64_t on_cpu = 0;
@@ -89,7 +90,8 @@ void failFar(Faulty& faulty) {
   CHECK(on_cpu > 0);
 }
 
-/// Meshes stay on the device as they came back from it, and come there from the host; in vain they do no harm.
+/// Checks that meshes stay on the device, both those made there and those uploaded from the host, and that failures do
+/// no harm.
 void stayFar(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
@@ -121,7 +123,7 @@ void stayFar(Faulty& faulty) {
   }
 }
 
-/// No memory is left for what stays: the meshes come without it, and later ones with it.
+/// Lets the memory for meshes that stay run out: the meshes are still returned, and later ones stay again.
 void stayWithoutMemory(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
@@ -149,7 +151,7 @@ void stayWithoutMemory(Faulty& faulty) {
   CHECK(machine.vulkan->counters().on_cpu == 0);
 }
 
-/// Parts end in any order, on any thread, while they are copied or after, and outlive the backend and their device.
+/// Destroys parts in any order, on any thread, during or after their copying, also after the backend and its device.
 void endAnywhere(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'103;
   std::cout << "ending parts, seed " << kSeed << std::endl;
@@ -205,7 +207,7 @@ void endAnywhere(Faulty& faulty) {
   held.clear();
 }
 
-/// Once it is known how much there usually is, that comes back with the batch.
+/// Once the backend knows the usual size of a batch's result, it downloads that much together with the batch.
 void repeatFar(Faulty& faulty) {
   const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);

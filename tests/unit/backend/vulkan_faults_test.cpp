@@ -1,5 +1,5 @@
-// The device fails, is lost, has no room, or is not waited for: the meshes are the same, the CPU has made what the
-// device has not, and the next batch finds a device again.
+// Tests failures of the device: calls fail, the device is lost, its memory is short, or batches are not awaited. The
+// meshes must be the same, because the CPU meshes the missing ones, and the next batch must find a device again.
 
 #include <atomic>
 #include <chrono>
@@ -26,7 +26,7 @@ namespace {
 
 bool haveDevice() { return static_cast<bool>(VulkanMachine()); }
 
-/// A device that is lost at any call costs no mesh, and is there again for the next batch.
+/// Loses the device at every call: all meshes must be made, and the next batch must use a device again.
 void loseDevices(Faulty& faulty) {
   Faults& faults = faulty.faults;
   const VulkanMachine machine = faulty.machine();
@@ -65,7 +65,7 @@ void loseDevices(Faulty& faulty) {
   }
 }
 
-/// What the device has no memory or no pipeline for is meshed by the CPU.
+/// Lets memory or pipelines of the device fail: the CPU must mesh those chunks.
 void failCalls(Faulty& faulty) {
   static const std::pair<const char*, VkResult> kFailures[] = {
       {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
@@ -102,7 +102,7 @@ void failCalls(Faulty& faulty) {
   CHECK(on_cpu > 0);
 }
 
-/// A chunk that finds no room in its batch is meshed by the CPU, and counted.
+/// Makes the buffers too small: chunks that do not fit must be meshed by the CPU, and counted.
 void leaveNoRoom(Faulty& faulty) {
   static constexpr BatchRoom kScarce[] = {{64, 36'864, 6144}, {6144, 384, 6144}, {6144, 36'864, 64}};
   for (const BatchRoom& room : kScarce) {
@@ -118,7 +118,7 @@ void leaveNoRoom(Faulty& faulty) {
   }
 }
 
-/// A batch that is cancelled ends without its meshes, wherever it is.
+/// Cancels batches in every state: they must end without meshes.
 void cancelBatches(Faulty& faulty) {
   const VulkanMachine machine = faulty.machine({64, 384, 64});
   REQUIRE(machine);
@@ -145,7 +145,8 @@ void cancelBatches(Faulty& faulty) {
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
 }
 
-/// Cancelled at any moment by another thread, a batch ends, with all of its meshes or none, and the next is whole.
+/// Cancels batches from another thread at any moment: each must end with all of its meshes or none, and the next must
+/// be complete.
 void cancelAnywhere(Faulty& faulty) {
   using Clock = std::chrono::steady_clock;
   const VulkanMachine roomy = faulty.machine(), scarce = faulty.machine({6144, 384, 6144});
@@ -195,8 +196,8 @@ void cancelAnywhere(Faulty& faulty) {
   CHECK(whole >= 2);
 }
 
-/// What is kept of pipelines is found by the next backend, mended where it is damaged, and done without where there is
-/// no room for it.
+/// Checks that cached pipelines are found by the next backend, replaced if damaged, and not needed if they cannot be
+/// stored.
 void keepPipelines(Faulty& faulty) {
   const TemporaryFolder folder;
   const std::vector<ChunkJob> jobs = spheres(6, 2);
@@ -235,7 +236,7 @@ void keepPipelines(Faulty& faulty) {
 }
 
 #ifdef SGM_SCARCE_THREADS
-/// Where no thread can be had that makes the shaders ready, whoever came first waits for them.
+/// If no thread can be started that compiles the shaders, the first batch must wait for them.
 void lackThreads(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(7, 3);
   for (ChunkJob& job : jobs) job.prompt = true;

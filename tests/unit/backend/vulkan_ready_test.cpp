@@ -1,4 +1,5 @@
-// Jobs in a hurry do not wait for a device that is not ready: the CPU meshes until it is, with the same bytes.
+// Tests that urgent jobs do not wait for a device that is not ready: the CPU meshes them until it is, with the same
+// bytes.
 
 #include <chrono>
 #include <condition_variable>
@@ -15,7 +16,8 @@ using namespace sgm;
 
 namespace {
 
-/// Where pipelines are made only when let. Statics, as the device's table holds plain functions: one at a time.
+/// Blocks the creation of pipelines until it is opened. Its state is static, because the device's table holds plain
+/// functions: only one may exist at a time.
 class Gate {
  public:
   explicit Gate(bool is_open) { state() = {}, state().open = is_open; }
@@ -90,7 +92,7 @@ std::vector<ChunkJob> inAHurry(uint32_t seed, uint32_t count) {
   return jobs;
 }
 
-/// Until the device takes jobs in a hurry; what was made until then is right too.
+/// Waits until the device accepts urgent jobs; checks the meshes that are made until then.
 void awaitReady(const VulkanMachine& machine, const std::vector<ChunkJob>& jobs,
                 const std::vector<ChunkMesh>& expected) {
   for (uint64_t before = 1, after = 2; after != before;) {
@@ -101,7 +103,7 @@ void awaitReady(const VulkanMachine& machine, const std::vector<ChunkJob>& jobs,
   }
 }
 
-/// The end of a backend waits for one pipeline at most.
+/// The destruction of a backend must wait for one pipeline at most.
 void endEarly(vulkan::Engine& engine) {
   Gate gate(false);
   std::thread opener;
@@ -121,7 +123,7 @@ void endEarly(vulkan::Engine& engine) {
   CHECK(gate.asked() <= 2);
 }
 
-/// The CPU meshes until the shaders are ready, then the device does.
+/// The CPU must mesh until the shaders are ready, then the device.
 void meshUntilReady(vulkan::Engine& engine) {
   Gate gate(false);
   const VulkanMachine machine = gate.machine(engine);
@@ -144,7 +146,7 @@ void meshUntilReady(vulkan::Engine& engine) {
   CHECK(machine.warnings.empty());
 }
 
-/// Who waits for the device shares what is being made aside.
+/// A job that waits for the device must use pipelines that are being made in the background.
 void shareWhatIsMade(vulkan::Engine& engine) {
   Gate gate(false);
   const VulkanMachine machine = gate.machine(engine);
@@ -162,7 +164,7 @@ void shareWhatIsMade(vulkan::Engine& engine) {
   CHECK(gate.asked() == vulkan::kernels);
 }
 
-/// Shaders that cannot be made cost a line in the log and no mesh.
+/// Shaders that cannot be made must cause a line in the log, and no missing mesh.
 void failToMake(vulkan::Engine& engine) {
   Gate gate(true);
   const VulkanMachine machine = gate.machine(engine);

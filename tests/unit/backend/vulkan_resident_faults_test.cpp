@@ -1,5 +1,5 @@
-// The device fails, is lost or has no room where meshes stay on it or are brought to it: the meshes are the same, what
-// could not stay is not there, and the next batch stays again.
+// Tests failures of the device while meshes stay on it or are uploaded to it: the meshes must be the same, those that
+// could not stay must be reported as absent, and those of the next batch must stay again.
 
 #include <chrono>
 #include <iostream>
@@ -25,7 +25,7 @@ const MeshPart& partAt(const ChunkMesh& mesh, size_t part) {
   return mesh.seams.empty() ? none : mesh.seams[part - 1];
 }
 
-/// What draws parts, in the order of the meshes that they were asked for: kMeshParts each.
+/// The device parts of the requested meshes, kMeshParts for each.
 using Drawn = std::vector<std::shared_ptr<const DevicePart>>;
 
 Drawn drawnOf(const std::vector<ChunkMesh>& meshes) {
@@ -35,12 +35,12 @@ Drawn drawnOf(const std::vector<ChunkMesh>& meshes) {
 }
 
 struct Stayed {
-  size_t wanted = 0, there = 0;  ///< parts with triangles; of these, on a device
-  size_t lost = 0;               ///< of those, on one that was lost
-  uint64_t bytes = 0;            ///< on one that was not
+  size_t wanted = 0, there = 0;  ///< number of parts with triangles, and of those on a device
+  size_t lost = 0;               ///< number of those on a lost device
+  uint64_t bytes = 0;            ///< bytes on devices that are not lost
 };
 
-/// Whatever is there has the right bytes; where whole, all of a chunk is there or nothing.
+/// Checks the bytes of all parts on the device. whole: either all parts of a chunk are there, or none.
 Stayed checkStayed(vulkan::Engine& engine, const std::vector<ChunkMesh>& expected, const Drawn& drawn, bool whole) {
   REQUIRE(drawn.size() == expected.size() * kMeshParts);
   Stayed stayed;
@@ -94,7 +94,7 @@ constexpr Failure kRefusals[] = {
     {"vkMapMemory", VK_ERROR_MEMORY_MAP_FAILED},
 };
 
-/// Meshes that are to stay, on machines that fail once in a while.
+/// Meshes that stay on the device, while calls fail from time to time.
 class Strikes {
  public:
   Strikes(Faulty& faulty, uint32_t seed) : faulty_(faulty), random_(seed) {
@@ -111,7 +111,7 @@ class Strikes {
     }
   }
 
-  /// A batch, or the bringing of its meshes, of which one call may fail.
+  /// Runs a batch, or uploads its meshes, while one call may fail.
   void one(bool scarce) {
     // Memory is asked for by those alone that have none yet.
     if (scarce != (cap_ != UINT64_MAX) || random_() % 3 == 0)
@@ -144,7 +144,7 @@ class Strikes {
     in_vain += struck && on_cpu == 0 && stayed.there == 0;
     partly += stayed.there > 0 && stayed.there < all_.wanted;
   }
-  /// The next batch finds a device, and room on it.
+  /// Checks that the next batch finds a device with memory.
   void again() {
     const BackendCounters before = counters();
     REQUIRE(before.resident == 0);
@@ -156,12 +156,12 @@ class Strikes {
     REQUIRE(counters().device_lost == before.device_lost);
   }
 
-  unsigned losses = 0;   ///< of devices
-  unsigned in_vain = 0;  ///< the device did its work, and yet nothing stayed
-  unsigned partly = 0;   ///< some stayed, and some did not
+  unsigned losses = 0;   ///< number of lost devices
+  unsigned in_vain = 0;  ///< number of times that the device did its work, but no mesh stayed
+  unsigned partly = 0;   ///< number of times that only some meshes stayed
 
  private:
-  /// What was being copied when a wait failed is given back once the copying has ended.
+  /// Memory that was being copied when a wait failed is freed once the copy has ended; waits for that.
   BackendCounters countersOnceOnlyThese(uint64_t bytes) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (counters().resident != bytes && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
@@ -199,10 +199,10 @@ class Strikes {
   std::vector<ChunkJob> jobs_ = spheres(1, 5);
   std::vector<ChunkMesh> expected_;
   Stayed all_;
-  uint64_t largest_ = 0;  ///< bytes of a chunk
+  uint64_t largest_ = 0;  ///< the largest size of a chunk in bytes
 };
 
-/// Any call of keeping and of bringing fails, with room enough and with room for some.
+/// Lets any call of keeping or uploading meshes fail, with enough memory and with memory for some meshes only.
 void strikeMeshesThatStay(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'104;
   std::cout << "striking meshes that stay, seed " << kSeed << std::endl;
@@ -219,7 +219,7 @@ void strikeMeshesThatStay(Faulty& faulty) {
   }
 }
 
-/// A lent device that was lost is not asked again: the CPU meshes from then on.
+/// An engine's device that was lost must not be used again: the CPU meshes from then on.
 void loseForGood(Faulty& faulty) {
   BackendRequest request;
   request.kind = BackendKind::vulkan;

@@ -1,5 +1,5 @@
-// Threads that share a backend on a lent device: they mesh, leave meshes there and bring others, and end them, while
-// the device is lost under them.
+// Tests threads that share a backend on an engine's device: they mesh, keep meshes there, upload others and destroy
+// them, while the device is lost.
 
 #include <atomic>
 #include <iostream>
@@ -18,11 +18,11 @@ using namespace sgm;
 
 namespace {
 
-/// What threads hand each other: who ends a part is not who has made it.
+/// Passes parts between threads, so that a part is destroyed by another thread than the one that made it.
 class Exchanged {
  public:
   using Part = std::shared_ptr<const DevicePart>;
-  /// Keeps these, and ends those that it has kept so far.
+  /// Stores these parts, and destroys those stored before.
   void pass(std::vector<Part> parts) {
     const std::scoped_lock lock(mutex_);
     std::swap(parts, parts_);
@@ -33,14 +33,14 @@ class Exchanged {
   std::vector<Part> parts_;
 };
 
-/// A device that is lost at one of its submissions. No lock, which would put in order what is to be seen in none.
+/// Loses the device at one of its submissions. It uses no lock, which would order the threads and hide races.
 class LosingSubmit {
  public:
   static void wrap(vulkan::DeviceTable& table) {
     real() = table.vkQueueSubmit;
     table.vkQueueSubmit = submit;
   }
-  /// At the nth from now on, counted from 1.
+  /// Makes the nth submission from now on fail, counted from 1.
   static void arm(int nth) { left().store(nth); }
 
  private:
@@ -58,7 +58,7 @@ class LosingSubmit {
   }
 };
 
-/// Catch's assertions are for one thread.
+/// Counts of the threads' findings, because only one thread at a time may use Catch's assertions.
 struct Found {
   std::atomic<unsigned> batches{0}, left{0}, wrong{0}, refused{0}, resident{0}, brought{0};
 };

@@ -1,4 +1,5 @@
-// Files appear whole or not at all, whatever stands at the target, and whoever dies meanwhile.
+// Tests that files appear completely or not at all, whatever exists at the target and whichever process is killed
+// meanwhile.
 
 #include "base/file_writer.h"
 

@@ -1,4 +1,4 @@
-// parallelFor over job systems that keep the contract in unkind ways.
+// Tests parallelFor with job systems that satisfy the contract in unfavourable ways.
 
 #include <atomic>
 #include <chrono>
@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-// Accepts everything and runs nothing until it is told to.
+// Accepts all jobs, and runs none until it is told to.
 class LateJobs final : public JobSystem {
  public:
   unsigned concurrency() const override { return 4; }
@@ -37,7 +37,7 @@ class ImmediateJobs final : public JobSystem {
   bool help() override { return false; }
 };
 
-// A thread for the first job; help() says whether it was ever called.
+// Accepts one job, which runs on a thread of its own; records whether help() was called.
 class OneJobJobs final : public JobSystem {
  public:
   ~OneJobJobs() override {

@@ -1,4 +1,4 @@
-// The interface to the system's files: each call against what the next one sees.
+// Tests the interface to the system's files: the effect of each call is checked by other calls.
 
 #include "base/platform/file.h"
 

@@ -1,4 +1,4 @@
-// The base of masters: what is written is read again, and whatever is damaged is found out.
+// Tests the database of reference histograms: written data are read again, and all damage is detected.
 
 #include "tools/classify/base.h"
 

@@ -1,4 +1,4 @@
-// Models of known class, and the masters that are made of them.
+// Tests models of known class, and the reference histograms that are built from them.
 
 #include "tools/classify/build.h"
 
@@ -11,7 +11,7 @@
 namespace sgm::masters {
 namespace {
 
-/// A peak by class, a little off by the seed.
+/// Histograms with a peak whose place depends on the class, and slightly on the seed.
 std::vector<Specimen> peaks() {
   std::vector<Specimen> specimens;
   for (const Family& family : families()) {

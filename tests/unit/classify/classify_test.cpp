@@ -1,4 +1,4 @@
-// Distances between histograms, and the verdict that comes of them.
+// Tests distances between histograms, and the resulting verdicts.
 
 #include "tools/classify/classify.h"
 

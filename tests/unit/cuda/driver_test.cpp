@@ -1,5 +1,5 @@
-// The driver's side of the CUDA backend, on a driver that pretends: what is opened is closed, what cannot be used is
-// refused with a reason, and whatever call fails, the meshes are right.
+// Tests how the CUDA backend uses the driver, on a simulated driver: everything that is opened is closed, unusable
+// devices are rejected with a reason, and the meshes are right whichever call fails.
 
 #include <array>
 #include <random>

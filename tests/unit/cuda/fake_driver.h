@@ -1,5 +1,5 @@
 #pragma once
-// The driver that pretends (fake_gpu.h), for one test.
+// The simulated driver (fake_gpu.h) for the duration of one test.
 
 #include <array>
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace sgm::cuda {
 
-/// The fake runs every kernel, whatever the image is.
+/// A kernel image. The simulated driver runs its kernels whatever the image contains.
 inline constexpr std::array<std::byte, 16> kFakeImage{};
 
 class FakeDriver {
  public:
   FakeDriver() { beginFake(); }
-  /// CHECKs that nothing is left.
+  /// CHECKs that nothing is left allocated.
   ~FakeDriver();
   FakeDriver(const FakeDriver&) = delete;
   FakeDriver& operator=(const FakeDriver&) = delete;

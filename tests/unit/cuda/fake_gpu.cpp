@@ -25,17 +25,17 @@ namespace {
 
 std::mutex fake_mutex;
 FakeState fake_state;
-thread_local int fake_depth = 0;  ///< contexts that are current
+thread_local int fake_depth = 0;  ///< number of contexts that are current
 std::unique_ptr<Device> fake_host;
-std::unique_ptr<Stream> fake_runs;  ///< the kernels
-std::set<void*> fake_blocks;        ///< alive
+std::unique_ptr<Stream> fake_runs;  ///< runs the kernels
+std::set<void*> fake_blocks;        ///< allocated blocks
 char fake_function[static_cast<size_t>(Kernel::count)];
 int fake_things[3];
 
-/// What a stream was given and has not done: nothing is done before somebody waits, or asks twice.
+/// The work of a stream that has not been executed: it is executed only when the program waits, or queries twice.
 struct FakeStream {
   std::deque<std::function<void()>> queued;
-  uint64_t given = 0;  ///< pieces, ever
+  uint64_t given = 0;  ///< number of pieces of work submitted so far
 
   void give(std::function<void()> piece) {
     queued.push_back(std::move(piece));
@@ -51,10 +51,11 @@ struct FakeStream {
 };
 struct FakeEvent {
   FakeStream* stream = nullptr;
-  uint64_t after = 0;  ///< so many of its pieces
+  uint64_t after = 0;  ///< the event has occurred when this many pieces of its stream are executed
   bool asked = false;
 };
-/// Another API's memory as Mesa's software device shares it: a file, with a header that says where the memory begins.
+/// Imported memory of another API, in the form in which Mesa's software device shares it: a file with a header that
+/// contains the offset of the memory.
 class FakeImport {
  public:
   FakeImport(int descriptor, uint64_t bytes) : bytes_(bytes) {
@@ -79,14 +80,14 @@ class FakeImport {
   size_t size_ = 0;
   std::byte* file_ = nullptr;
 };
-std::vector<std::unique_ptr<FakeImport>> fake_imports;  ///< alive
-std::set<FakeStream*> fake_streams;                     ///< alive
-std::set<FakeEvent*> fake_events;                       ///< alive
+std::vector<std::unique_ptr<FakeImport>> fake_imports;  ///< live objects
+std::set<FakeStream*> fake_streams;                     ///< live objects
+std::set<FakeEvent*> fake_events;                       ///< live objects
 FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream); }
 FakeEvent& of(CuEvent event) { return *reinterpret_cast<FakeEvent*>(event); }
 void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
 
-/// What the call is to give; 0 as a rule.
+/// The result that the call must return; 0 unless a failure was requested.
 int before(const char* call, bool needs_context = true) {
   FakeState& s = fake_state;
   if (needs_context && fake_depth == 0) ++s.calls_without;
@@ -356,7 +357,7 @@ DriverTable makeTable() {
   return t;
 }
 
-/// Any thread may call a driver.
+/// Serializes calls, because any thread may call a driver.
 template <class Entry>
 struct OneAtATime;
 template <class... Arguments>

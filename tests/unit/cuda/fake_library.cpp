@@ -1,5 +1,5 @@
-// libcuda.so.1, as a program finds it: the driver that pretends (fake_gpu.h). With SGM_PRETEND_VULKAN in the
-// environment its GPU is the first of Vulkan's devices.
+// A libcuda.so.1 for programs under test: the simulated driver (fake_gpu.h). If SGM_PRETEND_VULKAN is set in the
+// environment, its GPU has the id of Vulkan's first device.
 
 #include <cstdlib>
 
@@ -33,7 +33,8 @@ const sgm::cuda::DriverTable table = makeTable();
 
 }  // namespace
 
-// A function of each name that jumps to the table's: their parameters, whatever they are, stay where they are.
+// Defines a function of each name that jumps to the table's function, so that parameters of any type are passed on
+// unchanged.
 #define SGM_CU(entry, name, parameters)                                       \
   extern "C" __attribute__((visibility("hidden"))) void* sgm_fake_##entry;    \
   void* sgm_fake_##entry = reinterpret_cast<void*>(table.entry);              \
@@ -43,6 +44,6 @@ const sgm::cuda::DriverTable table = makeTable();
 SGM_CU_FUNCTIONS
 #undef SGM_CU
 
-/// What a program's tests look at.
+/// The state of the simulated GPU, for a program's tests.
 extern "C" __attribute__((visibility("default"))) sgm::cuda::FakeState* sgm_fake_state();
 extern "C" sgm::cuda::FakeState* sgm_fake_state() { return &sgm::cuda::fakeState(); }

@@ -1,4 +1,5 @@
-// The CUDA backend where memory is scarce, or its device fails or is not waited for: the meshes are the same.
+// Tests the CUDA backend while memory is short, its device fails, or batches are not awaited: the meshes must be the
+// same.
 
 #include <atomic>
 #include <random>

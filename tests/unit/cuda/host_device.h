@@ -1,6 +1,6 @@
 #pragma once
-// The kernels on the CPU, block by block, thread after thread: what a GPU does, on a machine without one. For tests,
-// not for speed.
+// Runs the CUDA kernels on the CPU, block by block and thread by thread, as a GPU would, on a machine without one. For
+// tests, not for speed.
 
 #include <functional>
 #include <optional>
@@ -10,14 +10,16 @@
 namespace sgm::cuda {
 
 struct HostDeviceOptions {
-  /// Blocks of a launch, and threads of a phase, run in an order shuffled by this: none may matter. None: ascending.
+  /// Seed by which the order of a launch's blocks, and of the threads in each phase, is shuffled: the order must not
+  /// matter. nullopt: ascending order.
   std::optional<uint32_t> shuffled;
-  /// Called before every call that can fail, with its name ("allocate", "launch"...); an error is its result.
+  /// Called before every call that can fail, with the call's name ("allocate", "launch"...). If it returns an error,
+  /// the call fails with that error.
   std::function<Result<void>(const char* call)> before = nullptr;
-  bool borrowed = false;  ///< as if an engine had lent it
+  bool borrowed = false;  ///< behaves like a device that an engine provides
 };
 
-/// New memory holds bytes that no kernel can take for anything.
+/// New memory contains byte patterns that no kernel can mistake for valid data.
 std::unique_ptr<Device> makeHostDevice(HostDeviceOptions options = {});
 
 }  // namespace sgm::cuda

@@ -1,4 +1,4 @@
-// Meshes that stay in the context that an engine lent, on a driver that pretends: its GPU's memory can be looked into.
+// Tests meshes that stay in an engine's context, on a simulated driver whose GPU memory the test can read.
 
 #include <array>
 #include <cstring>
@@ -18,7 +18,7 @@ using cuda::FakeDriver;
 
 namespace {
 
-/// An engine with a context, and if it likes a stream of its own.
+/// An engine with a context, and optionally a stream of its own.
 class Engine {
  public:
   explicit Engine(bool with_stream) : table_(driver.table()) {
@@ -92,7 +92,7 @@ struct Stayed {
   size_t wanted = 0, there = 0;
 };
 
-/// All of a chunk or nothing, and with the meshes' bytes.
+/// Checks that all parts of a chunk stay or none, with the meshes' bytes.
 Stayed checkStayed(const std::vector<ChunkMesh>& meshes) {
   Stayed stayed;
   for (const ChunkMesh& mesh : meshes) {

@@ -1,5 +1,5 @@
-// Meshes of CUDA's in memory of a Vulkan device that draws them, and what can fail on either side. CUDA is a driver
-// that pretends (fake_gpu.h), to be the Vulkan device.
+// Tests meshes of the CUDA backend in memory of a Vulkan device that draws them, and failures on either side. CUDA is a
+// simulated driver (fake_gpu.h) whose GPU stands for the Vulkan device.
 
 #include "cuda/placed_meshes.h"
 #include "seed.h"
@@ -21,8 +21,8 @@
 
 using namespace sgm;
 
-/// To a leak checker: what the validation layer keeps in circles of its own. Of ours it has to say, at the device's
-/// end, that everything was destroyed.
+/// Suppresses reports of leaks in the validation layer, which keeps objects in reference cycles. That our objects are
+/// destroyed is checked by the layer at the device's end.
 extern "C" const char* __lsan_default_suppressions(void);
 extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLayer_khronos_validation.so"; }
 
@@ -35,7 +35,7 @@ T take(Result<T> result) {
   return std::move(*result);
 }
 
-/// One GPU of both APIs, and some parts in the memory of a batch.
+/// The GPU that both APIs use, and some parts in the memory of a batch.
 class OneGpu {
  public:
   OneGpu() : engine_(vulkan::Validation::synchronization, true) {
@@ -59,7 +59,7 @@ class OneGpu {
   std::shared_ptr<MeshStore> store;
 };
 
-/// Chunks of a body each, with random bytes, as a batch has left them in the device's memory.
+/// Chunks with a body of random bytes each, as a batch has left them in the device's memory.
 class BatchOf {
  public:
   BatchOf(cuda::Stream& stream, size_t chunks, std::mt19937& random) : sources(chunks), bytes_(chunks) {
@@ -79,7 +79,7 @@ class BatchOf {
     }
   }
 
-  /// Whether what lies in a chunk's place is what was to come there.
+  /// Whether the memory at a chunk's place contains the expected bytes.
   bool arrived(const PartPlace& place) const {
     const cuda::PartSource& body = sources[place.chunk][0];
     const size_t of_vertices = body.vertex_count * sizeof(Vertex);
@@ -116,7 +116,7 @@ class BatchOf {
 
 bool there(const DeviceParts& parts) { return static_cast<const vulkan::VulkanPart&>(*parts[0]).memory().there(); }
 
-/// What is given back is free once the device that draws has done with what was submitted about it.
+/// Waits until freed memory is released, which happens once the device that draws has completed the work that uses it.
 uint64_t bytesAtRest(MeshStore& store) {
   for (int tries = 0; store.bytes() != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -1,5 +1,6 @@
 #pragma once
-// A plain double-precision reading of shape.h, for judging bounds. Noise is any function within -1..1.
+// Evaluates the shapes of shape.h in plain double precision, to judge bounds. Noise may be any function with values in
+// -1..1.
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +144,7 @@ inline double fieldAt(const GrammarChunk& chunk, uint32_t index, Int3 p) {
       return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z) - size(0);
     case ShapeKind::box:
       return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
-    case ShapeKind::voxels:  // never below its box
+    case ShapeKind::voxels:  // at least the distance to its box
       return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
     case ShapeKind::cylinder:
       return boxDistance(ring - size(0), std::fabs(q.y) - size(1), -1e300);

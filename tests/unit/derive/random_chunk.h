@@ -1,5 +1,5 @@
 #pragma once
-// Random trees of every kind of shape, for properties that must hold for all of them.
+// Random trees of shapes of every kind, for properties that must hold for all of them.
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ class RandomChunk {
     return f;
   }
 
-  /// amplitude * noise, in metres.
+  /// Adds the expression amplitude * noise, in metres; returns its index.
   uint32_t noise(double amplitude) {
     Expr c;
     c.value = static_cast<float>(amplitude);

@@ -43,7 +43,7 @@ size_t indexIn(const VoxelBox& box, Int3 at) {
          static_cast<size_t>(at.x);
 }
 
-/// Calls visit with every place in the box, from 0 on.
+/// Calls visit with every place in the box.
 template <class Visit>
 void forAll(const VoxelBox& box, Visit visit) {
   Int3 at;
@@ -52,7 +52,8 @@ void forAll(const VoxelBox& box, Visit visit) {
       for (at.x = 0; at.x < box.count.x; ++at.x) visit(at);
 }
 
-/// Round by round and neighbour by neighbour over a box that is far too large; beyond it nothing is solid.
+/// The automaton's result by the plain algorithm: round by round and neighbour by neighbour, in a box much larger than
+/// necessary, outside of which nothing is solid.
 std::vector<uint8_t> straightforward(const Automaton& automaton, const VoxelBox& box) {
   VoxelBox large = box;
   Int3 margin;

@@ -10,7 +10,7 @@ using namespace sgm;
 
 namespace {
 
-/// How many of the tried points lie in the level set, and whether all of those lie in the box.
+/// Returns how many random points lie in the level set, and checks that all of those lie in the box.
 int checkLevel(RandomChunk& random, uint32_t root, double a, const IntBox& box) {
   int inside = 0;
   for (int i = 0; i < 300; ++i) {

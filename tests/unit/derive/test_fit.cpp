@@ -1,4 +1,4 @@
-// Assets in scopes: where they stand, of what they are, and what is said of those that do not fit.
+// Tests assets in scopes: their places, their materials, and the notes about assets that do not fit.
 
 #include <algorithm>
 #include <map>

@@ -10,7 +10,7 @@ using namespace sgm;
 
 namespace {
 
-/// Components of a block of cells under the links inside it.
+/// Number of connected components of a block of grammar cells, with the links inside the block.
 int components(const Lattice& lattice, Int3 corner, Int3 extent, int tree, double extra) {
   const auto index = [&](Int3 c) {
     return static_cast<size_t>(((c.z - corner.z) * extent.y + (c.y - corner.y)) * extent.x + (c.x - corner.x));

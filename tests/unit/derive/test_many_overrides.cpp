@@ -1,4 +1,4 @@
-// Overrides beside each other: many of them, and several of one address.
+// Tests many overrides together, and several of the same address.
 
 #include <set>
 
@@ -10,7 +10,7 @@ namespace {
 
 const std::string kLayer = "sgm 1; domain infinite;\nlayer net cell 64m reach 128m { start Main; }\n";
 
-/// How many boxes and how many spheres are among the roots of the cell's groups.
+/// Number of boxes and number of spheres among the roots of the cell's groups.
 std::array<size_t, 2> boxesAndBalls(const GrammarChunk& chunk) {
   std::array<size_t, 2> out{};
   for (const Group& g : chunk.groups) {

@@ -1,4 +1,4 @@
-// What derivation says of a cell, word for word: each note names the path, and the rest of the cell appears.
+// Tests the notes of derivation, word for word: each names the path, and the rest of the cell is derived.
 
 #include <limits>
 #include <tuple>
@@ -12,9 +12,9 @@ namespace {
 
 struct NoteCase {
   const char* message;
-  const char* place;    ///< how the part of it starts that is noted
-  const char* faulty;   ///< a statement
-  const char* instead;  ///< what the cell holds in its place: the same statement without its fault, or nothing
+  const char* place;    ///< beginning of the path of the element that the note concerns
+  const char* faulty;   ///< a statement that causes a note
+  const char* instead;  ///< the expected contents in its place: the same statement without its fault, or nothing
 };
 
 const NoteCase kNotes[] = {
@@ -132,7 +132,8 @@ const NoteCase kNotes[] = {
      "size(9m, 1m, 9m) wfc 9m { a 0: box(scope); }", ""},
 };
 
-/// Line 3 is the rule Faulty; another that is sound comes before it, and one behind.
+/// A grammar whose line 3 is the rule Faulty with this statement; uses of a rule without fault come before and after
+/// it.
 std::string around(std::string_view statement) {
   return "rule Main { at(9m, 9m, 9m) { Sound; Faulty; Sound; } }\nrule Faulty { " + std::string(statement) +
          " }\nrule Sound { sphere(rand(1m, 2m)); anchor spawn; }";

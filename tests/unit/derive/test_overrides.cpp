@@ -1,4 +1,4 @@
-// Blocks in the place of what rules derive: nothing else changes, and they stay where they are.
+// Tests overrides: blocks replace the shapes that rules derive, nothing else changes, and the blocks keep their places.
 
 #include <map>
 #include <set>
@@ -33,7 +33,7 @@ std::string inLayer(const std::string& rules) {
   return "sgm 1; domain infinite;\nlayer net cell 64m reach 128m { start Main; }\n" + rules + "\n";
 }
 
-/// The kinds of the shapes of a cell that its groups have at their roots, in the order of derivation.
+/// The kinds of the root shapes of a cell's groups, in the order of derivation.
 std::vector<ShapeKind> kinds(const Program& program, Int3 cell = {}) {
   const GrammarChunk chunk = derived(program, cell);
   std::vector<ShapeKind> out;

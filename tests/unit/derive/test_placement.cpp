@@ -1,4 +1,4 @@
-// Where the scope has a say: displacements under a scale, cuts, whole domains.
+// Tests effects of the scope: displacements under a scale, cuts, whole domains.
 
 #include "catch.h"
 #include "derive_fixture.h"
@@ -11,7 +11,7 @@ GrammarChunk finite(std::string_view rules) {
   return derived(*compiled("sgm 1; domain finite box(16m); start Main;\n" + std::string(rules)));
 }
 
-/// In metres, to the nearest tenth.
+/// Converts units to metres, rounded to a tenth.
 double tenths(int32_t units) { return std::floor(units / 102.4 + 0.5) / 10; }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST_CASE("a slanted probe ends at the surface") {
 
 namespace {
 
-/// Open between two heights.
+/// A lower layer that is void between two heights.
 class Opening : public LowerLayers {
  public:
   Opening(int32_t floor, int32_t ceiling) : floor_(floor), ceiling_(ceiling) {}

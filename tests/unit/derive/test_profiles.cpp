@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, and roofs.
+// Tests footprints, extrusions of footprints, and roofs.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ std::string decimal(double value) { return std::to_string(value); }
 
 double random01(std::mt19937& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-/// All of one kind, in the order of derivation.
+/// All shapes of one kind, in the order of derivation.
 std::vector<Shape> shapesOf(const GrammarChunk& chunk, ShapeKind kind) {
   std::vector<Shape> out;
   for (const Shape& s : chunk.shapes)
@@ -29,7 +29,7 @@ std::vector<Shape> shapesOf(const GrammarChunk& chunk, ShapeKind kind) {
   return out;
 }
 
-/// Corners of an upright prism in the world, metres, from x towards z.
+/// World coordinates of the corners of an upright prism, metres, in order from x towards z.
 std::vector<PlanCorner> outlineOf(const GrammarChunk& chunk, const Shape& prism) {
   std::vector<PlanCorner> out;
   for (uint32_t i = prism.point_count; i-- > 0;) {
@@ -39,7 +39,7 @@ std::vector<PlanCorner> outlineOf(const GrammarChunk& chunk, const Shape& prism)
   return out;
 }
 
-/// Whether a convex outline holds a point, a little inside of it.
+/// Whether a convex outline contains a point, slightly away from its edges.
 bool holds(const std::vector<PlanCorner>& outline, PlanCorner p) {
   for (size_t i = 0; i < outline.size(); ++i) {
     const PlanCorner a = outline[i], b = outline[(i + 1) % outline.size()];
@@ -55,7 +55,7 @@ PlanCorner middleOf(const std::vector<PlanCorner>& outline) {
   return {sum.x / n, sum.z / n};
 }
 
-/// Share of a piece's own area that lies in another, by points of its fan of triangles.
+/// Whether two pieces overlap, tested at points in the triangles from the first piece's middle to its corners.
 bool overlap(const std::vector<PlanCorner>& a, const std::vector<PlanCorner>& b) {
   const PlanCorner m = middleOf(a);
   for (size_t i = 0; i < a.size(); ++i)
@@ -69,7 +69,7 @@ bool overlap(const std::vector<PlanCorner>& a, const std::vector<PlanCorner>& b)
   return false;
 }
 
-/// Out of the solid, of a slope.
+/// The normal of a roof's half-space, which points out of the solid.
 Vec3 normalOf(const Shape& halfspace) {
   return {double{halfspace.frame.rows[3]}, double{halfspace.frame.rows[4]}, double{halfspace.frame.rows[5]}};
 }

@@ -1,4 +1,4 @@
-// What a derivation may ask of the layers below: the proof about a ball, and which ball it is.
+// Tests queries of lower layers during derivation: the proof about a ball, and which ball is queried.
 
 #include <cmath>
 #include <random>
@@ -21,7 +21,7 @@ Int3 around(std::mt19937& random, Int3 p, int32_t most) {
   return saturatingAdd(p, {by(random), by(random), by(random)});
 }
 
-/// Rock everywhere but in one sphere, or the other way round; bounds with a slack, as those of fields have.
+/// A field with rock everywhere except in a sphere, or only in it; its bounds have a slack, as those of fields do.
 class OneSphere {
  public:
   OneSphere(Int3 centre, double radius, bool hollow, double slack)
@@ -49,7 +49,7 @@ class OneSphere {
   double slack_;
 };
 
-/// Keeps what it is asked, and says that it is so.
+/// Records the queries, and answers each with yes.
 class Asked final : public LowerLayers {
  public:
   explicit Asked(uint32_t pieces = 1) : pieces_(pieces) {}

@@ -1,4 +1,5 @@
-// What is proven of layers, their reach and the levels at which they show, against what derivation gives.
+// Tests what is proven about layers (their reach, and the levels at which they are visible) against the results of
+// derivation.
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +13,8 @@ using namespace sgm;
 
 namespace {
 
-/// Values within the declared ranges, of every other seed at their ends; any at all where none is declared.
+/// Random parameter values within the declared ranges, for every second seed at the ends of the ranges; any values for
+/// parameters without a range.
 ParameterValues randomValues(const Program& program, uint64_t seed) {
   ParameterValues values = ParameterValues::defaults(program);
   for (size_t i = 0; i < program.params.size(); ++i) {
@@ -26,7 +28,7 @@ ParameterValues randomValues(const Program& program, uint64_t seed) {
   return values;
 }
 
-/// The largest cell edge at which a shape may show.
+/// The largest cell size at which a shape may be visible.
 int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
   const Shape& s = chunk.shapes[index];
   int32_t most = s.child_count == 0 ? std::numeric_limits<int32_t>::max() : 0;
@@ -35,7 +37,8 @@ int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
   return s.detail > 0 ? std::min(most, s.detail) : most;
 }
 
-/// Groups stay within the proven bound, and nothing is left out for leaving its reach.
+/// Checks that the shapes of a cell stay within the proven bound, and that no shape is left out because it exceeds its
+/// reach.
 int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
   const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
   if (!chunk) return 0;  // more than a cell may cost

@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// All points of a box of cells, as world positions.
+/// All points of a box of grammar cells, as world positions.
 std::vector<Int3> gather(const Lattice& lattice, Int3 from, Int3 to, int32_t radius) {
   std::vector<Int3> all;
   for (int z = from.z; z < to.z; ++z) {

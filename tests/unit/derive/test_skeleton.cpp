@@ -1,4 +1,4 @@
-// Branching skeletons: what the turtle may do, and that no part of a tree depends on how the rest of it grows.
+// Tests branching skeletons: the turtle's commands, and that no part of a tree depends on how the rest grows.
 
 #include "derive/layout/skeleton.h"
 
@@ -17,14 +17,14 @@ namespace {
 
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-/// In radians, near 0 as exact as elsewhere.
+/// The angle between two vectors in radians, as exact near 0 as elsewhere.
 double angleBetween(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
 Vec3 headingOf(const Segment& s) { return s.to - s.from; }
 
 int stepOf(const Segment& s, const Turtle& turtle) { return static_cast<int>(std::lround(s.along * turtle.steps)); }
 
-/// By key; no two segments of a tree have the same.
+/// The segments of a tree by key; no two segments may have the same key.
 std::map<PathKey, Segment> byKey(const Skeleton& skeleton) {
   std::map<PathKey, Segment> all;
   for (const Segment& s : skeleton.segments) all.emplace(s.key, s);
@@ -38,7 +38,7 @@ Turtle randomTurtle(std::mt19937& random) {
   return {1 + std::floor(10 * unit(random)), std::exp(6 * unit(random) - 3), turn, 0.6 * unit(random)};
 }
 
-/// Held to what the header says of a tree; gives its forks.
+/// Checks that a tree satisfies the header's contract. Returns the number of its forks.
 int checkTree(const Skeleton& skeleton, const Turtle& turtle) {
   constexpr double kSlack = 1e-7;
   int forks = 0;
@@ -77,7 +77,7 @@ int checkTree(const Skeleton& skeleton, const Turtle& turtle) {
   return forks;
 }
 
-/// The capsules of a tree that a grammar makes, as text that knows their ends and radius to the bit.
+/// The capsules of a tree that a grammar makes: their ends and radii, exactly.
 std::vector<std::array<double, 7>> capsules(const GrammarChunk& chunk, Int3 about = {}) {
   std::vector<std::array<double, 7>> out;
   for (const Shape& s : chunk.shapes) {

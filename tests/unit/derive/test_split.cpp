@@ -1,4 +1,4 @@
-// Scopes in parts: that they fill what they are parts of, and stand where the language says.
+// Tests splits of scopes: the parts fill the scope, and have the places that the language defines.
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,11 @@ namespace {
 constexpr double kOneUnit = 1024;
 
 struct Box {
-  Vec3 low, high;  ///< metres from the cell's corner
+  Vec3 low, high;  ///< metres from the grammar cell's corner
   double volume() const { return (high.x - low.x) * (high.y - low.y) * (high.z - low.z); }
 };
 
-/// The boxes of a chunk, whose frames turn by quarters alone.
+/// The boxes of a derived cell, whose frames are rotated by multiples of 90 degrees only.
 std::vector<Box> boxesOf(const GrammarChunk& chunk) {
   std::vector<Box> boxes;
   for (const Shape& shape : chunk.shapes) {

@@ -1,4 +1,4 @@
-// The standard library says of each of its functions what it does, with an example; the examples derive.
+// Tests that each function of the standard library is documented with an example, and that the examples derive.
 
 #include <sstream>
 
@@ -9,7 +9,7 @@ using namespace sgm;
 
 namespace {
 
-/// A comment and the declaration behind it. Without a comment: a helper.
+/// A declaration with the comment above it. A declaration without a comment is an internal helper.
 struct Documented {
   std::string name;
   std::vector<std::string> comment;

@@ -1,4 +1,4 @@
-// Floors in rooms: areas and shapes of the parts, and that every room can be reached.
+// Tests floor plans: areas and shapes of the rooms, and that every room can be reached.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ bool touch(const PlanRect& a, const PlanRect& b) {
   return std::max(a.x0, b.x0) < std::min(a.x1, b.x1) && std::max(a.z0, b.z0) < std::min(a.z1, b.z1);
 }
 
-/// A floor plan that was drawn, with what it was drawn from.
+/// A random floor plan, with the sizes from which it was made.
 struct Drawn {
   FloorPlanSizes sizes;
   std::vector<double> areas;
@@ -48,7 +48,7 @@ Drawn drawnPlan(std::mt19937& random, size_t most_rooms = 10) {
   return out;
 }
 
-/// What is open, as rectangles, and for each the room it belongs to, or none.
+/// The open parts of a plan as rectangles, each with the number of its room, or none.
 std::vector<std::pair<PlanRect, size_t>> openOf(const FloorPlan& plan) {
   std::vector<std::pair<PlanRect, size_t>> out;
   for (size_t room = 0; room < plan.rooms.size(); ++room)

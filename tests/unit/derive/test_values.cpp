@@ -1,4 +1,4 @@
-// What operators, functions and members give, seen in the radius of a sphere.
+// Tests the results of operators, functions and members, by the radius of a sphere.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// Of `sphere(expression)` in the cell 1 2 3; `before` stands ahead of it in its rule.
+/// The radius of `sphere(expression)` in the grammar cell 1 2 3. before: statements in front of it in its rule.
 double radiusOf(const std::string& expression, const std::string& before = {}) {
   const GrammarChunk chunk = derivedRules(
       "let twice(x) = 2*x; let three = 3; rule Main { " + before + " meet { box(9m); sphere(" + expression + "); } }",

@@ -1,4 +1,5 @@
-// Wave function collapse: what is found satisfies every side, whatever can be found is, and nothing else is claimed.
+// Tests wave function collapse: a solution satisfies every side, a solution is found if one exists, and otherwise none
+// is claimed.
 
 #include <algorithm>
 #include <bit>
@@ -42,7 +43,7 @@ DrawnWave drawnWave(std::mt19937& random, unsigned most_tiles, unsigned most_edg
   return out;
 }
 
-/// What stands across a side of a place: a place, or none at the border.
+/// The place across a side of a place; nullopt at the border.
 std::optional<uint32_t> beyond(const WaveLattice& lattice, uint32_t place, size_t side) {
   constexpr int kSteps[6][3] = {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
   const auto& n = lattice.size;
@@ -57,7 +58,7 @@ std::optional<uint32_t> beyond(const WaveLattice& lattice, uint32_t place, size_
 
 constexpr size_t kAcross[6] = {2, 3, 0, 1, 5, 4};
 
-/// Whether a tile may stand at a place, next to what stands at the places before it.
+/// Whether a tile is compatible with the tiles at the neighbouring places that come before its place.
 bool fitsBeside(const DrawnWave& wave, const std::vector<uint16_t>& tiles, uint32_t place, uint16_t tile) {
   for (size_t side = 0; side < 6; ++side) {
     const std::optional<uint32_t> other = beyond(wave.lattice, place, side);
@@ -68,7 +69,7 @@ bool fitsBeside(const DrawnWave& wave, const std::vector<uint16_t>& tiles, uint3
   return true;
 }
 
-/// By trying everything, place by place.
+/// Whether a solution exists, by trying all tiles, place by place.
 bool solvable(const DrawnWave& wave, std::vector<uint16_t>& tiles) {
   const auto& n = wave.lattice.size;
   if (tiles.size() == size_t{n[0]} * n[1] * n[2]) return true;
@@ -91,7 +92,7 @@ void checkSolution(const DrawnWave& wave, const WaveResult& result) {
   }
 }
 
-/// Tiles of pipes in a plane: every set of sides that a pipe leaves by, but those of less than two.
+/// Tiles with pipes in a plane: one for every set of at least two sides at which a pipe may leave.
 std::vector<WaveTile> pipes() {
   std::vector<WaveTile> out;
   for (unsigned open = 0; open < 16; ++open) {

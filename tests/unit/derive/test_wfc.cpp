@@ -1,4 +1,4 @@
-// Lattices of tiles: that they stand, turn and meet as the language says.
+// Tests lattices of tiles: the tiles' places, rotations and neighbours are as the language defines.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kUnits = 1024;
 
-/// Where the boxes of a material stand, in metres from the cell's corner.
+/// The places of the boxes with a material, in metres from the grammar cell's corner.
 std::vector<std::pair<std::array<double, 3>, std::string>> marksOf(const Program& program, const GrammarChunk& chunk) {
   std::vector<std::pair<std::array<double, 3>, std::string>> out;
   for (const Shape& shape : chunk.shapes) {
@@ -31,7 +31,7 @@ constexpr const char* kSides[6] = {"front", "right", "back", "left", "top", "bot
 constexpr const char* kMarks[6] = {"z 0.5*scope.z - 0.1m", "x 0.5*scope.x - 0.1m", "z 0.1m - 0.5*scope.z",
                                    "x 0.1m - 0.5*scope.x", "y 0.5*scope.y - 0.1m", "y 0.1m - 0.5*scope.y"};
 
-/// Tiles each side of which is marked by a small box of the material of its label's name.
+/// Tiles on each of whose sides a small box marks the side's label: the box's material has the label's name.
 std::string markedTiles(std::mt19937& random, const std::string& size, bool border) {
   const char* labels[] = {"red", "green", "blue"};
   const auto label = [&] { return labels[random() % 3]; };
@@ -57,7 +57,7 @@ size_t countOf(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<size_t>(std::count(names.begin(), names.end(), name));
 }
 
-/// Materials of the boxes, in the order of the tiles.
+/// The materials of the boxes, in the order of the tiles.
 std::vector<std::string> tilesOf(const Program& program, const GrammarChunk& chunk) {
   std::vector<std::string> out;
   for (const auto& [at, material] : marksOf(program, chunk)) out.push_back(material);

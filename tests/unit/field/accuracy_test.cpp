@@ -1,4 +1,4 @@
-// Float values against the double-precision reference, as close as ops.def states.
+// Tests that float values are as close to the double-precision reference as ops.def states.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ using namespace sgm;
 
 namespace {
 
-// A register after the first `count` instructions of a group, by the reference.
+// The reference value of a register after the first `count` instructions of a group.
 double referenceOf(const ProgramView& program, const ProgramGroup& g, uint32_t count, uint8_t result, Int3 p) {
   ProgramGroup part = g;
   part.count = count;
@@ -29,8 +29,8 @@ double referenceOf(const ProgramView& program, const ProgramGroup& g, uint32_t c
   return referenceField(view, p);
 }
 
-// Bounds of the float value of a program of one group at one point: the reference at its leaves, and each op's stated
-// error from there on.
+// Bounds of the float value of a program with one group at one point: computed from the reference values of its leaves,
+// and the stated error of each operation above them.
 Interval boundsAt(const ProgramView& program, Int3 p) {
   const ProgramGroup& g = program.groups[0];
   const PlaceBox here = placeBox({p, p});
@@ -144,7 +144,7 @@ TEST_CASE("every op is as close to the double-precision reference as its operand
 
 namespace {
 
-// One op alone: a position op, or one over constants, which bring no error of their own.
+// A program with a single operation: one that reads a position, or one on constants, which have no error themselves.
 FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
   const FieldProgram drawn = programOf(op, random, centre);
   if (drawn.instrs.size() == 1) return drawn;

@@ -1,5 +1,5 @@
-// From derived cells to programs: which groups are found, that the order of the cells changes nothing, and that neither
-// does what is left out.
+// Tests compiling derived cells to programs: which groups are found, and that neither the order of the cells nor the
+// omission of groups changes the result.
 
 #include <algorithm>
 #include <cstring>
@@ -18,7 +18,7 @@ int32_t within(std::mt19937& random, int32_t extent) {
   return static_cast<int32_t>(random() % static_cast<uint32_t>(2 * extent)) - extent;
 }
 
-// A cell of spheres, each a group of its own with tight bounds.
+// A derived cell of spheres, each in a group of its own with tight bounds.
 GrammarChunk cellOf(std::mt19937& random, Int3 cell, uint32_t layers, uint32_t most, int32_t extent) {
   GrammarChunk chunk;
   chunk.layer = static_cast<uint32_t>(random() % layers);
@@ -43,7 +43,7 @@ GrammarChunk cellOf(std::mt19937& random, Int3 cell, uint32_t layers, uint32_t m
   return chunk;
 }
 
-// A cell whose one group is a sum of balls, read elsewhere by up to `shift` metres.
+// A derived cell whose only group is a sum of balls, displaced by up to `shift` metres.
 GrammarChunk sumOf(std::mt19937& random, uint32_t balls, int32_t extent, int32_t shift) {
   GrammarChunk chunk;
   for (uint32_t i = 0; i < balls; ++i) {

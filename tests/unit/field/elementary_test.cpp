@@ -1,4 +1,4 @@
-// The elementary functions of shaders/common/real.h against long double, within the errors that they state.
+// Tests that the elementary functions of shaders/common/real.h differ from long double by at most the stated errors.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using std::memcpy;
 
 #include "common/common.h"
 
-// The mantissas of two neighbouring powers of two: all there is to a function that scales with the exponent.
+// The mantissas of two successive powers of two: these are all cases of a function that scales with the exponent.
 constexpr uint32_t kMantissas = 1u << 24;
 
 float atStep(uint32_t step) { return uniformFloat(0x3F000000u + step); }

@@ -1,4 +1,4 @@
-// Gradients against differences of the reference.
+// Tests gradients against difference quotients of the reference.
 
 #include <algorithm>
 #include <cmath>

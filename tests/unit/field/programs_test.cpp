@@ -1,4 +1,4 @@
-// Programs as they are made: what the builder refuses, values that are held finite, and the random ones.
+// Tests making programs: errors of the builder, values that stay finite, and random programs.
 
 #include <cmath>
 

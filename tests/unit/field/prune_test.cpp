@@ -1,4 +1,4 @@
-// Interval bounds and pruning, against every value of what they are about.
+// Tests interval bounds and pruning against the values at many points.
 
 #include <cmath>
 #include <iostream>

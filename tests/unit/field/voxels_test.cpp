@@ -1,5 +1,5 @@
-// Blocks of voxels as a field: close to what voxels.h says in plain words, on the voxel's side at its place, and in
-// pieces the same as in one, to the bit.
+// Tests blocks of voxels as a field: values are close to the definition in voxels.h, each voxel's centre is on the
+// right side of the surface, and several pieces give the same bits as one.
 
 #include "field/voxels.h"
 #include "seed.h"
@@ -23,7 +23,7 @@ int32_t between(std::mt19937& random, int32_t low, int32_t high) {
   return std::uniform_int_distribution<int32_t>(low, high)(random);
 }
 
-/// A world of voxels: any function of their indices, here clumps of random ones.
+/// A world of voxels: any function of their indices; here random clumps.
 struct VoxelWorld {
   uint64_t seed = 0;
   int32_t edge = 1024;
@@ -42,7 +42,7 @@ struct VoxelWorld {
   }
 };
 
-/// The part of it in a cell, as derivation makes it.
+/// The part of the world in a grammar cell, as derivation makes it.
 GrammarChunk pieceOf(const VoxelWorld& world, Int3 cell, int32_t cell_edge, int32_t height = 1 << 18) {
   GrammarChunk chunk;
   chunk.cell = cell;
@@ -107,7 +107,7 @@ Values valuesOf(const std::vector<GrammarChunk>& chunks, const std::vector<Int3>
   return v;
 }
 
-/// What voxels.h says, in double precision and without rounding.
+/// The definition in voxels.h, in double precision without rounding.
 class Expected {
  public:
   Expected(const VoxelWorld& world, int32_t cell) : world_(world) {

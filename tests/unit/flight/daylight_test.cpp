@@ -1,4 +1,4 @@
-// Sun or lamp: worlds of which one can say what a photographer would do.
+// Tests the choice of sun or lamp, in worlds for which a photographer's choice is evident.
 
 #include "tools/flight/daylight.h"
 
@@ -22,7 +22,7 @@ struct Box {
   uint32_t material = 0;
 };
 
-/// Where a ray enters the box, or nothing.
+/// The place at which a ray enters the box; nullopt if it misses the box.
 std::optional<RayEnd> entry(const Box& box, const Metres3& from, const Metres3& direction, double metres) {
   double enter = 0, leave = metres;
   int side = -1;
@@ -70,7 +70,8 @@ Outlook look(const LitWorld& world, const Metres3& position, const Metres3& dire
 
 const Box kGround{{-500, -1, -500}, {500, 0, 500}};
 
-/// A room with an inside of 2 x, h and 2 z metres; its walls, floor and ceiling are boxes of a metre.
+/// A room with inner dimensions of 2 x, h and 2 z metres; its walls, floor and ceiling are boxes with a thickness of
+/// one metre.
 std::vector<Box> room(double x, double h, double z, uint32_t ceiling = 0) {
   return {{{-x - 1, -1, -z - 1}, {x + 1, 0, z + 1}},  {{-x - 1, h, -z - 1}, {x + 1, h + 1, z + 1}, ceiling},
           {{-x - 1, -1, -z - 1}, {-x, h + 1, z + 1}}, {{x, -1, -z - 1}, {x + 1, h + 1, z + 1}},

@@ -1,5 +1,5 @@
 #pragma once
-// Octrees of chunks of a field, meshed through the public interface and drawn into a frame checker.
+// Octrees of a field's chunks, meshed through the public interface and drawn into a frame checker.
 
 #include <map>
 #include <random>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// Two closed worlds around the origin whose coarse levels have lost pebbles and octaves.
+/// Two closed worlds around the origin whose coarse levels lack pebbles and octaves of noise.
 inline constexpr const char* kClosedWorlds[] = {
     "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Rock;\n"
     "rule Rock {\n"
@@ -24,7 +24,7 @@ inline constexpr const char* kClosedWorlds[] = {
     "    tube((4m, -3m, 5m), (0m, 6m, 46m), 3m, bend 6m);\n"
     "    tube((4m, -3m, 5m), (-40m, -14m, -24m), 2m, bend 9m);\n  }\n"
     "  repeat 8 at(2m, 1m, 1m) detail 1m { at(-8m, -6m, -4m) sphere(0.9m); }\n}\n"};
-/// One of turned boxes, with pebbles that coarse levels have lost.
+/// A closed world of rotated boxes, whose coarse levels lack pebbles.
 inline constexpr const char* kBoxWorld =
     "sgm 1;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Heap;\nrule Heap {\n"
     "  at(4m, -3m, 5m) rot(y, 25deg) rot(x, 35deg) box(34m, 21m, 27m);\n"
@@ -33,7 +33,7 @@ inline constexpr const char* kBoxWorld =
 inline constexpr int kTop = 3;
 inline constexpr int32_t kFinestCell = 256;
 
-/// All of the closed worlds, refined at random places around their middle.
+/// An octree of the whole closed world, refined at random places around its middle.
 inline Octree randomTree(std::mt19937& random) {
   Octree tree(kTop, kFinestCell);
   for (int corner = 0; corner < 8; ++corner)
@@ -53,7 +53,7 @@ inline Octree randomTree(std::mt19937& random) {
 
 inline sgm_chunk_key publicKey(const ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }
 
-/// What an octree draws.
+/// The drawn parts of each chunk of an octree.
 using Drawing = std::map<ChunkKey, cli::DrawnParts>;
 inline Drawing drawingOf(const Octree& tree) {
   Drawing drawing;
@@ -61,10 +61,10 @@ inline Drawing drawingOf(const Octree& tree) {
   return drawing;
 }
 
-/// A closed world's field, and the meshes asked for so far, with all seams.
+/// The field of a closed world, and the meshes requested so far, with all seams.
 class MeshedWorld {
  public:
-  /// flags: of sgm_meshing_flag.
+  /// flags: bits of sgm_meshing_flag.
   explicit MeshedWorld(const char* grammar, uint32_t flags = 0)
       : flags_(flags),
         runtime_(makeRuntime()),

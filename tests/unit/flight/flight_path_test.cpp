@@ -1,4 +1,4 @@
-// Flights keep to the void, go on for ever, and are the same every time.
+// Tests that planned flights stay in the void, never end, and are reproducible.
 
 #include "tools/flight/flight_path.h"
 
@@ -50,8 +50,8 @@ Int3 unitsAt(const Metres3& p, int axis = 0, double by = 0) {
   return units;
 }
 
-/// What is wrong with a flight: places with less than `room` metres of void along an axis, uneven steps, directions
-/// that do not lead on.
+/// Counts the faults of a flight: places with less than `room` metres of void along an axis, uneven steps, and
+/// directions that do not point along the path.
 struct Flown {
   size_t tight = 0, uneven = 0, astray = 0, turns = 0;
   std::set<std::array<int, 3>> regions;

@@ -1,4 +1,4 @@
-// Pictures of drawn chunks: what the camera sees, where it is, in the colours asked for.
+// Tests pictures of drawn chunks: the visible surfaces, in the right place and in the requested colours.
 
 #include "tools/flight/flight_picture.h"
 
@@ -13,7 +13,8 @@ using cli::PicturedChunk;
 using cli::PictureWish;
 
 #if defined(__SANITIZE_ADDRESS__)
-// Mesa's drivers leak a little for each instance and are unloaded before the leak check: no suppression can name them.
+// Mesa's drivers leak a little memory for each instance, and are unloaded before the leak check, so that no suppression
+// can name them: switch the leak check off.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }
 #endif

@@ -1,4 +1,4 @@
-// Flights through streamed worlds: what they dig and what they report of it.
+// Tests flights through streamed worlds: their digs, and the reports about them.
 
 #include "tools/flight/flight.h"
 
@@ -13,7 +13,7 @@ using cli::Spread;
 
 namespace {
 
-/// A closed cave, flown through; made anew for every flight.
+/// A closed cave for one flight.
 struct CaveFlight {
   RuntimeOwner runtime = makeRuntime();
   GrammarOwner grammar = compile(runtime.get(), kClosedWorlds[1]);

@@ -1,4 +1,4 @@
-// What `sgm fly --measure` makes of measures.
+// Tests the report of `sgm fly --measure`.
 
 #include "tools/flight/fly_measures.h"
 #include "catch.h"

@@ -1,4 +1,4 @@
-// The checker sees what is wrong with a frame, sees nothing wrong with a right one, and loses count of nothing.
+// Tests the frame checker: it finds every fault of a frame, none in a valid frame, and its running counts stay correct.
 
 #include "tools/flight/frame_checker.h"
 
@@ -25,7 +25,7 @@ void drawAll(FrameChecker& checker, MeshedWorld& world, const Drawing& drawing) 
   for (const auto& [key, parts] : drawing) REQUIRE(checker.draw(world.view(key), parts));
 }
 
-/// Checks that the running numbers are those of a check of everything.
+/// Checks that the running counts equal those of a complete check.
 WholeReport agreed(const FrameChecker& checker) {
   const WholeReport whole = checker.checkWhole();
   INFO(describe(whole.mesh));

@@ -1,4 +1,5 @@
-// Ranges of what rules, lets and fields take: what a caller is told, word for word and at its own line.
+// Tests declared ranges of the arguments of rules, lets and fields: the messages to a caller, word for word and with
+// its own line.
 
 #include "grammar/check_file.h"
 #include "grammar/help/declarations.h"
@@ -9,7 +10,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Line 1 is the head of the file; the cases stand from line 2 on.
+/// The messages about a text. Line 1 is the head of the file; the text begins on line 2.
 std::string rangeWords(const std::string& text, ImportResolver* resolver = nullptr) {
   const CompileResult result = compileText("sgm 1;\n" + text, resolver);
   INFO(renderDiagnostics(result));
@@ -22,7 +23,7 @@ std::string rangeWords(const std::string& text, ImportResolver* resolver = nullp
 
 const std::string kHall = "rule Hall(r in 1m..60m, thick = 0.12 in 0.02..1) { sphere(r + 0.1*thick*r); }\n";
 
-/// What is said of a body of the start rule, on line 3.
+/// The messages about a body of the start rule, on line 3.
 std::string wordsOfBody(const std::string& body) { return rangeWords(kHall + "rule A { " + body + " } start A;"); }
 
 }  // namespace
@@ -246,7 +247,8 @@ TEST_CASE("the range of a rule stands in its first head", "[grammar][ranges]") {
         "holds for all heads | note: the first head is at test.sgm:3:1");
   CHECK(
       rangeWords("rule A { B(2m); } start A;\nrule B(r) { sphere(r); }\nrule B(r in 1m..8m) lod 2m { box(r); }")
-          .starts_with("4:8 param-range: `r` of `B` has a range here and none in the first head | the range in the first head"));
+          .starts_with(
+              "4:8 param-range: `r` of `B` has a range here and none in the first head | the range in the first head"));
 }
 
 TEST_CASE("the caller of an import is told, and the caller of the library for what the library does",

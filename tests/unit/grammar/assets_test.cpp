@@ -1,4 +1,4 @@
-// Assets that a grammar imports, and what is said of those that are none, word for word.
+// Tests assets that a grammar imports, and the messages about invalid ones, word for word.
 
 #include "bodies.h"
 #include "catch.h"

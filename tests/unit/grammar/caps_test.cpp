@@ -1,4 +1,4 @@
-// Hostile texts: deep, long, endless; each must end quickly and with a diagnostic.
+// Tests malicious texts, for example deeply nested or very long ones: each must end quickly with a diagnostic.
 
 #include <algorithm>
 #include <ctime>
@@ -17,7 +17,7 @@ std::string repeated(std::string_view text, int times) {
   return out;
 }
 
-/// Of processor time: the machine may be busy.
+/// Measured in processor time, since the machine may be busy.
 double secondsSince(std::clock_t begin) { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 bool mentions(const CompileResult& result, std::string_view code) {
@@ -122,7 +122,7 @@ TEST_CASE("a megabyte of noise ends", "[grammar][caps]") {
 
 namespace {
 
-/// A tree of rules, each with what a rule usually has.
+/// A tree of rules, each with the usual contents of a rule.
 std::string treeOfRules(int count) {
   std::string text = "sgm 1;\nimport \"std/rock.sgm\" as rock;\nstart R0(4m);\n";
   for (int i = 0; i < count; ++i) {
@@ -138,7 +138,7 @@ std::string treeOfRules(int count) {
   return text;
 }
 
-/// Of the processor, not of the wall's clock: other programs may be at work.
+/// Measured in processor time, not wall time, since other programs may be running.
 double secondsToCompile(const std::string& text) {
   double best = 1e9;
   for (int round = 0; round < 3; ++round) {

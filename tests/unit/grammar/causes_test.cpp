@@ -1,5 +1,5 @@
-// Divisions by 0, weights below 0 and values without a bound: the cause, at a line that its author can change, with a
-// hint that does away with it.
+// Tests messages about divisions by 0, weights below 0 and values without a bound: each reports the cause, at a line
+// that the author can change, with a hint that removes it.
 
 #include <cmath>
 #include <string>
@@ -49,7 +49,7 @@ CompileResult grammar(const std::string& text) {
   return compileText("sgm 1; import \"std/rock.sgm\" as rock; import \"std/cloud.sgm\" as cloud;\n" + text);
 }
 
-/// The text with what a hint says in the place of something.
+/// The text with `from` replaced by the text of a hint.
 std::string mended(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }

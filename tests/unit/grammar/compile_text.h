@@ -1,5 +1,5 @@
 #pragma once
-// Short ways to compile a text in tests.
+// Compiles texts in one line, for tests.
 
 #include <filesystem>
 #include <fstream>
@@ -13,7 +13,7 @@
 
 namespace sgm::test {
 
-/// Files in memory.
+/// Resolves imports to files in memory.
 class MapResolver : public ImportResolver {
  public:
   std::map<std::string, std::string, std::less<>> files;
@@ -34,7 +34,7 @@ inline CompileResult compileText(std::string_view text, ImportResolver* resolver
   return compileGrammar(text, "test.sgm", options);
 }
 
-/// What stands in a folder.
+/// Resolves imports to files in a folder.
 class FolderResolver : public ImportResolver {
  public:
   explicit FolderResolver(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -51,8 +51,8 @@ class FolderResolver : public ImportResolver {
   std::filesystem::path folder_;
 };
 
-/// "3:17 unit-mismatch; 4:1 syntax" of all diagnostics; unless `unused`, without those of names that nothing uses,
-/// which programs with a common beginning have.
+/// All diagnostics in short form, "3:17 unit-mismatch; 4:1 syntax". Unless `unused`, omits those about unused names,
+/// which occur in programs that share a common beginning.
 inline std::string brief(const std::vector<Diagnostic>& diagnostics, bool unused = false) {
   std::string out;
   for (const Diagnostic& d : diagnostics) {

@@ -1,4 +1,4 @@
-// What editors are told of names and words, against what the compiler has resolved, and of texts that are not done.
+// Tests the information for editors about names and words: it must agree with the compiler, also in unfinished texts.
 
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Texts, and the folders that they stand in.
+/// Sample texts, and the folders that contain them.
 std::vector<std::pair<std::string, std::filesystem::path>> sampleTexts() {
   std::vector<std::pair<std::string, std::filesystem::path>> texts;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(SGM_SOURCE_DIR "/samples/grammars")) {
@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, std::filesystem::path>> sampleTexts() {
   return texts;
 }
 
-/// What a resolved name is declared as; nothing for what is built in.
+/// The kinds that a resolved name may be declared as; nullopt for built-in names.
 std::optional<std::vector<NameKind>> kindsOf(Ref ref) {
   using Kinds = std::vector<NameKind>;
   switch (ref) {

@@ -1,4 +1,4 @@
-// Every diagnostic code with the exact place at which it is reported.
+// Tests every diagnostic code, with the exact line and column at which it is reported.
 
 #include <fstream>
 #include <regex>
@@ -14,11 +14,11 @@ using namespace sgm::test;
 namespace {
 
 struct Case {
-  const char* expected;  ///< as brief() writes it
+  const char* expected;  ///< in the form of brief()
   const char* text;
 };
 
-// Void in rock, and a layer that may ask about it.
+// A layer of void in rock, and a layer that may query it.
 #define SGM_NET                                                               \
   "sgm 1; domain infinite solid; layer net cell 32m reach 16m { start Net; }" \
   " layer drip cell 16m reach 8m uses net { start D; }\nrule Net { cut { at(cell.center) sphere(8m); } }\n"
@@ -376,7 +376,7 @@ TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]"
 
 namespace {
 
-/// Codes that only caps or other files bring out.
+/// Cases of the codes that only limits or other files cause.
 std::vector<std::pair<std::string, CompileResult>> cappedCases() {
   std::vector<std::pair<std::string, CompileResult>> out;
   auto add = [&](std::string expected, std::string_view text, auto change) {

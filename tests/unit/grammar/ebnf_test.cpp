@@ -1,4 +1,4 @@
-// The published grammar and the lexer's tables name the same words.
+// Tests that the published grammar and the lexer's tables contain the same words.
 
 #include <fstream>
 #include <regex>

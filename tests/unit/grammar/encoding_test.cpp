@@ -1,4 +1,4 @@
-// Files that are not texts in UTF-8: one error each, which names the cause.
+// Tests files that are not UTF-8 text: each must give one error that names the cause.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ using namespace std::string_literals;
 
 constexpr std::string_view kText = "sgm 1;\nstart A;\nrule A { sphere(1m); } // of chalk\n";
 
-/// The text with characters of `width` bytes, the lowest first or last.
+/// The text with characters of `width` bytes, in little-endian or big-endian order.
 std::string widened(std::string_view text, size_t width, bool little, std::string_view mark = {}) {
   std::string out(mark);
   for (const char c : text) {

@@ -1,5 +1,5 @@
-// One run tells all that is wrong: what was parsed is checked, whatever else was not, and nothing is told that only
-// follows from what is missing.
+// Tests that one run reports all independent errors: everything that was parsed is checked, whatever else was not, and
+// no error is reported that only follows from another.
 
 #include "grammar/check_file.h"
 #include "grammar/std/std_library.h"

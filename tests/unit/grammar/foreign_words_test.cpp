@@ -1,4 +1,4 @@
-// What is said to those who write what other languages call things: not the nearest spelling, but what to write.
+// Tests messages about words that other languages use: they must suggest what to write, not the nearest spelling.
 
 #include <set>
 #include <string>
@@ -39,7 +39,7 @@ const MessageCase kForeignCases[] = {
      "rule A { at([1, 2, 3) box(1m); }"},
 };
 
-/// Words, with what the hint has in backquotes, or all of a hint without one.
+/// A word of another language, and what the hint suggests in backquotes; or the whole hint if it has none.
 struct Word {
   const char *theirs, *ours;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What the compiler says of a text, in words: for tests that hold every message to the letter.
+// The compiler's diagnostics as text, for tests that compare every message word for word.
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace sgm::test {
 
-/// All diagnostics: "3:17 unit-mismatch: message | hint | note: note", a line each; warnings say so.
+/// All diagnostics, one on each line: "3:17 unit-mismatch: message | hint | note: note"; warnings are marked as such.
 inline std::string inWords(const CompileResult& result) {
   std::string out;
   for (const Diagnostic& d : result.diagnostics) {
@@ -22,15 +22,15 @@ inline std::string inWords(const CompileResult& result) {
   return out;
 }
 
-/// Whether a message says what to write instead: what it expected, or a hint.
+/// Whether a message says what to write instead, by what the parser expected or by a hint.
 inline bool saysWhatToWrite(const Diagnostic& d) { return !d.hint.empty() || d.message.starts_with("expected "); }
 
 struct MessageCase {
-  const char* expected;  ///< as inWords() has it
+  const char* expected;  ///< in the form of inWords()
   const char* text;
 };
 
-/// What stands around the text of each case.
+/// The text before and after the text of each case.
 struct Around {
   std::string before, after;
 };

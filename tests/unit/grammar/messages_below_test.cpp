@@ -1,4 +1,4 @@
-// What is said about queries of layers below, word for word.
+// Tests the messages about queries of lower layers, word for word.
 
 #include "messages.h"
 

@@ -1,4 +1,4 @@
-// No message of the compiler or of derivation is without a test that has its words.
+// Tests that every message of the compiler and of derivation occurs in a test, word for word.
 
 #include <algorithm>
 #include <cctype>
@@ -14,11 +14,11 @@
 namespace {
 
 struct Literal {
-  int line;  ///< on which it starts
+  int line;  ///< line on which it starts
   std::string text;
 };
 
-/// The string literals of C++ text, those next to each other as one; not the names of included files.
+/// The string literals in C++ source, adjacent ones joined. Names of included files are omitted.
 std::vector<Literal> literalsOf(std::string_view source) {
   std::vector<Literal> out;
   int line = 1;
@@ -59,7 +59,7 @@ std::vector<Literal> literalsOf(std::string_view source) {
   return out;
 }
 
-/// Two words: what a message has and a word of the language has not.
+/// Whether a text has two words, as messages do and words of the language do not.
 bool readsLikeMessage(std::string_view text) {
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   for (size_t i = 1; i + 1 < text.size(); ++i)
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> filesIn(const std::string& folder, std::initi
   return out;
 }
 
-/// What in the source reads like a message, two words or more, and does not occur in the words of the tests.
+/// The literals in the source that read like messages, and do not occur in the tests.
 std::vector<Literal> untested(const std::string& source, const std::string& tests) {
   std::vector<Literal> out;
   for (Literal& literal : literalsOf(source)) {

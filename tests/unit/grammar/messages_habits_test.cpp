@@ -1,4 +1,4 @@
-// What is said to those who write as other languages have it, word for word.
+// Tests messages about the syntax of other languages, word for word.
 
 #include "messages.h"
 

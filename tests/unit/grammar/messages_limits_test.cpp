@@ -1,4 +1,4 @@
-// What is said where a grammar is larger or deeper than allowed, and of imports, word for word.
+// Tests messages about grammars beyond the limits of size and depth, and about imports, word for word.
 
 #include "messages.h"
 
@@ -13,7 +13,7 @@ std::string times(int count, const std::string& text) {
   return out;
 }
 
-/// count times the text, # in it being the number.
+/// The text repeated `count` times; # in it becomes the number of the repetition.
 std::string numbered(int count, const std::string& text) {
   std::string out;
   for (int i = 0; i < count; ++i)

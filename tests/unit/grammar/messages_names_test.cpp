@@ -1,4 +1,4 @@
-// What is said about names and arguments, word for word.
+// Tests messages about names and arguments, word for word.
 
 #include "messages.h"
 

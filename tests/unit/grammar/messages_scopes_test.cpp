@@ -1,4 +1,4 @@
-// What is said about parts of scopes, rooms, tiles, footprints, extrusions and roofs, word for word.
+// Tests messages about parts of scopes, rooms, tiles, footprints, extrusions and roofs, word for word.
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// What statements and expressions are told that are written wrong, word for word.
+// Tests messages about wrong statements and expressions, word for word.
 
 #include "messages.h"
 

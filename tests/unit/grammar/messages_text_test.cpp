@@ -1,4 +1,4 @@
-// What texts and declarations are told that are written wrong, word for word.
+// Tests messages about wrong texts and declarations, word for word.
 
 #include "messages.h"
 

@@ -1,4 +1,4 @@
-// What is said about kinds, dimensions and stages of values, word for word.
+// Tests messages about kinds, dimensions and evaluation stages of values, word for word.
 
 #include "messages.h"
 

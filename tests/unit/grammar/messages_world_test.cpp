@@ -1,4 +1,4 @@
-// What is said about domains, layers, expectations, reach and overrides, word for word.
+// Tests messages about domains, layers, expectations, reach and overrides, word for word.
 
 #include "messages.h"
 
@@ -250,7 +250,7 @@ const MessageCase kOverrides[] = {
      "A/A/A/A/A/A/A/A/A/A\" { }\nrule A { A; }"},
 };
 
-// What is right, and hardly meant.
+// Texts that are valid but probably not intended.
 const MessageCase kIdle[] = {
     {"2:7 warning unused-value: nothing uses the parameter `n` | it changes nothing: use it, or remove it",
      "param n = 3 in 1..5;\nrule A { sphere(1m); }"},

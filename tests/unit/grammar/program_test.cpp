@@ -1,4 +1,4 @@
-// What the checked program says.
+// Tests the contents of a checked program.
 
 #include <limits>
 #include <thread>

@@ -1,12 +1,12 @@
 #pragma once
-// Programs that are right by syntax and often by meaning, for tests and fuzzing seeds.
+// Programs with valid syntax, and often with valid meaning, for tests and as seeds for fuzzing.
 
 #include <cstdint>
 #include <string>
 
 namespace sgm::test {
 
-/// The same text for the same seed.
+/// The same seed gives the same text.
 std::string randomProgram(uint64_t seed);
 
 }  // namespace sgm::test

@@ -9,7 +9,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// The proven bound, in metres, of a rule in an 8 m cell.
+/// The proven bound, in metres, of a rule in a grammar cell of 8 m.
 struct Bound {
   bool compiled = false, proven = false;
   double lo[3] = {}, hi[3] = {};

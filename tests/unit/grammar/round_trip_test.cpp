@@ -1,4 +1,4 @@
-// print(parse(x)) is a fixed point, and printing keeps the meaning and the comments.
+// Tests that print(parse(x)) is a fixed point, and that printing keeps meaning and comments.
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Dimensions are carried through expressions.
+// Tests the dimensions of expressions.
 
 #include "catch.h"
 #include "compile_text.h"
@@ -8,7 +8,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// The diagnostics of a rule whose let has this value and is used as this argument.
+/// The diagnostics of a rule in which a value is assigned to a variable and used as an argument.
 std::string brokenUnits(const std::string& use) {
   return brief(
       compileText(

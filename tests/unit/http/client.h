@@ -1,5 +1,5 @@
 #pragma once
-// A client on a socket of its own: says what it is told to, and reads answers as they stand.
+// An HTTP client on a socket of its own: sends any text, and returns answers as received.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -38,7 +38,7 @@ class Client {
   Client& operator=(const Client&) = delete;
   ~Client() { ::close(socket_); }
 
-  /// False: the server has closed.
+  /// Sends a text. Returns false if the server has closed the connection.
   bool say(std::string_view text) {
     while (!text.empty()) {
       const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
@@ -48,7 +48,8 @@ class Client {
     return true;
   }
 
-  /// The next answer. Nothing: the connection ended instead, or ten seconds went by. without_body: of HEAD.
+  /// The next answer; nullopt if the connection ended instead, or after ten seconds. without_body: the answer to a HEAD
+  /// request.
   std::optional<Answer> hear(bool without_body = false) {
     size_t end = 0;
     while ((end = heard_.find("\r\n\r\n")) == std::string::npos)
@@ -78,12 +79,12 @@ class Client {
     return hear();
   }
 
-  /// Has the server closed, within that time, without saying more?
+  /// Whether the server closes the connection within that time, without sending more.
   bool ended(std::chrono::milliseconds within = std::chrono::seconds(10)) {
     return heard_.empty() && !more(within) && at_end_;
   }
 
-  /// Was the end a reset, which takes answers on their way with it?
+  /// Whether the connection ended by a reset, which discards answers that have not been received.
   bool wasReset() const { return reset_; }
   void endSaying() { ::shutdown(socket_, SHUT_WR); }
   int socket() const { return socket_; }

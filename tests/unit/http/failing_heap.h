@@ -1,13 +1,14 @@
 #pragma once
-// The program's operator new fails where it is told to.
+// A replacement of the program's operator new that fails on request.
 
 namespace sgm {
 
-/// After so many more allocations, of all threads that are not spared: the next one, or all from then on.
+/// Makes allocations fail after this many more on all threads that are not spared: only the next one, or, if for_good,
+/// all from then on.
 void failHeap(long after, bool for_good);
-/// No more fail. Has one?
+/// Ends the failures. Returns whether an allocation has failed.
 bool mendHeap();
-/// The calling thread has all the memory that it wants, for good.
+/// Exempts the calling thread from failures, permanently.
 void spareThisThread();
 
 }  // namespace sgm

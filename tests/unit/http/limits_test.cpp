@@ -1,4 +1,4 @@
-// Clients that would take all of a server's time, memory and descriptors; with times of some tens of milliseconds.
+// Tests clients that try to use up a server's time, memory and descriptors. Time limits are some tens of milliseconds.
 
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -127,7 +127,7 @@ TEST_CASE("Clients beyond the limit are told so", "[threads]") {
   CHECK(again.ask(kGet).value().status == 200);
 }
 
-/// What the process may open, until it ends.
+/// Limits the number of files that the process may open, during its lifetime.
 class FileLimit {
  public:
   explicit FileLimit(rlim_t files) {

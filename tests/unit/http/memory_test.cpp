@@ -1,4 +1,4 @@
-// A server whose memory runs out: some client is let down, and the next one is served.
+// Tests a server whose memory runs out: a client may be disconnected, but the next one must be served.
 
 #include <string>
 #include <thread>

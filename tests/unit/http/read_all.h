@@ -1,5 +1,5 @@
 #pragma once
-// Everything that a RequestReader says of some bytes.
+// Collects all results of a RequestReader for some bytes.
 
 #include <cstddef>
 #include <functional>
@@ -11,16 +11,16 @@
 
 namespace sgm::service::http {
 
-/// One request as it was read, or what stood in its way.
+/// One request as it was read, or the reason why it was rejected.
 struct Told {
   Request request;
   std::string body;
   bool has_head = false, go_on = false, ended = false;
   bool keep_alive = false;
-  int refused = 0;  ///< status of a refusal; 0: none
+  int refused = 0;  ///< status with which the request was rejected; 0: it was not
   std::string code;
 
-  /// All of it, to compare and to print.
+  /// The whole result as text, for comparing and printing.
   std::string text() const {
     std::string out = request.method + " " + request.path;
     for (const auto& [name, value] : request.query) out += "\n?" + name + "=" + value;
@@ -31,15 +31,15 @@ struct Told {
   }
 };
 
-/// Gives the reader the bytes in pieces, each of a size that `size` returns for what is left (at least 1), and stops
-/// where it refuses. The last one told is not whole, but where it is refused.
+/// Passes the bytes to the reader in pieces, whose sizes size(bytes left) returns (at least 1). Stops when the reader
+/// rejects a request. The last element is an incomplete request, or the rejected one.
 inline std::vector<Told> readAll(std::string_view bytes, uint64_t most_bytes, const ReaderLimits& limits,
                                  const std::function<size_t(size_t)>& size) {
   using Event = RequestReader::Event;
   RequestReader reader(limits);
   std::vector<Told> told(1);
   while (!bytes.empty()) {
-    // A copy with nothing behind it: a reader that looks beyond its bytes is seen by AddressSanitizer.
+    // Each piece is copied to memory of its exact size, so that AddressSanitizer detects a reader that reads beyond it.
     const std::vector<char> copy(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size(bytes.size())));
     bytes.remove_prefix(copy.size());
     std::string_view piece(copy.data(), copy.size());

@@ -1,4 +1,4 @@
-// What a RequestReader makes of bytes: the same however they are cut, and never two answers to one request.
+// Tests RequestReader: the result must not depend on how the bytes are split, and each request has one result.
 
 #include <algorithm>
 #include <random>
@@ -25,7 +25,7 @@ std::string letters(Random& random, std::string_view of, size_t least, size_t mo
   return out;
 }
 
-/// Percent-encodes what must be, and at random what need not be.
+/// Percent-encodes the characters that require it, and others at random.
 std::string encoded(Random& random, const std::string& text) {
   constexpr std::string_view kHex = "0123456789ABCDEFabcdef";
   std::string out;
@@ -41,7 +41,7 @@ std::string encoded(Random& random, const std::string& text) {
   return out;
 }
 
-/// A request, and the bytes that say it.
+/// A request, and its bytes.
 struct Said {
   Told told;
   std::string bytes;
@@ -224,7 +224,7 @@ TEST_CASE("A request that is answered at its head gives way to the next") {
 
 TEST_CASE("Each bad request has its status, and what looks like one but is not is read") {
   struct Case {
-    int status;  ///< 200: read
+    int status;  ///< 200: the request was read; otherwise the status of the rejection
     std::string bytes;
   };
   const std::string host = "Host: h\r\n", end = "\r\n";

@@ -1,5 +1,5 @@
 #pragma once
-// A server with a test's handler, and what its clients say.
+// A server with a test's handler, and functions that send requests to it.
 
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ struct Served {
   std::unique_ptr<Server> server;
 };
 
-/// Until it holds, for ten seconds at most.
+/// Waits until the condition holds, for at most ten seconds. Returns whether it holds.
 bool soon(auto holds) {
   for (const auto end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;
        std::this_thread::sleep_for(std::chrono::milliseconds(1)))

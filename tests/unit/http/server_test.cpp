@@ -1,4 +1,4 @@
-// Servers on loopback sockets.
+// Tests servers on loopback sockets.
 
 #include "tools/service/http/server.h"
 

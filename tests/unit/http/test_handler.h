@@ -1,5 +1,5 @@
 #pragma once
-// Answers that tests ask for by their paths.
+// A handler whose answers depend on the paths of requests.
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace sgm::service::http {
 
-/// Keeps the body, and refuses it midway where it holds "STOP" or "THROW".
+/// Keeps the body; rejects it midway if it contains "STOP", and throws an exception if it contains "THROW".
 class TestBody : public Body {
  public:
   std::optional<Response> take(std::string_view piece) override {
@@ -62,7 +62,7 @@ class TestHandler : public Handler {
     reply(makeResponse(200, "text/plain", request.method + " " + request.path + " " + (taken ? taken->bytes : "")));
   }
 
-  /// The next request of /later; null where none comes.
+  /// The Reply for the next request of /later; null if no such request arrives within that time.
   Reply takeReplyWithin(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     if (!changed_.wait_for(lock, time, [&] { return !kept_.empty(); })) return nullptr;
@@ -76,7 +76,7 @@ class TestHandler : public Handler {
     return reply;
   }
 
-  /// Of the last request of /later.
+  /// Request::gone of the last request of /later.
   std::shared_ptr<const std::atomic<bool>> lastGone() {
     const std::lock_guard lock(mutex_);
     return last_gone_;

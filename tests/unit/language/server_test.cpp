@@ -1,4 +1,5 @@
-// The language server with messages of every kind, right and wrong: each request has one answer, and nothing ends it.
+// Tests the language server with valid and invalid messages of every kind: each request has one answer, and no message
+// ends the server.
 
 #include <array>
 #include <filesystem>
@@ -31,7 +32,7 @@ Json request(int id, const std::string& method, Json params = Json::object()) {
   return {{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}};
 }
 
-/// Any value with the shape of JSON.
+/// A random JSON value.
 Json anything(std::mt19937& random, int depth = 0) {
   switch (random() % (depth < 3 ? 7u : 5u)) {
     case 0:
@@ -228,7 +229,7 @@ TEST_CASE("what is opened or closed counts for those that import it") {
   LanguageServer server;
   server.handle(request(0, "initialize"));
   const std::string importer = "file:///tmp/importer.sgm", imported = "file:///tmp/sgm-no-such.sgm";
-  /// What is published about the importer, last.
+  /// The last diagnostics published about the importing document.
   const auto verdict = [&](const std::string& method, const std::string& uri, const std::string& text) {
     Json about;
     for (const Json& message : server.handle(

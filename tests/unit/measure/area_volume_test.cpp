@@ -1,4 +1,4 @@
-// Areas and volumes against what geometry says, and that nothing about how they are added up changes them.
+// Tests areas and volumes against geometry, and that the order of summation does not change them.
 
 #include "measure/area_volume.h"
 

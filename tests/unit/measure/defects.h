@@ -1,5 +1,5 @@
 #pragma once
-// Random good meshes, and the kinds of damage that measures find in them.
+// Random valid meshes, and functions that damage them with each kind of defect that measures must find.
 
 #include <functional>
 
@@ -8,7 +8,7 @@
 
 namespace sgm::measure {
 
-/// A closed surface that does not cut itself: of a random field, or balls, rings and boxes apart from each other.
+/// A closed surface without self-intersections: the surface of a random field, or separate balls, rings and boxes.
 inline Mesh goodMesh(std::mt19937& random) {
   Mesh mesh;
   while (mesh.triangles.empty()) {
@@ -65,7 +65,7 @@ inline const std::vector<Defect>& defects() {
        [](Mesh& mesh, std::mt19937& random) {
          Triangle& t = mesh.triangles[any(random, mesh.triangles.size())];
          uint32_t& corner = t[any(random, 3)];
-         // By a hundredth of an edge: closed to the eye.
+         // Move the corner by a hundredth of an edge, so that the mesh only appears to be closed.
          const Point moved =
              mesh.points[corner] + 0.01 * (mesh.points[t[0]] + mesh.points[t[1]] - 2.0 * mesh.points[t[2]]);
          corner = static_cast<uint32_t>(mesh.points.size());
@@ -86,13 +86,13 @@ inline const std::vector<Defect>& defects() {
          Mesh part = ball(1);
          const Point to = mesh.points[at] - size * part.points[0];
          mesh.add(part.moved([&](Point p) { return to + size * p; }));
-         // Its first point is that of the mesh, to the bit.
+         // The part's first point coincides exactly with that point of the mesh.
          mesh.points[mesh.points.size() - part.points.size()] = mesh.points[at];
        },
        [](const MeshMeasures& m) { return m.identity.pinched_vertices > 0; }},
       {"a triangle has no area",
        [](Mesh& mesh, std::mt19937& random) {
-         // A quarter and a half of the way along an axis: exactly on a line.
+         // Points at a quarter and half of the way along an axis lie exactly on a line.
          const Triangle t = mesh.triangles[any(random, mesh.triangles.size())];
          const Point a = mesh.points[t[0]];
          const auto first = static_cast<uint32_t>(mesh.points.size());

@@ -1,4 +1,4 @@
-// Signs of determinants against exact integers, where rounding would get them wrong.
+// Tests signs of determinants against exact integers, in cases where rounding would give a wrong sign.
 
 #include "measure/exact_sign.h"
 
@@ -28,7 +28,7 @@ int exactly(Whole a, Whole b, Whole c, Whole d) {
   return sign(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
 }
 
-/// Near a plane through random points: the fourth a sum of differences, off by at most a few units.
+/// A fourth point near the plane through three points: a combination of their differences, off by at most a few units.
 Whole nearPlane(std::mt19937& random, Whole a, Whole b, Whole c) {
   const auto s = static_cast<int64_t>(random() % 7) - 3, t = static_cast<int64_t>(random() % 7) - 3;
   const auto off = [&] { return static_cast<int64_t>(random() % 3) - 1; };

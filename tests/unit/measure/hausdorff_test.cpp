@@ -1,4 +1,4 @@
-// Distances between surfaces: of known ones, of random ones against every triangle, and their bounds.
+// Tests distances between surfaces: known ones, random ones against all triangles, and their bounds.
 
 #include "measure/hausdorff.h"
 
@@ -23,7 +23,7 @@ Hausdorff apartOf(const Mesh& first, const Mesh& second, const HausdorffSettings
 
 Point cornerOf(const Mesh& mesh, const Triangle& t, size_t k) { return mesh.points[t[k]]; }
 
-/// The nearest place of a triangle by halving it again and again around it: slow, and by nothing but convexity.
+/// The point of a triangle nearest to `to`, by repeated bisection: slow, and based only on convexity.
 double bySearch(const std::array<Point, 3>& t, Point to) {
   const auto along = [&](double v) {
     const auto at = [&](double u) { return length(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - to); };
@@ -51,7 +51,7 @@ double toEveryTriangle(const Mesh& mesh, Point to) {
   return least;
 }
 
-/// Triangles anywhere.
+/// A mesh of random triangles anywhere.
 Mesh scattered(std::mt19937& random, size_t triangles) {
   Mesh mesh;
   const auto place = [&](double size) {

@@ -1,4 +1,5 @@
-// The histogram of bends: what the paper prints, what it means, and that flat is flat.
+// Tests the histogram of dihedral angles: against the paper's figures, against its definition, and that flat surfaces
+// count as flat.
 
 #include "measure/histogram.h"
 
@@ -20,7 +21,7 @@ Histogram of(const Mesh& mesh, const HistogramSettings& settings, unsigned threa
 
 double sumOf(const Histogram& h) { return std::accumulate(h.shares.begin(), h.shares.end(), 0.0); }
 
-/// A square of n by n quadrangles in z = 0, with its own normals off by up to `noise`.
+/// A square of n by n quadrangles in the plane z = 0.
 Mesh flatGrid(uint32_t n) {
   Mesh mesh;
   for (uint32_t i = 0; i <= n; ++i)

@@ -1,4 +1,4 @@
-// Good meshes pass, and every kind of damage is found in each of a hundred meshes.
+// Tests mesh measures: valid meshes pass, and every kind of defect is found in each of a hundred meshes.
 
 #include "measure/mesh_measures.h"
 
@@ -22,7 +22,7 @@ size_t placesOf(const MeshMeasures& m, DefectKind kind) {
       std::count_if(m.places.begin(), m.places.end(), [&](const DefectPlace& p) { return p.kind == kind; }));
 }
 
-/// What is counted is shown, and lies at the triangle that is named.
+/// Checks that every counted kind of defect has a place, and that the place lies at the named triangle.
 void checkPlaces(const Mesh& mesh, const MeshMeasures& m) {
   const auto shown = [&](DefectKind kind, uint64_t count) {
     CAPTURE(nameOf(kind));
@@ -229,7 +229,7 @@ TEST_CASE("nothing is measured as nothing", "[measures]") {
 
 namespace {
 
-/// A corner of a cube, facing outward.
+/// A tetrahedron that is the corner of a cube, oriented outward.
 Mesh tetrahedron(double size = 1) {
   return Mesh{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }

@@ -1,4 +1,5 @@
-// Triangles that meet: hand-made cases, random ones against exact rational clipping, and meshes against all pairs.
+// Tests intersections of triangles: hand-made cases, random ones against exact rational clipping, and meshes against
+// testing all pairs.
 
 #include "measure/self_intersection.h"
 
@@ -30,7 +31,7 @@ uint64_t allPairs(const Mesh& mesh) {
 
 __extension__ using Int128 = __int128;
 
-/// A place with whole coordinates over a common denominator above 0.
+/// A point with integer coordinates over a common positive denominator.
 struct Ratio3 {
   Int128 x, y, z, w;
 };
@@ -44,7 +45,7 @@ Int128 planeAt(const std::array<Int128, 4>& plane, const Ratio3& p) {
   return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * p.w;
 }
 
-/// What of the polygon lies where the plane's value is at least 0, exactly.
+/// The part of the polygon where the plane's value is at least 0, exactly.
 std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array<Int128, 4>& plane) {
   std::vector<Ratio3> kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -62,8 +63,8 @@ std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array
   return kept;
 }
 
-/// Whether two triangles of small whole coordinates, each with an area, have a point in common: one is clipped by the
-/// plane of the other, from both sides, and by the three planes through its edges.
+/// Whether two triangles with small integer coordinates and positive areas have a common point: one is clipped by the
+/// plane of the other, from both sides, and by the three planes through the other's edges.
 bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
   const auto whole = [](double v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
   std::vector<Ratio3> polygon;

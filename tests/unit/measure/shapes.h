@@ -1,5 +1,5 @@
 #pragma once
-// Meshes whose measures are known, and random ones that are known to be good.
+// Meshes with known measures, and random meshes that are known to be valid.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,7 @@ inline double between(std::mt19937& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
 }
 
-/// A ball of radius 1 about 0: an icosahedron whose triangles are cut in four so often.
+/// A ball with radius 1 around the origin: an icosahedron whose triangles are divided into four, `cuts` times.
 inline Mesh ball(int cuts) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   Mesh mesh{{{-1, g, 0},
@@ -80,7 +80,7 @@ inline Mesh ball(int cuts) {
   return mesh.moved([](Point p) { return normalised(p); });
 }
 
-/// A ring about z of radius 2 and thickness 1, of n by n quadrangles.
+/// A torus around the z axis with n by n quadrangles.
 inline Mesh torus(uint32_t n, double radius = 2, double thickness = 1) {
   Mesh mesh;
   for (uint32_t i = 0; i < n; ++i) {
@@ -96,7 +96,7 @@ inline Mesh torus(uint32_t n, double radius = 2, double thickness = 1) {
   return mesh;
 }
 
-/// The surface of a box from 0 on, each face n by n quadrangles, corners shared.
+/// The surface of a box with one corner at the origin; each face has n by n quadrangles, which share their corners.
 inline Mesh box(Point size, uint32_t n = 1) {
   Mesh mesh;
   std::map<std::array<uint32_t, 3>, uint32_t> numbers;
@@ -127,8 +127,9 @@ inline Mesh box(Point size, uint32_t n = 1) {
   return mesh;
 }
 
-/// The surface between values below 0 and the others on a lattice of n^3 random values, those at its border not below
-/// 0: by marching tetrahedra, six a cell. Closed, without self-intersections, of any number of shells and handles.
+/// The surface that separates negative values from the others on a lattice of n^3 random values, by marching tetrahedra
+/// with six tetrahedra for each cell. Values at the lattice's border are not negative, so the surface is closed. It has
+/// no self-intersections, and any number of shells and handles.
 inline Mesh randomSurface(std::mt19937& random, uint32_t n, double solid = 0.5) {
   Mesh mesh;
   std::vector<double> values(n * n * n);
@@ -156,7 +157,8 @@ inline Mesh randomSurface(std::mt19937& random, uint32_t n, double solid = 0.5) 
     return at->second;
   };
   const auto tetrahedron = [&](std::array<uint32_t, 4> t) {
-    // The corners that are solid first; then turned so that the four go round rightly.
+    // Corners with negative values (solid) come first; the order is then permuted so that the tetrahedron keeps its
+    // orientation.
     std::array<uint32_t, 4> in{}, out{};
     size_t inside = 0, outside = 0;
     for (const uint32_t v : t) (values[v] < 0 ? in[inside++] : out[outside++]) = v;
@@ -194,7 +196,7 @@ inline Mesh randomSurface(std::mt19937& random, uint32_t n, double solid = 0.5) 
   return mesh;
 }
 
-/// Turned by random angles, stretched evenly, and moved.
+/// The mesh rotated by random angles, scaled uniformly, and moved.
 inline Mesh placed(const Mesh& mesh, std::mt19937& random, double size, double far) {
   Point x = normalised(Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)});
   Point y = normalised(cross(x, Point{x.y, x.z, -x.x}));
@@ -203,20 +205,20 @@ inline Mesh placed(const Mesh& mesh, std::mt19937& random, double size, double f
   return mesh.moved([&](Point p) { return by + size * (p.x * x + p.y * y + p.z * z); });
 }
 
-/// How often the triangles go round the place: 1 inside a closed surface, 0 outside (the generalized winding number of
-/// Jacobson, Kavan and Sorkine-Hornung, 2013).
+/// The winding number of the mesh around a place: 1 inside a closed surface, 0 outside (the generalized winding number
+/// of Jacobson, Kavan and Sorkine-Hornung, 2013).
 inline double windingNumber(const Triangles& mesh, Point at) {
   double angle = 0;
   for (const Triangle& t : mesh.triangles) {
     const Point a = mesh.points[t[0]] - at, b = mesh.points[t[1]] - at, c = mesh.points[t[2]] - at;
     const double la = length(a), lb = length(b), lc = length(c);
-    // Half the solid angle, by Van Oosterom and Strackee, 1983.
+    // Half of the solid angle of the triangle (Van Oosterom and Strackee, 1983).
     angle += std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return angle / (2 * std::numbers::pi);
 }
 
-/// How fast errors shrink from one density to the next of twice as many cells along an edge.
+/// The order of convergence, from the errors at one density and at twice that density.
 inline double orderOf(double coarse, double fine) { return std::log2(std::fabs(coarse) / std::fabs(fine)); }
 
 }  // namespace sgm::measure

@@ -1,4 +1,5 @@
-// Shells, objects, borders and genus of meshes that are known, and of random ones against the lattice they came from.
+// Tests shells, objects, borders and genus of known meshes, and of random ones against the lattices from which they
+// were made.
 
 #include "measure/shells.h"
 

@@ -1,4 +1,4 @@
-// Texels on a unit of surface.
+// Tests texel densities of surfaces.
 
 #include "measure/texel_density.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using Coordinates = std::vector<std::array<float, 2>>;
 
-/// A plate in the plane of z, n by n quadrangles.
+/// A square plate of n by n quadrangles, perpendicular to z.
 Mesh plate(uint32_t n, double edge) {
   Mesh mesh;
   for (uint32_t y = 0; y <= n; ++y)

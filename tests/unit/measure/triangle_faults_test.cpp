@@ -1,4 +1,5 @@
-// Folds, cuts and piercing: integers say what doubles do, and the count by cells is that of all against all.
+// Tests folds, cuts and piercing of triangles: integers give the same results as doubles, and counting by cells the
+// same as testing all pairs.
 
 #include <random>
 
@@ -25,7 +26,7 @@ int32_t anyOf(std::mt19937& random, int32_t count) {
   return static_cast<int32_t>(random() % static_cast<uint32_t>(count));
 }
 
-/// On so few places that common planes, lines and corners are frequent.
+/// Random triangles on a lattice with few places, so that common planes, lines and corners are frequent.
 Places onLattice(std::mt19937& random, int32_t places, int32_t step) {
   Places t;
   for (Int3& p : t) p = {step * anyOf(random, places), step * anyOf(random, places), step * anyOf(random, places)};
@@ -37,7 +38,7 @@ PairFault integerFault(Places a, Places b) {
   return TrianglePair<IntegerSigns>::faultOf(a, b, shared);
 }
 
-/// All against all.
+/// Counts faults by testing all pairs.
 PairCounts countAll(std::span<const PairCorner> corners) {
   const auto cornersOf = [&](size_t t) {
     std::array<Point, 3> points;

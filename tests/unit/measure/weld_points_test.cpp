@@ -1,4 +1,4 @@
-// Points become one exactly where they should.
+// Tests that exactly the points which should be merged are merged.
 
 #include "measure/weld_points.h"
 
@@ -11,7 +11,7 @@
 namespace sgm::measure {
 namespace {
 
-/// Every triangle with points of its own.
+/// The mesh with separate points for every triangle.
 Mesh soupOf(const Mesh& mesh) {
   Mesh soup;
   for (const Triangle& t : mesh.triangles) {

@@ -1,4 +1,4 @@
-// Ambiguous faces: what is thinner than the diagonal of a cell's face holds together, and all stays as it should.
+// Tests ambiguous faces: parts thinner than the diagonal of a cell's face stay connected, and meshes stay valid.
 
 #include "mesh/ambiguous_faces.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr ChunkGrid kChunk{{0, 0, 0}, kCell, 0};
 
-/// Between two planes.
+/// The solid between two parallel planes.
 struct Slab : Field {
   Vector3 normal, middle;
   double half;
@@ -48,7 +48,7 @@ MeshPart resolved(const Field& field, MeshPart body) {
   return body;
 }
 
-/// How many parts the surface has.
+/// Number of connected parts of the surface.
 size_t partsOf(const MeshPart& body) {
   std::vector<uint32_t> above(body.vertices.size());
   std::iota(above.begin(), above.end(), 0);
@@ -64,7 +64,7 @@ size_t partsOf(const MeshPart& body) {
   return parts;
 }
 
-/// Edges that a surface must not have: with one direction twice, or open within the chunk.
+/// Number of invalid edges of a surface: used twice in one direction, or open inside the chunk.
 size_t badEdges(const MeshPart& body) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (size_t t = 0; t < body.indices.size(); t += 3)

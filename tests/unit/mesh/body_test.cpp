@@ -1,4 +1,4 @@
-// Bodies of single chunks and of blocks of chunks of one level.
+// Tests bodies of single chunks, and of blocks of chunks of one level.
 
 #include "mesh/body.h"
 
@@ -31,7 +31,7 @@ LatticeField noise(uint64_t seed, double density) {
   return [=](Int3 p, int) { return randomQ(pointHash(seed, p), density); };
 }
 
-/// The plain way: loop over samples, then over cells, with a map from edge to vertex.
+/// A reference implementation: loops over samples, then over cells, with a map from edge to vertex.
 MeshPart referenceBody(const ChunkSamples& s, const ChunkGrid& grid) {
   MeshPart part;
   std::map<std::array<int, 4>, uint32_t> number;

@@ -1,4 +1,4 @@
-// The check sees what is wrong with a mesh.
+// Tests that checkMesh finds every fault of a mesh.
 
 #include "mesh/check.h"
 

@@ -1,4 +1,4 @@
-// Distances to the nearest solid sample, against looking at all of them.
+// Tests distances to the nearest solid sample against examining all samples.
 
 #include "mesh/clearance.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWide = 3 * kChunkCells + 1;  // samples of three chunks in a row
 
-/// Samples of 27 chunks, cut into chunks.
+/// Samples of 27 chunks, divided into chunks.
 struct Block {
   std::vector<bool> solid = std::vector<bool>(size_t{kWide} * kWide * kWide);
   std::vector<ChunkSigns> chunks = std::vector<ChunkSigns>(27);

@@ -1,4 +1,4 @@
-// Files that are written read back as the same mesh, and failures leave nothing behind.
+// Tests that written files are read back as the same mesh, and that failures leave no files.
 
 #include "mesh/export/export.h"
 
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own for a test, removed with what is in it.
+/// A temporary folder for a test.
 struct Folder {
   fs::path path;
   Folder() {
@@ -54,7 +54,7 @@ T valueAt(const std::string& bytes, size_t offset) {
   return value;
 }
 
-/// A bumpy ball of three materials, and the materials' table, one short.
+/// A bumpy ball with three materials, and a table of materials with one missing.
 WorldMesh someMesh(int32_t radius = 11) {
   const ChunkGrid grid{{-2048, 1024, 512}, 256, 0};
   const ChunkSamples samples = sampleChunk(
@@ -89,7 +89,7 @@ ExportInfo someInfo() {
 using Point = std::array<float, 3>;
 using Corner3 = std::array<Point, 3>;
 
-/// The triangles by position, each starting at its lowest corner: what every format must keep.
+/// The triangles by position, each starting at its lowest corner: every format must preserve these.
 std::multiset<Corner3> trianglesOf(const WorldMesh& mesh) {
   std::multiset<Corner3> triangles;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -1,4 +1,5 @@
-// Fans whose patches lie in planes, in which their centre may not see all: every patch is covered once.
+// Tests fans with plane patches of which their centre may not see every point: every patch must be covered exactly
+// once.
 
 #include "mesh/fan_triangles.h"
 
@@ -27,8 +28,8 @@ int64_t cross(const Place& a, const Place& b, const Place& c) {
   return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
 }
 
-/// A simple polygon above the x axis on the segment from (left, 0) to (right, 0), from the right end round to the left
-/// one: as seen from a place above the segment, which need not be the fan's centre.
+/// A simple polygon above the x axis on the segment from (left, 0) to (right, 0), listed from the right end to the left
+/// end. It is star-shaped for a place above the segment, which need not be the fan's centre.
 std::vector<Place> randomPatch(std::mt19937& random, int left, int right) {
   const Place eye{between(random, left + 20, right - 20), between(random, 30, 80)};
   const double from = std::atan2(-eye.y, right - eye.x), to = std::atan2(-eye.y, left - eye.x) + 2 * 3.14159265358979;
@@ -61,11 +62,12 @@ bool isSimple(const std::vector<Place>& polygon) {
   return true;
 }
 
-/// Two patches on a crease about along x: the first in the plane of x and y, the second about in that of x and z.
+/// Two patches that meet at a crease roughly along x: the first in the plane of x and y, the second roughly in that of
+/// x and z.
 struct TwoPatches {
   FanPoint centre;
   std::vector<FanPoint> ring;
-  std::array<int64_t, 2> areas{};  ///< doubled
+  std::array<int64_t, 2> areas{};  ///< twice the areas
   bool is_simple = false;
 
   explicit TwoPatches(std::mt19937& random) {

@@ -1,4 +1,4 @@
-// Fans of lateral edges: all 256 ways in which fine and coarse octants meet in a corner.
+// Tests fans of lateral edges for all 256 combinations of fine and coarse octants around a corner.
 
 #include <array>
 #include <bit>
@@ -11,8 +11,8 @@ using namespace sgm;
 
 namespace {
 
-/// The 12 quads with their octants and the half axes they touch, from geometry: the centre of quad q is at (x, y, z)
-/// with one zero coordinate.
+/// A quad with the octants and half axes that it touches, computed from geometry: there are 12 quads; the centre of
+/// each is at (x, y, z) with one coordinate 0.
 struct Quad {
   std::array<int, 3> centre{};
   int below() const {

@@ -1,5 +1,5 @@
 #pragma once
-// Fields that tests mesh: a quantised value at every lattice point, a pure function of seed, level and point.
+// Fields for tests of meshing: a quantised value at every lattice point, as a pure function of seed, level and point.
 
 #include <cstdint>
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace sgm::test {
 
-/// Lattice points are those of the finest level; this many units apart.
+/// Distance in units between lattice points of the finest level.
 inline constexpr int32_t kSpacing = 8;
 
-/// Q at a lattice point, as a level sees it.
+/// The quantised value (q) at a lattice point, as sampled at a level of detail.
 using LatticeField = std::function<int32_t(Int3 point, int level)>;
 
 inline uint64_t pointHash(uint64_t seed, Int3 p) {
@@ -21,7 +21,7 @@ inline uint64_t pointHash(uint64_t seed, Int3 p) {
   return hashCombine(hashCombine(seed, part(p.x) << 32 | part(p.y)), part(p.z));
 }
 
-/// A Q of random size whose sign is solid with the given chance.
+/// A quantised value of random size; it is solid with the probability `density`.
 inline int32_t randomQ(uint64_t hash, double density) {
   const auto size = static_cast<int32_t>(hash >> 8 & (kMaxQ - 1));
   return PathKey{hash}.unit(1) < density ? -1 - size : size;

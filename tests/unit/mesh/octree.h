@@ -1,6 +1,6 @@
 #pragma once
-// Random octrees of chunks that keep the two rules of the level of detail: face neighbours at most one level apart, and
-// no checkerboard of fine and coarse around a chunk edge.
+// Random octrees of chunks that satisfy the two rules of levels of detail: face neighbours differ by at most one level,
+// and no checkerboard of fine and coarse chunks surrounds a chunk edge.
 
 #include <cstdint>
 #include <set>
@@ -19,15 +19,15 @@ struct Leaf {
 
 class Octree {
  public:
-  /// grid^3 roots of level levels - 1, split at random.
+  /// The roots are grid^3 chunks of level levels - 1, which are split at random.
   Octree(uint64_t seed, int grid, int levels);
 
   const std::set<Leaf>& leaves() const { return leaves_; }
-  int32_t size() const { return size_; }  ///< lattice points along a side
+  int32_t size() const { return size_; }  ///< number of lattice points along a side
   bool contains(Int3 p) const;
-  /// Precondition: contains(p). The leaf that the lattice cell from p upwards lies in.
+  /// The leaf that contains the lattice cell whose lowest corner is p. Precondition: contains(p).
   Leaf leafAt(Int3 p) const;
-  /// Which of the blocks around a leaf belong to coarser leaves; those outside the tree do not.
+  /// The blocks around a leaf that belong to coarser leaves; blocks outside the tree do not count.
   Neighbourhood coarserAround(const Leaf& leaf) const;
 
  private:
@@ -41,7 +41,7 @@ class Octree {
   int32_t size_;
 };
 
-/// Bodies and seams of one leaf each, in the octree's order.
+/// The body and seams of one leaf.
 struct LeafMesh {
   ChunkGrid grid;
   MeshPart body;
@@ -49,7 +49,7 @@ struct LeafMesh {
 };
 std::vector<LeafMesh> meshOctree(const Octree& octree, const LatticeField& field);
 
-/// The meshes of one leaf, given what is around it.
+/// Meshes one leaf, given which of its neighbours are coarser.
 LeafMesh meshLeaf(const Leaf& leaf, Neighbourhood coarser, const LatticeField& field);
 
 std::vector<const MeshPart*> allParts(const std::vector<LeafMesh>& meshes);

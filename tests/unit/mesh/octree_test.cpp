@@ -1,4 +1,4 @@
-// Bodies and seams together: closed, edge-manifold and with one cycle around every vertex, for any signs.
+// Tests bodies and seams together: closed, edge-manifold and with one cycle around every vertex, for any signs.
 
 #include "octree.h"
 
@@ -20,7 +20,8 @@ int32_t distanceToChunkFace(int32_t x) {
   return std::min(r, kChunkCells - r);
 }
 
-/// Noise in blocks along the chunks' edges, where the rules are hard, void elsewhere and at the border of the world.
+/// Random values in blocks along the chunks' edges, where the rules are most difficult; void elsewhere and at the
+/// border of the world.
 LatticeField edgeNoise(uint64_t seed, double density, int32_t size, bool same_field) {
   return [=](Int3 p, int level) -> int32_t {
     const auto outside = [&](int32_t x) { return x <= 0 || x >= size; };

@@ -1,4 +1,4 @@
-// Rounded cells at a chunk's face: the loops of single cells, and cones over them.
+// Tests rounded cells at a chunk's face: the loops of single cells, and the cones over them.
 
 #include <algorithm>
 #include <map>
@@ -42,7 +42,7 @@ std::array<int32_t, 8> randomCell(std::mt19937& random) {
   return q;
 }
 
-/// A side of a loop in a low face of its cell, which no other side shares: where it may have a face vertex at a border.
+/// A side of a loop in a low face of its cell that no other side shares: it may have a face vertex at a border.
 struct LowSide {
   uint32_t behind;
   int axis;
@@ -62,8 +62,8 @@ std::vector<LowSide> lowSidesOf(const MeshPart& part, const SurfaceLoop& loop) {
   return once;
 }
 
-/// Whether both corners of the low face's edge at the high or low end of `across` are on one side of the surface, so
-/// that a face vertex may lie beyond that edge.
+/// Whether both corners of the low face's edge at the high or low end of the axis `across` are on the same side of the
+/// surface, so that a face vertex may lie beyond that edge.
 bool isUncut(const std::array<int32_t, 8>& q, int axis, int across, bool high) {
   const int along = 3 - axis - across;
   const size_t from = high ? size_t{1} << across : 0, to = from | size_t{1} << along;

@@ -1,8 +1,9 @@
-// No cell of marching cubes cuts itself, wherever the surface crosses its edges.
+// Proves that no cell of marching cubes intersects itself, wherever the surface crosses its edges.
 //
-// A vertex lies at t of its edge, 1 <= t <= 255. The orientation of four vertices is a polynomial that is linear in the
-// t of each, so that over a box of t its extremes lie at the box's corners: signs that are equal there are equal in the
-// whole box. A pair of triangles is proven apart in a box by such signs, or the box is halved.
+// A vertex lies at the parameter t of its edge, 1 <= t <= 255. The orientation of four vertices is a polynomial that is
+// linear in each t, so over a box of parameters its extremes lie at the box's corners: if the signs at all corners are
+// equal, the sign is the same in the whole box. Such signs prove that a pair of triangles is disjoint in a box;
+// otherwise the box is halved.
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ using namespace sgm;
 namespace {
 
 using Vector = std::array<int64_t, 3>;
-using Corners = std::array<int, 3>;  ///< of a triangle: edges of the cube
+using Corners = std::array<int, 3>;  ///< corners of a triangle, as edges of the cube
 
 constexpr int kLeast = 1, kMost = 255;
 
@@ -31,7 +32,7 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 int64_t dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// The places that planes go through: vertices on the edges 0 to 11, and behind them the cube's corners.
+/// Points through which planes are laid: the vertices on the edges 0 to 11, followed by the cube's corners.
 constexpr int kPlaces = kCubeEdges + 8;
 
 Vector placeAt(int edge, int t) {
@@ -47,14 +48,14 @@ Vector placeAt(int edge, int t) {
   return at;
 }
 
-/// A box of t, by edge of the cube. (Of a corner t says nothing.)
+/// A box of parameters: for each edge of the cube a range of t. (For the cube's corners, t has no effect.)
 struct Box {
   std::array<int, kPlaces> lo, hi;
   Box() { lo.fill(kLeast), hi.fill(kMost); }
 };
 
-/// The sign that a multilinear function of the vertices on `edges` has at all corners of a box; 0 if they differ or one
-/// is 0.
+/// The sign of a multilinear function of the vertices on `edges`, if it is the same at all corners of a box; 0 if signs
+/// differ or a value is 0.
 template <size_t N, class Function>
 int signIn(const Box& box, const std::array<int, N>& edges, const Function& value) {
   int sign = 0;
@@ -78,7 +79,7 @@ int orientationIn(const Box& box, int a, int b, int c, int d) {
   });
 }
 
-/// Whether no t in the box lets the segment meet the triangle.
+/// Whether the segment misses the triangle for all t in the box.
 bool segmentMisses(const Box& box, int from, int to, const Corners& t) {
   const int from_side = orientationIn(box, t[0], t[1], t[2], from), to_side = orientationIn(box, t[0], t[1], t[2], to);
   if (from_side * to_side > 0) return true;
@@ -87,7 +88,7 @@ bool segmentMisses(const Box& box, int from, int to, const Corners& t) {
   return turns[0] * turns[1] < 0 || turns[1] * turns[2] < 0 || turns[2] * turns[0] < 0;
 }
 
-/// The common corners first, in the same order in both; their number.
+/// Moves the common corners to the front, in the same order in both triangles; returns their number.
 size_t alignCorners(Corners& a, Corners& b) {
   size_t common = 0;
   for (size_t i = 0; i < 3; ++i) {
@@ -102,8 +103,9 @@ size_t alignCorners(Corners& a, Corners& b) {
   return common;
 }
 
-/// Two triangles with a common side fold upon each other if they lie in one plane, on one side of it: their normals,
-/// taken along the side, then point the same way.
+/// Whether two triangles with a common side fold onto each other for no t in the box. They fold if they lie in one
+/// plane and on the same side of the common side: their normals, both computed along the common side, then point the
+/// same way.
 bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
   if (orientationIn(box, a[0], a[1], a[2], b[2]) != 0) return true;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -117,8 +119,9 @@ bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
   return false;
 }
 
-/// Whether the plane through three places has all corners of `a` that are none of the three on one side, and all of `b`
-/// on the other; a place that only one of the triangles has, or that both have, may lie in it.
+/// Whether the plane through three points separates the triangles: all corners of `a` that are not among the three
+/// points lie on one side, all of `b` on the other. A point that only one of the triangles has, or that both have, may
+/// lie in the plane.
 bool separates(const Box& box, const Corners& plane, const Corners& a, const Corners& b) {
   const auto isInPlane = [&](int corner) { return std::find(plane.begin(), plane.end(), corner) != plane.end(); };
   const auto isShared = [&](int corner) { return std::find(b.begin(), b.end(), corner) != b.end(); };
@@ -139,7 +142,8 @@ bool separates(const Box& box, const Corners& plane, const Corners& a, const Cor
   return true;
 }
 
-/// Whether a plane through places of the cell separates the triangles; through the common corner, if they have one.
+/// Whether any plane through points of the cell separates the triangles; it must pass through the common corner, if
+/// they have one.
 bool anyPlaneSeparates(const Box& box, const Corners& a, const Corners& b, size_t common) {
   std::vector<int> places{a.begin(), a.end()};
   places.insert(places.end(), b.begin() + static_cast<std::ptrdiff_t>(common), b.end());
@@ -162,8 +166,8 @@ bool apartIn(const Box& box, const Corners& a, const Corners& b, size_t common) 
   return true;
 }
 
-/// Whether two triangles of a cell have nothing in common but the corners that they share, for all t. budget: boxes
-/// that may still be looked at; it ends at 0 where no proof was found.
+/// Whether two triangles of a cell have only their common corners in common, for all t. budget: number of boxes that
+/// may still be examined; it is 0 at the end if no proof was found.
 bool provenApart(const Box& box, const Corners& a, const Corners& b, size_t common, int& budget) {
   if (budget == 0) return false;
   --budget;
@@ -186,7 +190,7 @@ bool provenApart(const Box& box, const Corners& a, const Corners& b, size_t comm
 
 using Triangulation = std::vector<Corners>;
 
-/// All triangulations of the piece i..j of a loop whose diagonals `allowed` lets pass.
+/// All triangulations of the part i..j of a loop whose diagonals satisfy `allowed`.
 template <class Allowed>
 std::vector<Triangulation> triangulations(const std::vector<int>& loop, size_t i, size_t j, const Allowed& allowed) {
   if (j - i < 2) return {{}};
@@ -204,7 +208,7 @@ std::vector<Triangulation> triangulations(const std::vector<int>& loop, size_t i
   return all;
 }
 
-/// Those that the runtime chooses from, or with `all_chords` all without a diagonal in a face.
+/// The triangulations from which the runtime chooses; with `all_chords`, all without a diagonal in a face of the cell.
 std::vector<Triangulation> triangulationsOf(const std::vector<int>& loop, bool all_chords = false) {
   const auto n = static_cast<int>(loop.size());
   return triangulations(loop, 0, loop.size() - 1, [&](size_t i, size_t k) {
@@ -218,7 +222,7 @@ std::vector<Triangulation> triangulationsOf(const std::vector<int>& loop, bool a
 
 using Pair = std::pair<Corners, Corners>;
 
-/// All pairs of triangles that one choice of triangulations for the loops of a case can make.
+/// All pairs of triangles that occur together in a choice of triangulations for a case's loops.
 std::set<Pair> pairsOf(const std::vector<std::vector<int>>& loops) {
   std::set<Pair> pairs;
   std::vector<std::set<Corners>> triangles;

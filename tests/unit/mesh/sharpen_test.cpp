@@ -1,4 +1,4 @@
-// Sharp features: what boxes at any angle become, and that all else stays.
+// Tests sharp features: the results for boxes at any angle, and that everything else is unchanged.
 
 #include "mesh/sharpen.h"
 
@@ -26,9 +26,9 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr double kMost = 0.05;  // cells between true edges and those of the mesh
+constexpr double kMost = 0.05;  // cells, maximum distance between true edges and those of the mesh
 
-/// Turned boxes and slabs thinner than a cell, of which every other one is cut away.
+/// Rotated boxes, and slabs thinner than a cell, every second of which is subtracted.
 struct JoinedBoxes : Field {
   std::vector<TurnedBox> boxes;
   explicit JoinedBoxes(uint64_t seed) {
@@ -53,7 +53,7 @@ struct JoinedBoxes : Field {
 
 constexpr ChunkGrid kLeft{{0, 0, 0}, kCell, 0}, kRight{{kChunkCells * kCell, 0, 0}, kCell, 0};
 
-/// Two chunks side by side.
+/// The meshes of two chunks side by side.
 struct Meshes {
   MeshPart left, right;
   explicit Meshes(const Field& field) : left(meshChunk(field, kLeft)), right(meshChunk(field, kRight)) {}
@@ -63,7 +63,7 @@ struct Meshes {
   }
 };
 
-/// Each chunk sharpened apart.
+/// The two meshes, each sharpened separately.
 Meshes sharpened(const Field& field) {
   Meshes meshes(field);
   sharpenBody(kLeft, samplerOf(field), meshes.left);
@@ -91,7 +91,7 @@ double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b) {
   return std::sqrt(dot(d, d));
 }
 
-/// Where a triangle has its middle, in units.
+/// The middle of a triangle, in units.
 Vector3 middleOf(const WorldMesh& mesh, size_t triangle) {
   Vector3 middle{};
   for (size_t k = 0; k < 3; ++k) {
@@ -101,8 +101,8 @@ Vector3 middleOf(const WorldMesh& mesh, size_t triangle) {
   return middle;
 }
 
-/// Mesh edges between triangles on different sides of the field. (Their own normals say little: positions are 256ths of
-/// a cell, which tilts slivers.)
+/// Edges of the mesh between triangles on different faces of the field. (The triangles' own normals are unreliable:
+/// positions are rounded to 256ths of a cell, which tilts thin triangles.)
 std::vector<std::array<Vector3, 2>> creasesOf(const WorldMesh& mesh, const Field& field) {
   std::map<std::pair<uint32_t, uint32_t>, Vector3> other;
   std::vector<std::array<Vector3, 2>> creases;
@@ -215,7 +215,7 @@ TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", 
 
 namespace {
 
-/// Around a corner of the two chunks: the lowest or the highest of their common face.
+/// The field moved to a corner of the two chunks: the lowest or the highest corner of their common face.
 struct AtCorner : Field {
   JoinedBoxes boxes;
   double up;

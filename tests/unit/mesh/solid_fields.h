@@ -1,5 +1,5 @@
 #pragma once
-// Solids with edges, whose chunks tests mesh and sharpen.
+// Solids with edges, for tests of meshing and of sharp features.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr int32_t kCell = 256;
 
 struct Field {
   virtual ~Field() = default;
-  /// Value in units and gradient at a point in units.
+  /// The field's value and gradient at a point; value and point are in units.
   virtual double at(const Vector3& p, Vector3& gradient) const = 0;
 };
 
@@ -33,7 +33,7 @@ struct TurnedBox : Field {
   Vector3 centre, half;
   std::array<Vector3, 3> axes;
 
-  /// Around the middle of two chunks side by side in x.
+  /// A randomly rotated box around the middle of two chunks that are neighbours in x.
   explicit TurnedBox(uint64_t seed) {
     const PathKey key{seed};
     axes[0] = randomDirection(key, 10);
@@ -58,7 +58,7 @@ struct TurnedBox : Field {
     }
     return value;
   }
-  /// Points along the twelve edges.
+  /// Points along the twelve edges of the box.
   std::vector<Vector3> edgePoints() const {
     constexpr int kSteps = 120;
     std::vector<Vector3> points;
@@ -84,7 +84,7 @@ struct TurnedBox : Field {
 struct Sphere : Field {
   double radius;
   Vector3 centre;
-  /// Around the middle of two chunks side by side in x, if no centre is given.
+  /// By default, the centre is in the middle of two chunks that are neighbours in x.
   explicit Sphere(double r, const Vector3& c = {32.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60})
       : radius(r), centre(c) {}
   double at(const Vector3& p, Vector3& gradient) const override {
@@ -95,7 +95,7 @@ struct Sphere : Field {
   }
 };
 
-/// Gives a vertex or a sample a direction as its packed normal.
+/// Stores a direction as the packed normal of a vertex or sample.
 template <class Packed>
 void setNormal(const Vector3& n, Packed& packed) {
   const std::array<int16_t, 2> normal = packNormal(n);

@@ -1,4 +1,4 @@
-// The squares around a side at the border: where they lie, and what the surface does in them.
+// Tests the squares around a side at the border: their places, and the surface in them.
 
 #include "mesh/surroundings.h"
 
@@ -19,7 +19,7 @@ constexpr std::array<Square, 5> kSquares{Square::own, Square::beside, Square::lo
 
 int oneOf(std::mt19937& random, int count) { return static_cast<int>(random() % static_cast<uint32_t>(count)); }
 
-/// A value of its own at each corner of the grid, solid with the given chance out of ten.
+/// A random value for each corner of the grid; it is solid with a probability of `solid` tenths.
 int32_t fieldAt(const Int3& p, uint32_t seed, int solid) {
   const auto part = [](int32_t v) { return static_cast<uint32_t>(v / kSquareUnits + 1000); };
   const uint32_t mixed = (part(p.x) * 73856093U ^ part(p.y) * 19349663U ^ part(p.z) * 83492791U ^ seed) * 2654435761U;

@@ -1,4 +1,4 @@
-// The generated tables and the triangulation of loops, over every case.
+// Tests the generated tables and the triangulation of loops, for every case.
 
 #include <map>
 #include <set>
@@ -12,7 +12,7 @@ using namespace sgm;
 
 namespace {
 
-/// A table as the tests see it, beside the cell that it was made from.
+/// A table, and the kind of cell for which it was generated.
 struct Table {
   const char* name;
   Cell cell;
@@ -52,7 +52,7 @@ bool crossed(const Cell& cell, int edge, uint32_t solid) {
   return ((solid >> a ^ solid >> b) & 1) != 0;
 }
 
-/// The points of a loop with random positions, of the size that a seam cell has.
+/// The points of a loop with random positions, in a cell of the size of a seam's cell.
 std::vector<LoopPoint> randomPoints(const std::vector<int>& loop, const uint16_t* edge_faces, uint64_t seed) {
   std::vector<LoopPoint> points;
   for (size_t i = 0; i < loop.size(); ++i) {
@@ -63,7 +63,7 @@ std::vector<LoopPoint> randomPoints(const std::vector<int>& loop, const uint16_t
   return points;
 }
 
-/// The largest smallest triangle of any allowed triangulation of the piece i..j, by trying all.
+/// The maximum, over all allowed triangulations of the part i..j, of the area of the smallest triangle, by trying all.
 int32_t bestByTrying(const std::vector<LoopPoint>& p, size_t i, size_t j) {
   if (j - i < 2) return std::numeric_limits<int32_t>::max();
   const bool outer = i == 0 && j + 1 == p.size();

@@ -1,4 +1,4 @@
-// The separate voids of a chunk: as many as the mesh has, with exact masks.
+// Tests the separate voids of a chunk: the same number as in the mesh, with exact masks.
 
 #include "mesh/void_components.h"
 
@@ -33,7 +33,7 @@ Signs signsOf(const Solid& solid) {
 
 bool inside(Int3 p) { return std::min({p.x, p.y, p.z}) >= 0 && std::max({p.x, p.y, p.z}) < kChunkSamples; }
 
-/// Along the axes and across the diagonals of faces, as the mesh joins.
+/// Flood fill along the axes and across the diagonals of faces, which is how the mesh connects samples.
 std::vector<std::vector<Int3>> floodFill(Signs signs) {
   std::vector<std::vector<Int3>> voids;
   const auto fill = [&](Int3 p) { signs[static_cast<size_t>(p.y + kChunkSamples * p.z)] |= uint64_t{1} << p.x; };
@@ -58,7 +58,7 @@ std::vector<std::vector<Int3>> floodFill(Signs signs) {
   return voids;
 }
 
-/// Straight from the definition: block i has the samples 4 i to 4 i + 4.
+/// The blocks of a sample by definition: block i contains the samples 4 i to 4 i + 4.
 std::vector<int> blocksOf(int32_t sample) {
   std::vector<int> blocks;
   for (int i = 0; i < 8; ++i) {
@@ -95,7 +95,7 @@ void join(VoidComponent& to, const VoidComponent& from) {
   for (size_t z = 0; z < 8; ++z) to.blocks[z] |= from.blocks[z];
 }
 
-/// Balls and tubes of void in rock, or of rock in void, and a share of samples turned round.
+/// Balls and tubes of void in rock, or of rock in void, with a share of the samples inverted.
 Signs randomChunk(std::mt19937& random, double noise) {
   const auto real = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
   const bool cave = random() % 2 == 0;

@@ -1,4 +1,4 @@
-// Welding by key.
+// Tests welding by vertex keys.
 
 #include "mesh/weld.h"
 
@@ -14,7 +14,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Attributes as a backend would give them: a function of the vertex's key.
+/// Sets attributes as a backend would: as a function of the vertex's key.
 void fillAttributes(MeshPart& part) {
   for (size_t i = 0; i < part.vertices.size(); ++i) {
     const VertexKey& k = part.keys[i];

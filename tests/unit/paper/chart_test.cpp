@@ -1,4 +1,4 @@
-// HTML and charts of the report: well formed, inside their frames and legible, whatever goes in.
+// Tests HTML and charts of the report: well-formed, inside their frames and legible, for any input.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ using sgm::rounds;
 
 namespace {
 
-/// What a reader of HTML makes of escaped text.
+/// The text that a reader of HTML obtains from escaped text.
 std::string unescaped(const std::string& html) {
   constexpr std::pair<const char*, char> kNames[] = {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}};
@@ -34,7 +34,8 @@ std::string unescaped(const std::string& html) {
   return out;
 }
 
-/// Every element is closed, in order, and no mark of HTML stands where text should. The texts between elements.
+/// Checks that every element is closed in order, and that text contains no HTML markup. Returns the texts between
+/// elements.
 std::vector<std::string> textsOf(const std::string& html) {
   std::vector<std::string> open, texts;
   for (size_t i = 0; i < html.size();) {

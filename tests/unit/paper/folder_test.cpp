@@ -1,4 +1,4 @@
-// The report's folder: whole or not at all, and nobody's files are lost.
+// Tests the report's folder: it is complete or unchanged, and no files of the user are lost.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ void write(const fs::path& file, const std::string& content) {
 
 std::vector<FolderFile> report(const std::string& page) { return {{kReportPage, page}, {"pictures/a.png", page}}; }
 
-/// What stands beside each other in a folder.
+/// Number of entries in a folder.
 size_t entriesOf(const fs::path& folder) {
   return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -44,7 +44,7 @@ void endBy(int signal) {
   std::raise(signal);
 }
 
-/// Replaces reports until it is ended; beside it are threads that take signals.
+/// Replaces reports until the process is killed, while other threads receive signals.
 [[noreturn]] void replaceForever(const fs::path& target) {
   std::signal(SIGTERM, endBy);
   const auto idle = [] {

@@ -1,4 +1,4 @@
-// What `sgm bench paper` measures, and what it says of the paper's own figures.
+// Tests the measurements of `sgm bench paper`, and its remarks on the paper's own figures.
 
 #include <algorithm>
 #include <random>
@@ -14,12 +14,12 @@ using namespace sgm::cli;
 
 namespace {
 
-constexpr int32_t kCell = 1024;  // of the building, whose cube is eight chunks then
+constexpr int32_t kCell = 1024;  // units, cell size of the building, whose cube is then eight chunks
 
 constexpr uint64_t kNever = ~uint64_t{0};
 
-/// Meshes as the CPU does, but for one batch, in which it turns a triangle round. Says that it has left two chunks of
-/// every batch to somebody else.
+/// Meshes as the CPU does, except that it reverses a triangle in one batch. Reports that another backend has meshed two
+/// chunks of every batch.
 class LyingBackend final : public Backend {
  public:
   LyingBackend(std::shared_ptr<Backend> honest, uint64_t lie_at) : honest_(std::move(honest)), lie_at_(lie_at) {}

@@ -1,4 +1,4 @@
-// A camera that a mouse and keys move.
+// Tests the camera that the mouse and keys move.
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// Whether files have been saved.
+// Tests the detection of saved files.
 
 #include "tools/preview/file_watch.h"
 
@@ -15,13 +15,13 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
-/// As a save some time later, on a file system with coarse times too.
+/// Writes a file as if it was saved `seconds` later, so that the test also works on file systems with coarse times.
 void save(const std::filesystem::path& file, const std::string& text, int seconds) {
   write(file, text);
   std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(seconds));
 }
 
-/// Two looks: the first finds a change, the second that it rests.
+/// Two calls of changed(): the first detects a change, the second that the file no longer changes.
 bool changedSoon(FileWatch& watch) {
   const bool first = watch.changed();
   return watch.changed() || first;

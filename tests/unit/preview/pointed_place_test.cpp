@@ -1,4 +1,4 @@
-// The place that a pointer shows.
+// Tests finding the place under the mouse pointer.
 
 #include "tools/preview/pointed_place.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pieces of solid and air by the rule of the mesh itself, face by face: slow, and plain to see.
+// Connected pieces of solid and air by the mesh's own rule, face by face: a slow but simple reference.
 
 #include <algorithm>
 #include <functional>
@@ -12,8 +12,9 @@
 
 namespace sgm::test {
 
-/// solid(x, y, z) for 0 <= x < nx and so on. On each face of each cell the rule cuts off every maximal run of solid
-/// corners by itself: so the corners of a run are one piece, and all void corners of the face are one.
+/// The pieces of a lattice of samples; solid(x, y, z) is called for 0 <= x < nx and so on. On each face of each cell,
+/// the mesh separates every maximal run of solid corners: so the corners of a run belong to one piece, and all void
+/// corners of the face belong to one.
 inline Pieces bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   std::vector<int> parent(static_cast<size_t>(nx) * static_cast<size_t>(ny) * static_cast<size_t>(nz));
   std::iota(parent.begin(), parent.end(), 0);

@@ -1,4 +1,4 @@
-// Pieces of solid and air, counted plane by plane.
+// Tests counting connected pieces of solid and air, plane by plane.
 
 #include "region/components.h"
 

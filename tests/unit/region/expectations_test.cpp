@@ -1,4 +1,4 @@
-// What report and expect come to.
+// Tests the results of the statements `report` and `expect`.
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ double valueOf(const Outcome& outcome) {
   return *outcome.measured[0].value;
 }
 
-/// Stones in cells of 8 m, each with another number of spheres; a coarser layer around them that adds nothing.
+/// Stones in grammar cells of 8 m, each with another number of spheres; a coarser layer around them adds nothing.
 std::string stones(const std::string& statements) {
   return "sgm 1; domain infinite axes xz; layer fine cell 8m reach 4m { start Plot; } "
          "layer wide cell 16m reach 1m { start Nothing; }\n"

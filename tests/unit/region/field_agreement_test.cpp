@@ -1,4 +1,5 @@
-// Normals and vertices against the field: of shapes that are known, as cells become finer, and with faults on purpose.
+// Tests normals and vertices against the field: for known shapes, for decreasing cell sizes, and with deliberate
+// faults.
 
 #include "region/field_agreement.h"
 
@@ -29,7 +30,7 @@ FieldAgreement agreementOf(const std::string& shapes, double cell) {
   return agreementOf(meshed, meshed.meshed().mesh);
 }
 
-/// Of a direction's octahedral code that of the opposite one.
+/// Reverses a vertex's normal, given by its octahedral code.
 void turn(VertexAttributes& vertex) {
   const auto folded = [](int x, int other) { return (32767 - std::abs(other)) * (x < 0 ? 1 : -1); };
   const int x = vertex.normal_x, y = vertex.normal_y;
@@ -37,7 +38,8 @@ void turn(VertexAttributes& vertex) {
   vertex.normal_y = static_cast<int16_t>(folded(y, x));
 }
 
-/// Where a linear field between the two ends of its edge is 0: what vertices are before they are packed.
+/// Moves vertices to the zeros of a linear field between both ends of their edges, where they are before packing rounds
+/// them.
 void placeExactly(const MeshedWorld& world, WorldMesh& mesh) {
   const int32_t cell = world.field().cellAt(0);
   const Result<std::shared_ptr<const FieldProgram>> field = world.field().compile(IntBox::everything(), 0);
@@ -54,7 +56,8 @@ void placeExactly(const MeshedWorld& world, WorldMesh& mesh) {
   }
 }
 
-/// Exponents of the cell that errors follow over halvings of it, by least squares.
+/// The order of convergence: the exponent of the cell size that the errors follow when it is halved repeatedly, by
+/// least squares.
 double orderOfErrors(const std::vector<double>& errors) {
   double sum = 0, weights = 0;
   const double middle = 0.5 * static_cast<double>(errors.size() - 1);

@@ -1,4 +1,4 @@
-// Fitted assets as meshes: closed and in one piece in every size, with the volume of the exact body.
+// Tests meshes of fitted assets: closed and connected in every size, with the volume of the exact body.
 
 #include <cmath>
 #include <random>

@@ -1,4 +1,4 @@
-// The uses of one rule, each alone.
+// Tests the uses of one rule, each derived alone.
 
 #include <algorithm>
 #include <set>
@@ -11,7 +11,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// A layer below that nothing asks about.
+/// Lower layers that must not be queried.
 class NoLayers final : public LowerLayers {
  public:
   bool solid(uint32_t, Int3) const override { return false; }

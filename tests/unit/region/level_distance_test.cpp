@@ -1,4 +1,4 @@
-// Levels of detail against each other.
+// Tests the distance between levels of detail.
 
 #include "region/level_distance.h"
 

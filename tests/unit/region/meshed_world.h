@@ -1,5 +1,5 @@
 #pragma once
-// A grammar's region as the mesh of one level.
+// Meshes a region of a grammar's world at one level.
 
 #include "chunk/mesh_chunks.h"
 #include "metrics_fixture.h"
@@ -11,7 +11,7 @@ struct LevelMesh {
   IntBox extent;
 };
 
-/// A world of one text at one finest cell, meshed by the CPU.
+/// A world of one grammar text with one finest cell size, meshed by the CPU.
 class MeshedWorld {
  public:
   MeshedWorld(const World& world, double cell)

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds to measure, in one line.
+// Makes and measures worlds in one line, for tests.
 
 #include <memory>
 #include <string>
@@ -23,7 +23,7 @@ inline std::shared_ptr<const Program> compiled(const std::string& text, ImportRe
   return result.program;
 }
 
-/// A grammar, and the threads and the backend that measure it.
+/// A compiled grammar, and the threads and the backend with which it is measured.
 class World {
  public:
   explicit World(const std::string& text, ImportResolver* resolver = nullptr) : program_(compiled(text, resolver)) {
@@ -74,7 +74,7 @@ class World {
   std::unique_ptr<Backend> backend_;
 };
 
-/// The finite world of one rule with these statements, as a whole.
+/// Measures the whole finite world of a grammar with one rule that contains these statements.
 inline RegionMeasures regionOfShapes(const std::string& shapes, double cell) {
   const World world("sgm 1; start A; rule A { " + shapes + " }");
   return world.measured(cell, world.program().domain.box);

@@ -1,4 +1,4 @@
-// A region's meshes, measured: random fields through a stand-in for a backend, and shapes that are known.
+// Tests measuring a region's mesh: random fields, with a stand-in for a backend, and known shapes.
 
 #include "region/region.h"
 
@@ -15,7 +15,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Meshes a lattice field instead of the jobs' programs.
+/// Meshes a lattice field instead of the programs in the jobs.
 class LatticeBackend final : public Backend {
  public:
   explicit LatticeBackend(LatticeField field) : field_(std::move(field)) {}

@@ -1,4 +1,4 @@
-// The volume of a region's solid: that of its closed surface, wherever the border cuts it.
+// Tests the volume of a region's solid: it is that of the solid's closed surface, wherever the border cuts it.
 
 #include "region/solid_volume.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr WantedMeasures kVolume{false, false, true};
 
-/// The box of so many chunks from a place, both in chunks of these cells.
+/// A box of `count` chunks on each axis from chunk `first` on, with grid cells of `cell` metres.
 IntBox chunksAt(Int3 first, Int3 count, double cell) {
   const auto edge = static_cast<int32_t>(cell * kUnitsPerMetre) * kChunkCells;
   const Int3 last{first.x + count.x, first.y + count.y, first.z + count.z};
@@ -29,7 +29,7 @@ double volumeOf(const World& world, double cell, const IntBox& region) {
 
 std::string metresText(double v) { return std::to_string(v) + "m"; }
 
-/// Balls, boxes and slabs that stand through each other about the origin.
+/// Balls, boxes and slabs around the origin that intersect each other.
 std::string randomShapes(std::mt19937& random) {
   std::uniform_real_distribution<double> place(-6, 6), size(0.3, 5);
   std::string out;

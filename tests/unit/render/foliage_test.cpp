@@ -1,4 +1,4 @@
-// Blades of lawns and leaves of crowns.
+// Tests blades of lawns and leaves of crowns.
 
 #include "tools/render/foliage.h"
 
@@ -12,10 +12,10 @@ using namespace sgm;
 namespace {
 
 constexpr int kSide = 240;
-/// A world with its own clouds has no others.
+/// A cloud material: for a world with clouds of its own, no others are drawn in the sky.
 constexpr RenderMaterial kPlainSky{SurfacePattern::cloud};
 
-/// A ball of 2 m that is seen whole.
+/// A scene with a ball of 2 m radius that is entirely visible.
 RenderScene ballScene(const TestMesh& ball, std::span<const RenderMaterial> materials) {
   RenderScene scene;
   scene.vertices = ball.vertices;
@@ -29,16 +29,17 @@ RenderScene ballScene(const TestMesh& ball, std::span<const RenderMaterial> mate
   return scene;
 }
 
-/// Of what is not the sky, but for what only the sky lights.
+/// Whether a pixel shows a body. Bluish pixels show the sky, or a body that only the sky lights, and do not count.
 bool isBody(const Image& image, int x, int y) {
   const uint8_t* pixel = &image.rgba[static_cast<size_t>(4 * (y * image.width + x))];
   return pixel[2] + 4 < std::max(pixel[0], pixel[1]);
 }
 
-/// Pixels by how far from the ball's middle they are seen, 1 at its outline: of bodies.
+/// Counts of pixels by their distance from the ball's middle, 1 at its outline: those that show bodies.
 struct Seen {
   int inside = 0, inside_all = 0, near = 0, far = 0;
-  int middle_gaps = 0, middle = 0, rim_gaps = 0, rim = 0;  ///< of the inside: where the background shows, and all
+  /// Pixels inside the outline in which the background is visible, and all pixels, in the middle and at the rim.
+  int middle_gaps = 0, middle = 0, rim_gaps = 0, rim = 0;
 };
 
 Seen seenOf(const Image& image) {

@@ -1,4 +1,4 @@
-// The sky over everything, and the land where the world ends.
+// Tests the sky above everything, and the land beyond the end of the world.
 
 #include "tools/render/land.h"
 
@@ -10,7 +10,7 @@ using namespace sgm;
 
 namespace {
 
-/// A floor, as triangles that face up.
+/// Adds a floor, as triangles that face up.
 void addFloor(TestMesh& mesh, glm::vec2 lo, glm::vec2 hi, float height, uint32_t material) {
   constexpr int kCells = 20;
   const glm::vec2 step = (hi - lo) / static_cast<float>(kCells);
@@ -39,7 +39,7 @@ int channel(const Image& image, int x, int y, int c) {
   return image.rgba[static_cast<size_t>(4 * (y * image.width + x) + c)];
 }
 
-/// How much whiter a pixel is than blue sky.
+/// Difference between red and blue of a pixel: how much whiter it is than blue sky.
 int whiteness(const Image& image, int x, int y) { return channel(image, x, y, 0) - channel(image, x, y, 2); }
 
 }  // namespace

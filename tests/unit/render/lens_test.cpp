@@ -16,7 +16,7 @@ ExposedPixel exposed(float film, float light) {
   return {filmed, glm::packHalf2x16({film, light}), lit};
 }
 
-/// Mean of the green of a square of 5 x 5 pixels.
+/// Mean green value of a square of 5 x 5 pixels.
 double greenAround(const Image& image, int x, int y) {
   double sum = 0;
   for (int row = y - 2; row <= y + 2; ++row)

@@ -1,4 +1,4 @@
-// Light that rays find, in scenes whose light is known.
+// Tests the light that rays compute, in scenes whose light is known.
 
 #include <cstring>
 #include <glm/common.hpp>
@@ -20,7 +20,7 @@ struct LitStage {
 
   LitStage() { materials.push_back({SurfacePattern::plain, glm::vec3(0.5f), 0.9f, 0.0f}); }
 
-  /// A quad a b c d, counter-clockwise seen from the side that it faces.
+  /// Adds a quadrangle a b c d, counter-clockwise as seen from the side that it faces.
   void add(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, uint32_t material = 0) {
     const auto first = static_cast<uint32_t>(mesh.vertices.size());
     const glm::vec3 n = glm::normalize(glm::cross(b - a, c - a));
@@ -60,7 +60,7 @@ using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::ve
 #include "render/illumination.h"
 #undef FN
 
-/// The sky's mean over the upper hemisphere, weighed by the cosine, by a fine grid.
+/// The sky's mean radiance over the upper hemisphere, weighted by the cosine, integrated on a fine grid.
 glm::vec3 skyMean(glm::vec3 to_sun) {
   constexpr int kRings = 400, kAround = 800;
   glm::dvec3 sum(0);
@@ -248,7 +248,7 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
 
 namespace {
 
-/// A ball of cloud, 100 m from its middle to its edge, seen from 400 m away with nothing behind it.
+/// A ball of cloud with a radius of 100 m, seen from a distance of 400 m with nothing behind it.
 struct CloudStage : LitStage {
   explicit CloudStage(glm::vec3 to_sun) {
     materials = {materialByName("cloud")};
@@ -259,7 +259,7 @@ struct CloudStage : LitStage {
   }
 };
 
-/// Red, green, blue, and the share of what is behind that still shows.
+/// Red, green and blue of the clouds in a pixel, and their transmittance.
 glm::vec4 cloudAt(const LightPlanes& planes, uint32_t x, uint32_t y) {
   REQUIRE(planes.vapour.size() == planes.direct.size());
   const VapourLight& one = planes.vapour[size_t{y} * planes.width + x];
@@ -267,7 +267,7 @@ glm::vec4 cloudAt(const LightPlanes& planes, uint32_t x, uint32_t y) {
   return {first, last};
 }
 
-/// Mean light, as the eye weighs it, over the part of a picture's row that is cloud.
+/// Mean luminance over the part of a picture's row that shows cloud.
 float meanOfRow(const LightPlanes& planes, uint32_t y, uint32_t from, uint32_t to) {
   float sum = 0, weight = 0;
   for (uint32_t x = from; x < to; ++x) {

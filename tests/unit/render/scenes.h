@@ -1,5 +1,5 @@
 #pragma once
-// Small meshes to draw, and the device to draw them on.
+// Small meshes to draw, and the device that draws them.
 
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ struct TestMesh {
   std::vector<uint32_t> indices;
 };
 
-/// A sphere of solid, or a hollow one in endless rock (void inside).
+/// The mesh of a solid sphere, or of a hollow one in endless rock (void inside).
 inline TestMesh sphereMesh(glm::vec3 centre, float radius, bool hollow, int rings = 24) {
   TestMesh mesh;
   const int around = 2 * rings;
@@ -48,7 +48,7 @@ inline TestMesh sphereMesh(glm::vec3 centre, float radius, bool hollow, int ring
 
 inline bool vulkanRequired() { return std::getenv("SGM_REQUIRE_VULKAN") != nullptr; }
 
-/// A renderer that the validation layer watches; nothing, after saying so, where this machine has no Vulkan device.
+/// A renderer with the validation layer; nullopt, after printing the reason, if this machine has no Vulkan device.
 inline std::optional<Renderer> testRenderer() {
   auto gpus = listGpus();
   if (!gpus) {

@@ -1,4 +1,4 @@
-// A picture within a fraction of a second.
+// Tests the preview picture that is drawn in a fraction of a second.
 
 #include "tools/render/sketch.h"
 

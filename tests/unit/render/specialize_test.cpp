@@ -11,7 +11,8 @@ using namespace sgm;
 
 namespace {
 
-constexpr uint32_t kFunction = 54, kFunctionCall = 57, kSpecConstant = 50;  // of SPIR-V, section 3.42
+// SPIR-V opcodes, section 3.42 of its specification.
+constexpr uint32_t kFunction = 54, kFunctionCall = 57, kSpecConstant = 50;
 
 size_t countOf(const std::vector<uint32_t>& code, uint32_t operation) {
   size_t count = 0;

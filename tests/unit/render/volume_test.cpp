@@ -1,4 +1,4 @@
-// Fog drawn by its density, against what is known in closed form.
+// Tests pictures of fog against results in closed form.
 
 #include "tools/render/volume.h"
 
@@ -12,7 +12,7 @@ using namespace sgm;
 
 namespace {
 
-/// A box of fog, of one density or by place, and a camera in front of it that looks along -z.
+/// A box of fog, with constant or varying density, and a camera in front of it that looks along -z.
 struct Fog {
   std::vector<uint8_t> density;
   VolumeScene scene;
@@ -40,7 +40,7 @@ struct Fog {
 
   glm::vec3 end() const { return scene.corner + glm::vec3(scene.size - 1u) * scene.spacing; }
 
-  /// How much of the pixel's ray lies in the box.
+  /// Length of the pixel's ray inside the box.
   double crossed(int x, int y) const {
     const RenderCamera& camera = scene.camera;
     const double half = std::tan(0.5 * 3.14159265358979 / 180 * static_cast<double>(camera.fov_degrees));
@@ -72,7 +72,7 @@ VolumePicture drawn(const Renderer& renderer, const VolumeScene& scene) {
   return std::move(*picture);
 }
 
-/// Largest difference of any pixel's transmittance from exp(-optical depth).
+/// The largest difference between a pixel's transmittance and exp(-optical depth).
 double error(const Fog& fog, const VolumePicture& picture, double extinction) {
   double worst = 0;
   for (int y = 0; y < fog.scene.camera.height; ++y) {

@@ -1,4 +1,4 @@
-// How places lie to rain and dirt.
+// Tests the exposure of places to rain and dirt.
 
 #include "scenes.h"
 #include "tools/render/light_planes.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-/// A wall of 6 m on a floor, and over its left half, 4 m up, a slab that stands out.
+/// A wall of 6 m on a floor; over its left half, a slab projects from it at a height of 4 m.
 struct Wall {
   TestMesh mesh;
   std::vector<RenderMaterial> materials{{SurfacePattern::plain, glm::vec3(0.5f), 0.9f, 1.0f}};
@@ -42,7 +42,7 @@ struct Wall {
   }
 };
 
-/// How the wall lies at a place on it, metres from its middle and up.
+/// The exposure (SoftLight::lie) of a place on the wall: x metres from its middle, y metres up.
 glm::vec4 lieAt(const LightPlanes& planes, float x, float y) {
   const float metres = 2 * 8 * std::tan(30 * 3.14159265f / 180) / kHeight;
   const auto u = static_cast<uint32_t>(kWidth / 2 + x / metres),

@@ -1,4 +1,4 @@
-// Who may ask: names of this server, pages of other sites, the token.
+// Tests access control: names of this server, pages of other sites, the token.
 
 #include "tools/service/ports/access.h"
 

@@ -1,4 +1,4 @@
-// sgm_service.h from outside: what it refuses, and that what it starts ends.
+// Tests sgm_service.h: which arguments it rejects, and that services that it starts can be stopped.
 
 #include <arpa/inet.h>
 #include <sgm/sgm_service.h>
@@ -16,7 +16,7 @@
 
 namespace {
 
-/// The whole answer to a request on this port; empty where nobody listens.
+/// The whole answer to a request on this port; empty if no server listens there.
 std::string ask(uint16_t port, const std::string& path) {
   const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
   sockaddr_in to{};

@@ -1,5 +1,5 @@
 #pragma once
-// A reader of Prometheus' text format that takes nothing but what is exactly right.
+// A strict reader of Prometheus' text format, which rejects every deviation.
 
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@
 namespace sgm::service {
 
 struct Series {
-  std::string name;  ///< with _bucket, _sum or _count
+  std::string name;  ///< including the suffix _bucket, _sum or _count
   std::vector<std::pair<std::string, std::string>> labels;
   double value = 0;
 
@@ -31,7 +31,7 @@ struct Family {
 };
 using Metrics = std::map<std::string, Family>;
 
-/// Fails the test at the first thing that is wrong.
+/// Parses metrics. Fails the test at the first error.
 class MetricsReader {
  public:
   static Metrics read(std::string_view text) {
@@ -65,7 +65,7 @@ class MetricsReader {
     }
   }
 
-  /// "name rest" behind what a comment begins with.
+  /// Splits "name rest", the part of a comment after its keyword.
   static std::pair<std::string, std::string> take(std::string_view line) {
     const size_t space = line.find(' ');
     REQUIRE(space != line.npos);
@@ -78,7 +78,7 @@ class MetricsReader {
       const auto [name, help] = take(line.substr(7));
       REQUIRE(isWord(name));
       REQUIRE(help.size() > 3);
-      REQUIRE(metrics_.count(name) == 0);  // all of a family stands together, once
+      REQUIRE(metrics_.count(name) == 0);  // each family must occur only once, with all of its series together
       metrics_[name].help = help;
       now_ = name;
     } else if (line.substr(0, 7) == "# TYPE ") {

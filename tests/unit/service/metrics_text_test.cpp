@@ -1,4 +1,4 @@
-// What Prometheus reads is exactly its format, whatever is told of worlds.
+// Tests that the metrics text has exactly Prometheus' format, for any state of the worlds.
 
 #include "tools/service/watch/metrics_text.h"
 
@@ -20,7 +20,7 @@
 namespace sgm::service {
 namespace {
 
-/// Written with sixteen digits.
+/// Whether a value was written with sixteen digits.
 bool isWritten(double told, double value) { return std::abs(told - value) <= 1e-15 * std::abs(value); }
 
 const Series* find(const Metrics& metrics, const std::string& family, const std::string& name,
@@ -40,7 +40,8 @@ double valueOf(const Metrics& metrics, const std::string& name,
   return series->value;
 }
 
-/// Whether promtool is here, which some of these need: where everything is required it has to be.
+/// Whether promtool is installed, which some tests need; it is an error if it is missing although everything is
+/// required.
 bool hasPromtool() {
   const bool there = std::system("promtool --version >/dev/null 2>&1") == 0;
   if (std::getenv("SGM_REQUIRE_ALL") != nullptr) REQUIRE(there);

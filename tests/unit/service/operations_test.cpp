@@ -1,4 +1,4 @@
-// The port for operators, without a socket.
+// Tests the port for operators, without sockets.
 
 #include "tools/service/ports/operations.h"
 

@@ -1,4 +1,4 @@
-// Paths and methods lead to their endpoints, or to 404 and 405.
+// Tests that paths and methods select their endpoints, or 404 and 405.
 
 #include "tools/service/ports/routes.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Worlds and samples of worlds for the tests of what watches them.
+// Worlds, and samples of worlds, for the tests of the service.
 
 #include <sgm/sgm.h>
 
@@ -19,7 +19,7 @@
 
 namespace sgm::service {
 
-/// Some balls around the origin, streamed by an engine's thread of its own while it runs.
+/// Balls around the origin, streamed by an engine's thread between fly() and the end.
 class StreamedWorld {
  public:
   explicit StreamedWorld(uint32_t flags = 0) {
@@ -42,13 +42,13 @@ class StreamedWorld {
     stop();
     for (sgm_world* other : others_) sgm_world_destroy(other);
     sgm_field_destroy(field_);
-    // A mesh or a world that was not given back is one that is still in use.
+    // A runtime that is still in use cannot be destroyed, which reveals meshes or worlds that were not released.
     CHECK(sgm_runtime_destroy(runtime_) == SGM_OK);
   }
   StreamedWorld(const StreamedWorld&) = delete;
   StreamedWorld& operator=(const StreamedWorld&) = delete;
 
-  /// One more world of the same field, that ends with this.
+  /// Makes another world of the same field, which is destroyed with this object.
   sgm_world* make(uint32_t flags = 0) {
     sgm_world_desc desc = SGM_WORLD_DESC_INIT;
     desc.top_level = 3;
@@ -61,7 +61,7 @@ class StreamedWorld {
     return made;
   }
 
-  /// Its viewer goes on and on.
+  /// Starts a thread that moves the viewer and updates the world.
   void fly() {
     ends_ = false;
     engine_ = std::thread([this] {
@@ -105,7 +105,7 @@ class StreamedWorld {
   std::thread engine_;
 };
 
-/// Anything that a world and a service may come to be, and some of it that they may not: numbers that are not finite.
+/// Random states of a world and a service, including impossible ones: numbers that are not finite.
 class RandomSamples {
  public:
   explicit RandomSamples(unsigned seed) : random_(seed) {}

@@ -1,4 +1,4 @@
-// The summary and the map have exactly the members that their description has, whatever is told of worlds.
+// Tests that the summary and the map have exactly the members that openapi.json describes, for any state of the worlds.
 
 #include "tools/service/watch/summary_text.h"
 

@@ -1,4 +1,4 @@
-// Worlds that are watched while an engine streams them, and are forgotten while they are looked at.
+// Tests watching worlds while an engine streams them, and forgetting them while they are sampled.
 
 #include "tools/service/watch/watched_worlds.h"
 
@@ -24,7 +24,7 @@ std::unique_ptr<WatchedWorlds> makeWatcher(milliseconds period = kSoon) {
   return std::move(*made);
 }
 
-/// Asks again until it is true; a minute is for ever.
+/// Calls question() until it returns true, for at most a minute.
 template <class Question>
 bool comesTrue(const Question& question) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);

@@ -1,4 +1,4 @@
-// The port for people and programs, without a socket: what is let in, and what is answered.
+// Tests the port for users and programs, without sockets: which requests are accepted, and the answers.
 
 #include "tools/service/ports/work.h"
 
@@ -15,7 +15,7 @@ using http::Request;
 using http::Response;
 using nlohmann::json;
 
-/// Judges when it is told to.
+/// An inspector whose inspections end when the test says so.
 class HeldInspector final : public Inspector {
  public:
   Result<void> wouldTake() const override {
@@ -78,7 +78,7 @@ struct Fixture {
     made.fields.push_back({"Host", "localhost"});
     return made;
   }
-  /// What a server would send; nothing yet where the answer is still to come.
+  /// The answer that a server would send; nullopt while there is none.
   std::shared_ptr<std::optional<Response>> ask(const Request& request, const std::string& body = "") {
     auto answer = std::make_shared<std::optional<Response>>();
     http::Admission admission = work->admit(request);

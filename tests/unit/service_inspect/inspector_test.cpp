@@ -21,7 +21,7 @@ namespace {
 
 const std::string kValid = R"({"valid":true,"measures":{"area":1},"preview":{}})";
 
-/// What an inspector has told, in the order in which it did.
+/// Records the callbacks of an inspector in their order.
 class Told {
  public:
   void began(int job) {
@@ -38,7 +38,7 @@ class Told {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return began_.size() >= count; });
   }
-  /// Whether so many came.
+  /// Waits until `count` inspections are done. Returns false after a timeout.
   bool waitForDone(size_t count) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, std::chrono::seconds(60), [&] { return done_.size() >= count; });
@@ -93,7 +93,7 @@ struct Bench {
   }
 };
 
-/// A script that says this.
+/// A script that prints these bytes.
 std::string saying(const TemporaryFolder& folder, const std::string& bytes) {
   return "cat " + makeFile(folder, "said", bytes);
 }

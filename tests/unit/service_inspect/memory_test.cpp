@@ -1,4 +1,4 @@
-// What becomes of inspections and reports where memory runs out.
+// Tests inspections and reports while memory runs out.
 
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Counts what is told; memory fails between two calls of its.
+/// Counts the callbacks; memory fails only between two of its calls.
 class Told {
  public:
   void tell(Inspection said) {

@@ -18,7 +18,7 @@ inline std::string framed(const std::string& json, const std::string& preview = 
   return bytes;
 }
 
-/// One triangle.
+/// The bytes of a preview with one triangle.
 inline std::string smallPreview(uint32_t last_corner = 2) {
   std::string bytes = "SGMPREV1";
   const auto add = [&bytes](uint32_t value) {

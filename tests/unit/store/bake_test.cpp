@@ -1,4 +1,4 @@
-// A store is the same however it was made, and has each content once.
+// Tests that a store is the same however it was made, and contains each content once.
 
 #include <atomic>
 #include <thread>

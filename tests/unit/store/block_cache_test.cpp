@@ -1,4 +1,4 @@
-// Blocks give the bytes of their files, and are fetched once.
+// Tests that cached blocks have the bytes of their files, and are read once.
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -32,7 +32,7 @@ struct File {
   }
 };
 
-/// Whether a random part is what it should be.
+/// Reads a random part, and checks its bytes.
 bool readsRight(BlockCache& cache, const File& file, std::mt19937& random) {
   const uint64_t offset = random() % file.size;
   const size_t bytes = random() % std::min<uint64_t>(file.size - offset, random() % 8 ? 9000 : 900000);

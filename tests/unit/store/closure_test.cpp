@@ -1,4 +1,5 @@
-// Borders fit where chunks were meshed from one field, on all levels, and no triangle may be missing or turned.
+// Tests the check of borders in a store: it accepts chunks that were meshed from one field, on all levels, and detects
+// a missing or reversed triangle.
 
 #include "store/closure.h"
 #include "store_support.h"
@@ -13,7 +14,7 @@ struct Meshed {
   std::array<store::BorderSums, kChunkParts> borders;
 };
 
-/// All chunks of the region, each part by itself, as it lies in a store.
+/// All chunks of the region, each part separately, as in a store.
 std::vector<std::unique_ptr<Meshed>> meshedRegion(const Excerpt& scene, const store::BakedRegion& region, bool sharp) {
   const Machine machine;
   const WorldField world(scene.settings(), std::pmr::get_default_resource());
@@ -60,7 +61,7 @@ Judged judge(const std::vector<std::unique_ptr<Meshed>>& chunks, const store::Ba
   return judged;
 }
 
-/// Whether a triangle has an edge in common with what may be drawn of another chunk or another part.
+/// Whether a triangle has an edge that other parts or chunks may share.
 bool touchesBorder(const Meshed& chunk, size_t part, size_t triangle) {
   if (part != 0) return true;
   for (size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// Worlds whose store is far away: no job waits for it, and no chunk for long.
+// Tests worlds whose store is on a slow server: no job waits for it, and no chunk waits long.
 
 #include <atomic>
 #include <set>
@@ -15,7 +15,7 @@ namespace {
 
 thread_local int jobs_running = 0;
 
-/// Marks the threads that run its jobs, while they do.
+/// A job system that marks its threads while they run jobs.
 class MarkedJobs final : public JobSystem {
  public:
   explicit MarkedJobs(std::unique_ptr<JobSystem> jobs) : jobs_(std::move(jobs)) {}
@@ -42,7 +42,7 @@ class MarkedJobs final : public JobSystem {
   std::unique_ptr<JobSystem> jobs_;
 };
 
-/// Runs every job within submit, where it comes from.
+/// Runs every job within submit, on the calling thread.
 class InlineJobs final : public JobSystem {
  public:
   unsigned concurrency() const override { return 1; }
@@ -50,14 +50,14 @@ class InlineJobs final : public JobSystem {
   void submit(void (*function)(void*), void* argument, int) override { function(argument); }
 };
 
-/// A folder that is said to be far, and takes its time.
+/// A store that claims to be on a server, and answers slowly.
 class FarFolder final : public BakedParts {
  public:
   explicit FarFolder(std::shared_ptr<BakedParts> parts) : parts_(std::move(parts)) {}
 
-  /// Milliseconds of an answer, at most; below 0: it takes until reading is stopped.
+  /// Maximum time of an answer in milliseconds; below 0: there is no answer until reading is stopped.
   std::atomic<int> slowness = 0;
-  /// Requests that are never answered, of those that come first.
+  /// Number of first requests that are never answered.
   std::atomic<int> to_hang = 0;
   std::atomic<size_t> asked = 0, answers = 0, asked_by_jobs = 0;
 
@@ -104,7 +104,7 @@ class FarFolder final : public BakedParts {
   bool stopped_ = false;
 };
 
-/// What a Scene (streaming_support.h) shows around its viewer, but for what lies behind the region's end.
+/// The chunks of a Scene (streaming_support.h) around its viewer, except those beyond the region's border.
 struct BakedScene {
   CacheFolder folder;
 
@@ -116,7 +116,7 @@ struct BakedScene {
     baking.bakeAll();
     baking.merge();
   }
-  /// Each world stops its own.
+  /// Opens the store. Each world needs an object of its own, because it stops reading at its end.
   std::shared_ptr<FarFolder> open() const { return std::make_shared<FarFolder>(sourceAt(folder.path.string())); }
 };
 

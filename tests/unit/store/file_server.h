@@ -1,5 +1,5 @@
 #pragma once
-// A server of plain files with range requests, on a port of its own; and all that may go wrong with one.
+// An HTTP server of files with range requests, on a port of its own, that can simulate faults.
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -20,20 +20,20 @@ namespace sgm {
 
 enum class Fault {
   none,
-  no_ranges,    ///< sends the whole file
-  other_range,  ///< sends another part
-  cut_off,      ///< sends less than it says
-  endless,      ///< sends more than was asked for
-  damaged,      ///< sends other bytes
-  fails,        ///< 503
-  refuses,      ///< 403
-  is_silent,    ///< says nothing
+  no_ranges,    ///< sends the whole file instead of a range
+  other_range,  ///< sends another range
+  cut_off,      ///< sends fewer bytes than it announces
+  endless,      ///< sends more bytes than were requested
+  damaged,      ///< sends wrong bytes
+  fails,        ///< answers 503
+  refuses,      ///< answers 403
+  is_silent,    ///< does not answer
   hangs_up,     ///< closes the connection
 };
 
 class FileServer {
  public:
-  /// port 0: any that is free.
+  /// Port 0: any free port.
   explicit FileServer(std::filesystem::path root, uint16_t port = 0) : root_(std::move(root)) {
     listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const int yes = 1;
@@ -114,7 +114,7 @@ class FileServer {
            "\r\n";
   }
 
-  /// Whether the connection stays.
+  /// Answers a request. Returns whether the connection stays open.
   bool answer(int connection, const std::string& request) {
     const Fault wrong = fault;
     if (wrong == Fault::hangs_up) return false;
@@ -158,7 +158,7 @@ class FileServer {
   uint16_t port_ = 0;
   std::atomic<bool> is_stopped_ = false;
   std::thread accepting_;
-  std::mutex mutex_;  ///< of both below, until all has ended
+  std::mutex mutex_;  ///< protects both members below, until all threads have ended
   std::vector<int> open_;
   std::vector<std::thread> serving_;
 };

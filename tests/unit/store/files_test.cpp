@@ -1,4 +1,4 @@
-// Records and indexes come back as they were written, and no damage passes.
+// Tests that records and indexes are read back as they were written, and that all damage is detected.
 
 #include "chunk_cache_support.h"
 #include "store/folder.h"
@@ -89,7 +89,7 @@ TEST_CASE("a tile's record comes back as it was written, and bytes that are none
 
 namespace {
 
-/// An index of random records.
+/// An index with random records.
 struct RandomIndex {
   store::ContentId world;
   store::BakedRegion region{around(1, 2, 3, 40), 1, 4, 33};
@@ -108,7 +108,7 @@ struct RandomIndex {
     bytes = readFile(file);
   }
 
-  /// Whether all of it can be read; as_written: and is what was written.
+  /// Whether the whole index can be read. as_written: is set to whether it equals the written one.
   bool canBeRead(bool& as_written) const {
     const auto index = store::readIndex(BytesAsFile(bytes));
     if (!index) return false;

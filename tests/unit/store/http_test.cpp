@@ -1,4 +1,4 @@
-// What comes from a store on a server is what would have been derived, whatever is wrong with the server.
+// Tests that parts from a store on a server equal derived ones, whatever is wrong with the server.
 
 #include <thread>
 
@@ -11,7 +11,7 @@ using namespace sgm;
 
 namespace {
 
-/// Part of a cave, baked once for all.
+/// Part of a cave, baked once for all tests.
 struct Baked {
   CacheFolder folder;
   Baking baking;
@@ -33,7 +33,7 @@ struct Baked {
     }
   }
 
-  /// How many are not what they should be.
+  /// The number of parts that differ from the expected ones.
   size_t unlike(BakedParts& source, DiskCache* cache = nullptr, size_t stride = 1) const {
     ChunkMesher mesher = baking.machine.mesher(baking.world, cache);
     mesher.baked = &source;
@@ -120,7 +120,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
   struct Case {
     Fault fault;
     const char* message;
-    bool is_away;  ///< the server is left alone for a while
+    bool is_away;  ///< the server is not contacted for a while afterwards
   };
   for (const Case& c :
        {Case{Fault::no_ranges, "ignores range requests", false},

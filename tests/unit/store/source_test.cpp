@@ -1,4 +1,4 @@
-// What comes from a store is what would have been derived, byte by byte.
+// Tests that parts from a store equal derived ones, byte by byte.
 
 #include <atomic>
 #include <thread>

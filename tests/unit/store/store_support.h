@@ -1,5 +1,5 @@
 #pragma once
-// A world that is baked into a folder of its own.
+// A world that is baked into a temporary folder.
 
 #include "chunk_cache_support.h"
 #include "store/merge.h"
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// 64 m of the cave and the level above: 8 x 8 x 8 chunks of 8 m, and 4 x 4 x 4.
+/// 64 m of the cave at two levels: 8 x 8 x 8 chunks of 8 m, and 4 x 4 x 4 chunks of 16 m.
 inline store::BakedRegion regionOf(const Excerpt& scene, int first_level, int last_level) {
   return {scene.box, first_level, last_level, scene.cell};
 }
@@ -77,7 +77,7 @@ inline std::shared_ptr<BakedParts> sourceAt(const std::string& place, store::Log
   return *source;
 }
 
-/// Names and bytes of all files of a folder.
+/// Names and contents of all files in a folder.
 inline std::vector<std::pair<std::string, Bytes>> contentsOf(const CacheFolder& folder) {
   std::vector<std::pair<std::string, Bytes>> all;
   for (const fs::path& file : folder.files())

@@ -1,4 +1,4 @@
-// Tiles have each chunk of a region once, and shards each tile.
+// Tests that the tiles of a region contain each chunk once, and the shards each tile.
 
 #include <set>
 

@@ -1,4 +1,4 @@
-// What updates may hand over: their budgets, and one item.
+// Tests the byte budgets of updates: they are kept, but at least one item is handed over.
 
 #include <limits>
 #include <random>

@@ -1,4 +1,4 @@
-// What std/cave.sgm promises of water and flowstone, in worlds with flat cells and with cubes.
+// Tests what std/cave.sgm promises about water and flowstone, in worlds with flat grammar cells and with cubes.
 
 #include <algorithm>
 #include <random>
@@ -14,7 +14,7 @@ namespace {
 
 const char* const kLake = "layer lake cell 32m reach 1m { start Lake; }\n";
 
-/// Halls and a lake in a world that is cut into cubes.
+/// Halls and a lake in a world that is divided into cubes.
 const char* const kSunkenHalls =
     "sgm 1; import \"std/cave.sgm\" as cave; units m; param level = -3m in -200m..200m;\n"
     "domain infinite solid limestone;\n"
@@ -23,7 +23,7 @@ const char* const kSunkenHalls =
     "rule Node { cut { at(cell.point(jitter 0.4)) cave.Hall(rand(8m, 18m)); } }\n"
     "rule Lake { cave.Water(level); }\n";
 
-/// Signs of a program at points: solid or void.
+/// For each point, whether a program is solid there.
 std::vector<bool> solidAt(const FieldProgram& program, const std::vector<Int3>& points) {
   std::vector<int32_t> x, y, z, q(points.size());
   for (const Int3& p : points) {

@@ -1,4 +1,4 @@
-// The cache of derived cells: each is derived once, and those that nobody asks for go first.
+// Tests the cache of derived cells: each is derived once, and unused ones are discarded first.
 
 #include "world/cell_cache.h"
 #include "seed.h"
@@ -24,7 +24,7 @@ bool has(CellCache& cache, int32_t i) {
   return found[0] != nullptr;
 }
 
-/// A cache with room for so many cells without shapes.
+/// A cache whose capacity is this number of cells without shapes.
 CellCache cacheOf(size_t cells) {
   return CellCache(cells * DerivedCell(GrammarChunk{}, std::pmr::get_default_resource()).bytes,
                    std::pmr::get_default_resource());

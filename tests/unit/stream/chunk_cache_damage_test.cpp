@@ -1,4 +1,4 @@
-// What is kept and is not what was meshed is missed, and made again.
+// Tests that cached parts which are damaged or wrong count as missing, and are meshed again.
 
 #include "chunk/chunk_codec.h"
 #include "chunk_cache_support.h"

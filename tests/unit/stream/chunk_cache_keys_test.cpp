@@ -1,4 +1,4 @@
-// What a part of a chunk depends on is in its key, and nothing else.
+// Tests that the key of a chunk's part contains everything on which the part depends, and nothing else.
 
 #include "chunk_cache_support.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Chunks of the sample grammars that are meshed, and kept in a cache.
+// Meshes chunks of the sample grammars, with a disk cache.
 
 #include "backend/open/open_backend.h"
 #include "chunk/chunk_part.h"
@@ -12,7 +12,7 @@ namespace sgm {
 
 inline constexpr uint64_t kAmple = uint64_t{1} << 30;
 
-/// A grammar's world, and a box of places where it has much to mesh.
+/// A grammar's world, and a box in it with many surfaces.
 struct Excerpt {
   std::string grammar;
   int32_t cell;
@@ -33,7 +33,7 @@ inline const std::vector<Excerpt>& scenes() {
   return all;
 }
 
-/// What meshing takes, but for the field.
+/// Everything that meshing needs, except the field.
 struct Machine {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(1);
   std::unique_ptr<Backend> backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
@@ -43,7 +43,7 @@ struct Machine {
   }
 };
 
-/// As a streamed world does: what is far is looked for before.
+/// Meshes a chunk as a streamed world does: parts in a store on a server are searched beforehand.
 inline Result<MeshedChunk> tryToMesh(const ChunkMesher& mesher, const ChunkRequest& request,
                                      const ChunkSurface* before = nullptr, const EditSnapshot* edits = nullptr) {
   if (mesher.baked == nullptr || !mesher.baked->isFar()) return mesher.mesh(request, before, edits);
@@ -99,14 +99,14 @@ inline uint64_t partCount(const ChunkRequest& request) {
   return parts;
 }
 
-/// How many parts have triangles.
+/// Number of parts with triangles.
 inline uint64_t drawnParts(const ChunkSurface& surface) {
   const auto& ranges = surface.mesh.ranges;
   return static_cast<uint64_t>(
       std::count_if(ranges.begin(), ranges.end(), [](const PackedRange& range) { return range.index_count > 0; }));
 }
 
-/// Whether the chunk could not be proven solid or void without a sample.
+/// Whether the chunk had to be sampled, because it could not be proven solid or void.
 inline bool sampled(const Machine& machine, const WorldField& world, const ChunkRequest& request,
                     const EditSnapshot* edits) {
   const auto chunks = meshChunks(world, *machine.backend, *machine.jobs, {&request, 1}, {}, edits);
@@ -132,7 +132,7 @@ inline std::vector<std::byte> inputsOf(const WorldField& world, const ChunkReque
 
 inline ChunkRequest caveRequest() {
   ChunkRequest request;
-  request.key = {0, {14, 11, 11}};  // part of a hall, with its anchor
+  request.key = {0, {14, 11, 11}};  // part of a hall, with the hall's anchor
   request.signs = request.anchors = true;
   request.seams = 5;
   return request;

@@ -1,4 +1,4 @@
-// A chunk is the same whether it was meshed or kept, whatever is in the cache.
+// Tests that a chunk is the same whether it is meshed or read from the cache, whatever the cache contains.
 
 #include <thread>
 

@@ -1,4 +1,4 @@
-// A chunk's bytes give back that chunk, and no bytes give anything that cannot be drawn.
+// Tests that a chunk's bytes decode to that chunk, and that no bytes decode to a chunk that cannot be drawn.
 
 #include "chunk/chunk_codec.h"
 
@@ -35,7 +35,7 @@ bool same(const ChunkRecord& a, const ChunkRecord& b) {
 
 uint32_t below(std::mt19937& random, uint32_t end) { return static_cast<uint32_t>(random() % end); }
 
-/// Any record that the decoder takes: parts of up to `most` vertices and triangles.
+/// A random record that the decoder accepts: its parts have up to `most` vertices and triangles.
 ChunkRecord randomRecord(std::mt19937& random, uint32_t most) {
   ChunkRecord record;
   PackedMesh& mesh = record.mesh;
@@ -68,7 +68,7 @@ ChunkRecord randomRecord(std::mt19937& random, uint32_t most) {
   return record;
 }
 
-/// The promise of decodeChunk, checked in another way: by place, not by walking along.
+/// Checks the contract of decodeChunk by another method: by random access instead of one pass.
 bool canBeDrawn(const ChunkRecord& record) {
   const PackedMesh& mesh = record.mesh;
   std::vector<int> vertex_owner(mesh.vertices.size(), -1), index_owner(mesh.indices.size(), -1);

@@ -1,4 +1,5 @@
-// Measures of single chunks: those of the samples are sound and as the whole mesh's, and all damage is found.
+// Tests measures of single chunks: the samples have no defects and the measures of the whole mesh, and all damage is
+// found.
 
 #include <algorithm>
 #include <cmath>
@@ -44,12 +45,12 @@ std::string described(const ChunkMeasures& measures) {
   return text;
 }
 
-/// A grammar, and places of it where there is much to mesh.
+/// A grammar, and a place of its world with many surfaces.
 struct Excerpt {
   const char* grammar;
   int32_t cell;
   Int3 at;         ///< metres
-  int32_t around;  ///< likewise
+  int32_t around;  ///< metres
   bool sharp = false;
 };
 constexpr Excerpt kExcerpts[] = {
@@ -70,7 +71,7 @@ ChunkRequest randomRequest(std::mt19937& random, const Excerpt& scene) {
   return request;
 }
 
-/// Turned boxes, finite, so that all of the world can be meshed and closed.
+/// Rotated boxes in a finite world, which can be meshed completely and is closed.
 const char* const kBoxes =
     "sgm 1; units m; domain finite box(96m, 96m, 96m) empty; start Heap;\n"
     "rule Heap {\n"
@@ -97,7 +98,7 @@ Octree randomTree(std::mt19937& random) {
   return tree;
 }
 
-/// A chunk with much in it, without sharp features.
+/// A random chunk with a large surface, without sharp features.
 PlacedChunk anyChunk(std::mt19937& random) {
   static const WorldField world(settingsOf(yardstick("cave.sgm"), 256, 3), std::pmr::get_default_resource());
   for (;;) {
@@ -112,7 +113,7 @@ PlacedChunk anyChunk(std::mt19937& random) {
 using Body = MeshPart;
 uint32_t any(std::mt19937& random, size_t count) { return static_cast<uint32_t>(random() % count); }
 
-/// Makes two far vertices of the body one: none of the vertices around them is the same.
+/// Merges two distant vertices of the body, which have no common neighbour, so that the result is non-manifold.
 void pinch(Body& body, std::mt19937& random) {
   std::vector<std::vector<uint32_t>> around(body.vertices.size());
   for (size_t at = 0; at < body.indices.size(); ++at) {
@@ -130,7 +131,7 @@ void pinch(Body& body, std::mt19937& random) {
   }
 }
 
-/// Moves a vertex to the middle between two others, which are moved by a step where they have none.
+/// Moves a vertex to the middle between two others; these are moved by one step if their middle is not representable.
 void putBetween(Body& body, uint32_t moved, uint32_t from, uint32_t to) {
   Vertex &v = body.vertices[moved], &a = body.vertices[from];
   const Vertex& b = body.vertices[to];

@@ -1,4 +1,4 @@
-// Coarse levels derive only what they show of a cell: nobody can tell from their meshes.
+// Tests that coarse levels, which derive only the visible part of a cell, have the same meshes as if all was derived.
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int32_t kFinest = 128;
 
-/// A chunk's program from whole cells, derived anew.
+/// A chunk's program from completely derived cells, without cache.
 FieldProgram fromWholeCells(const WorldField& world, const IntBox& box, int level) {
   const WorldFieldSettings& s = world.settings();
   const int32_t cell_edge = world.cellAt(level);
@@ -79,7 +79,7 @@ std::string randomRules(std::mt19937& random, unsigned round) {
   return round % 3 == 0 ? text + made.edits() : text;
 }
 
-/// A shape of parts, most of them with levels of their own, to 20 m in front of the cell.
+/// A random combined shape, most of whose parts have levels of their own, up to 20 m in front of the grammar cell.
 std::string partedShape(std::mt19937& random, int depth) {
   const auto any = [&](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };
   const auto leaf = [&] {
@@ -107,12 +107,13 @@ std::string partedShapes(std::mt19937& random, unsigned) {
   return out + "}\n";
 }
 
-/// What was left out of coarse levels, and for passing the reach.
+/// Numbers of shapes that were left out because of the level, and because they exceed the reach.
 struct LeftOut {
   size_t by_level = 0, by_reach = 0;
 };
 
-/// reach: 0 for that which is declared and proven; otherwise units, and what passes them is left out.
+/// Compares the levels of random rules. reach: 0 for the declared and proven reach; otherwise units, beyond which
+/// shapes are left out.
 LeftOut compareLevels(unsigned seed, std::string (*rules)(std::mt19937&, unsigned), int32_t reach, unsigned tries) {
   std::mt19937 random(seed);
   const auto jobs = *makeThreadPool(1);

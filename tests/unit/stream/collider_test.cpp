@@ -1,4 +1,4 @@
-// Colliders: the drawn triangles that have an area, for the chunks near viewers and for no others.
+// Tests colliders: they have the drawn triangles with an area, for chunks near viewers and no others.
 
 #include "catch.h"
 #include "rounds.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kColliderDistance = 16.0 * kUnitsPerMetre;
 
-/// Corner positions of the drawn triangles with an area, in order, as a collider should have them.
+/// Corner positions of the drawn triangles with an area, in the order that a collider must have.
 std::vector<std::array<float, 9>> wantedTriangles(const Engine::Shown& shown) {
   const ChunkSurface& surface = *shown.surface;
   const double metres = static_cast<double>(surface.grid.cell) / 256 / kUnitsPerMetre;
@@ -50,7 +50,8 @@ std::vector<std::array<float, 9>> trianglesOf(const Collider& collider) {
   return triangles;
 }
 
-/// Near chunks have a collider that is what is drawn of them; far ones have none; in between either may be.
+/// Checks that near chunks have a collider that equals what is drawn of them, and far chunks have none; chunks between
+/// may have one.
 void checkColliders(const Engine& engine, const Viewer& viewer) {
   size_t near = 0;
   for (const auto& [key, shown] : engine.shown) {

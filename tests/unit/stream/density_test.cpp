@@ -1,4 +1,4 @@
-// Density volumes: the rule, and its agreement with samples, meshes, and itself however a box is cut.
+// Tests density volumes: against the formula, samples and meshes, and that dividing a box does not change them.
 
 #include <cmath>
 #include <cstring>
@@ -50,7 +50,7 @@ Int3 pointAt(const DensityGrid& grid, size_t i) {
   return p;
 }
 
-/// The samples of all points, by one program that nothing was pruned from.
+/// The samples of all points, by one program without pruning.
 std::vector<int32_t> samplesOf(const WorldField& world, const DensityGrid& grid, int level = 0) {
   const size_t count = pointsOf(grid);
   std::vector<int32_t> x(count), y(count), z(count), q(count);
@@ -65,20 +65,20 @@ std::vector<int32_t> samplesOf(const WorldField& world, const DensityGrid& grid,
   return q;
 }
 
-/// The rule, said in another way: in double, from its two parabolas.
+/// The formula of the density in double precision, written as two parabolas.
 double expectedDensity(int32_t q, double edge, int32_t finest_cell) {
   const double t = std::min(std::max(-q * (finest_cell / 1024.0) / edge, 0.0), 1.0);
   return t < 0.5 ? 2 * t * t : 1 - 2 * (1 - t) * (1 - t);
 }
 
-/// Clouds all over the sky.
+/// Clouds over the whole sky.
 WorldFieldSettings clouds(uint64_t seed) {
   WorldFieldSettings settings = settingsOf(sample("cloud.sgm"), 4096, seed);
   REQUIRE(settings.parameters.set(*settings.program, "cover", 1.0));
   return settings;
 }
 
-/// Somewhere among them, off every round number.
+/// A random grid within the clouds, whose coordinates are not round numbers.
 DensityGrid gridIn(std::mt19937& random, uint32_t most = 70) {
   DensityGrid grid;
   grid.spacing = static_cast<int32_t>(3000 + random() % 20000);

@@ -1,4 +1,4 @@
-// The disk cache among several processes, killed ones too, and where its folder or its memory fails.
+// Tests the disk cache with several processes, killed processes, and failures of its folder and of memory.
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint64_t kRoomy = uint64_t{1} << 30;
 
-/// Gets and puts random entries until told; the number of those that were not what was put.
+/// Reads and writes random entries until until() returns true; returns the number of entries with wrong contents.
 template <class Until>
 int useCache(DiskCache& cache, unsigned seed, uint64_t keys, Until until) {
   std::mt19937 random(seed);
@@ -32,7 +32,7 @@ int useCache(DiskCache& cache, unsigned seed, uint64_t keys, Until until) {
   return wrong + static_cast<int>(stats.errors + stats.damaged);
 }
 
-/// Runs in a child process, which ends with what it gives.
+/// Runs work in a child process, whose exit status is the result of the work.
 template <class Work>
 pid_t forked(Work work) {
   const pid_t child = fork();
@@ -53,7 +53,7 @@ std::vector<fs::path> unfinishedIn(const CacheFolder& folder) {
   return parts;
 }
 
-/// What a cache has said.
+/// Records the notices of a cache.
 struct Said {
   std::vector<std::string> lines;
   DiskCache::Log log() {

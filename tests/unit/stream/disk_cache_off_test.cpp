@@ -1,4 +1,4 @@
-// Without zstd there is no disk cache, and it says so.
+// Tests a build without zstd: it has no disk cache, and reports so.
 
 #include "catch.h"
 #include "store/cache/disk_cache.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Folders, keys and contents for tests of the disk cache: what a key's content is follows from the key.
+// Folders, keys and contents for tests of the disk cache. The content of an entry is computed from its key.
 
 #include <unistd.h>
 
@@ -45,7 +45,7 @@ struct CacheFolder {
 
 inline DiskKey keyNumber(uint64_t number) { return {mix64(number + 1), mix64(~number)}; }
 
-/// Where the header says that the entry lies.
+/// The path of an entry, as documented in the header.
 inline fs::path fileOf(const CacheFolder& folder, const DiskKey& key) {
   char name[40];
   std::snprintf(name, sizeof name, "%016llx%016llx", static_cast<unsigned long long>(key.high),
@@ -53,7 +53,7 @@ inline fs::path fileOf(const CacheFolder& folder, const DiskKey& key) {
   return folder.path / std::string(name, 2) / name;
 }
 
-/// Bytes that zstd cannot pack.
+/// Random bytes, which zstd cannot compress.
 inline Bytes noise(uint64_t seed, size_t size) {
   Bytes bytes(size);
   for (size_t i = 0; i < size; i += 8) {
@@ -63,7 +63,7 @@ inline Bytes noise(uint64_t seed, size_t size) {
   return bytes;
 }
 
-/// 0 to 8191 bytes of noise.
+/// The content of an entry: 0 to 8191 random bytes.
 inline Bytes contentOf(const DiskKey& key) { return noise(key.low, key.high % 8192); }
 
 inline Bytes readFile(const fs::path& path) {
@@ -81,7 +81,7 @@ inline void writeFile(const fs::path& path, const Bytes& bytes) {
   REQUIRE(out.flush());
 }
 
-/// How long ago a file was used.
+/// Sets the last use of a file to `seconds` ago.
 inline void age(const fs::path& file, std::chrono::seconds seconds) {
   fs::last_write_time(file, fs::file_time_type::clock::now() - seconds);
 }

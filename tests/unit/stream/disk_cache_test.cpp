@@ -1,4 +1,5 @@
-// The disk cache gives back what was put or nothing, keeps to its limit, and never minds what it finds in its folder.
+// Tests the disk cache: it returns what was stored or nothing, keeps to its size limit, and tolerates any files in its
+// folder.
 
 #include "store/cache/disk_cache.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr uint64_t kPlenty = uint64_t{1} << 30;
 
-/// Puts a file at a key's place, and expects it to be a miss, counted and removed.
+/// Writes a file in place of a key's entry, and expects a miss that is counted, and that the file is removed.
 void expectDamaged(DiskCache& cache, const CacheFolder& folder, const DiskKey& key, const Bytes& file) {
   writeFile(fileOf(folder, key), file);
   const DiskCacheStats before = cache.stats();

@@ -1,4 +1,5 @@
-// A journal of edits loses nothing that was flushed, whatever is cut, flipped, killed or full.
+// Tests that a journal of edits loses nothing that was flushed, if it is truncated or damaged, the process is killed,
+// or the disk is full.
 
 #include "stream/edits/edit_journal.h"
 
@@ -48,7 +49,7 @@ void putBytes(const fs::path& path, std::string_view bytes) {
   REQUIRE(out.good());
 }
 
-// `count` brushes of author 1, every fourth an undo of the one before it.
+// `count` brushes of author 1; every fourth operation is an undo of the previous one.
 std::vector<EditOperation> someEdits(uint32_t seed, int count) {
   std::mt19937 random(seed);
   EditLog log({1});
@@ -79,7 +80,7 @@ OpenedJournal opened(const fs::path& path) {
   return std::move(*journal);
 }
 
-// The whole records in the first `size` bytes of a journal of these operations.
+// Number of complete records in the first `size` bytes of a journal of these operations.
 size_t wholeIn(std::span<const EditOperation> operations, size_t size) {
   size_t whole = 0;
   for (size_t end = kHead; whole < operations.size(); ++whole) {

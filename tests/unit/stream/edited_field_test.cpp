@@ -1,4 +1,4 @@
-// The field under brushes: what is solid, in which order, at which level, and that its meshes stay closed.
+// Tests the field with brushes: what is solid, the order of brushes, the levels, and that meshes stay closed.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace sgm;
 
 namespace {
 
-// Nothing but the domain.
+// A grammar with the domain only.
 const std::string kNothing = "layer none cell 64m reach 1m { start None; }\nrule None { }\n";
 const std::string kEmpty = "sgm 1; units m;\ndomain infinite empty;\n" + kNothing;
 const std::string kSolid = "sgm 1; units m;\ndomain infinite solid;\n" + kNothing;
@@ -84,7 +84,7 @@ Brush sphere(Int3 centre, int32_t radius, bool cut, int32_t smooth = 0, uint16_t
   return b;
 }
 
-// The brush's own distance, in double precision.
+// The brush's distance function in double precision.
 double distanceTo(const Brush& b, Int3 p) {
   const double x = p.x - b.from.x, y = p.y - b.from.y, z = p.z - b.from.z;
   if (b.shape == Brush::Shape::sphere) return std::hypot(x, y, z) - b.radius;

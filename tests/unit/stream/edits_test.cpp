@@ -1,4 +1,5 @@
-// Worlds that exchange their edits agree, whatever the order; what shows is found by place; damage changes nothing.
+// Tests that worlds which exchange their edits agree in any order, that visible brushes are found by place, and that
+// damage changes nothing.
 
 #include "world/edits.h"
 
@@ -37,7 +38,7 @@ std::vector<std::vector<std::byte>> shown(const EditLog& log, const IntBox& box,
   return bytes;
 }
 
-// What shows, from the definition: every brush in order that the latest undo or redo of it does not hide.
+// The visible brushes by definition: all brushes in order, except those hidden by the latest undo or redo of them.
 std::vector<std::vector<std::byte>> expected(const EditLog& log, const IntBox& box, int32_t cell = 1) {
   std::vector<EditOperation> operations(log.operations().begin(), log.operations().end());
   std::sort(operations.begin(), operations.end(),

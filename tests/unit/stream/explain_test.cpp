@@ -1,4 +1,4 @@
-// What explain() says of a place, against the field and against overrides of the paths that it gives.
+// Tests explain() against the field, and against overrides of the paths that it returns.
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,13 @@ std::array<double, 3> anyPlace(std::mt19937& random, double extent) {
   return {by(random), by(random), by(random)};
 }
 
-/// The unit's place nearest to a point of the surface.
+/// The unit position nearest to a point on the surface.
 Int3 nearestUnit(const std::array<double, 3>& p) {
   return {static_cast<int32_t>(std::lround(p[0])), static_cast<int32_t>(std::lround(p[1])),
           static_cast<int32_t>(std::lround(p[2]))};
 }
 
-/// Whether all that the shape stands in takes it as it is, or not at all.
+/// Whether all operations above the shape take its value unchanged or not at all.
 bool isExact(const std::vector<ExplainedNode>& nodes, size_t leaf) {
   for (size_t i = 0; i < leaf; ++i) {
     const ShapeKind kind = nodes[i].kind;
@@ -40,7 +40,7 @@ struct Count {
   size_t told = 0, exact = 0, edited = 0;
 };
 
-/// Asks about surfaces of the world, and edits what they are said to be.
+/// Explains surfaces of the world, and overrides the explained paths.
 void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double extent, std::mt19937& random,
                 unsigned places, Count& count) {
   const WorldField world(settingsOf(text, cell, seed), std::pmr::get_default_resource());

@@ -1,4 +1,4 @@
-// Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
+// Tests replacing a world's field: exactly the changed chunks are meshed again, and every frame shows one field.
 
 #include <chrono>
 #include <thread>
@@ -24,17 +24,17 @@ std::shared_ptr<const WorldField> fieldOf(const std::string& text, const std::st
   return fieldOf(std::move(settings));
 }
 
-/// The cave with all its layers, and drips that show where cells are half a metre wide.
+/// The cave with all its layers, and with drips that are visible with grid cells of 0.5 m.
 std::string drippingText() { return replaced(yardstick("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
 
-/// The cave with rules that are nested deeper than derivation goes, which is found at once.
+/// The cave with rules nested more deeply than derivation allows, an error that is found at once.
 std::string tooDeepText() {
   return replaced(caveText(), "rule Chamber(r) {",
                   "rule Deep(n) depth 100 -> Leaf(n) { Deep(n + 1); } rule Leaf(n) { sphere(1m); }\n"
                   "rule Chamber(r) { Deep(1);");
 }
 
-/// Edits of that text as an author makes them.
+/// A change of that text as an author would make it.
 struct EditedText {
   std::string what, text;
 };
@@ -58,7 +58,7 @@ std::vector<EditedText> editedTexts() {
   };
 }
 
-/// All that an engine has of a chunk.
+/// All contents of a chunk that an engine receives.
 struct Content {
   std::vector<ContentHash> hashes;
   std::vector<uint64_t> anchors;
@@ -85,7 +85,7 @@ std::vector<Content> contentsOf(const WorldField& field, const std::vector<Chunk
   return contents;
 }
 
-/// Near halls, where most is.
+/// Random chunks near halls, where most surfaces are.
 std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& field, int level, size_t count) {
   const IntBox halls{{-300000, -300000, -300000}, {600000, 600000, 600000}};
   const Result<std::vector<Anchor>> anchors = field.anchors(halls);
@@ -107,9 +107,10 @@ std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& f
 }
 static_assert(kChunkCells * kStreamedCell == 1 << 14);
 
-/// Of 0.5 to 8 m: the cave's passages are left out where cells are larger than 4 m.
+/// Levels with cells of 0.5 to 8 m: the cave's passages are omitted if cells are larger than 4 m.
 constexpr int kLevels = 5;
-/// Of a level, half under a sanitizer: to mesh them twice for every edited text is most of what these tests do.
+/// Number of tested chunks of a level, half with a sanitizer: most of the time of these tests is spent on meshing them
+/// twice for every changed text.
 size_t chunksOf(int level) { return (rounds(4) < 4 ? 1u : 2u) * (level == 0 ? 30u : 6u); }
 size_t allChunks() {
   size_t all = 0;
@@ -117,7 +118,7 @@ size_t allChunks() {
   return all;
 }
 
-/// Chunks that must be meshed again of those asked about.
+/// Compares both fields on random chunks. Returns how many of these must be meshed again.
 size_t checkChange(std::mt19937& random, const std::shared_ptr<const WorldField>& from,
                    const std::shared_ptr<const WorldField>& to) {
   const FieldChange change(from, to);

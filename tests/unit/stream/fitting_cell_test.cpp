@@ -1,4 +1,5 @@
-// The cells that are advised for a region of too many chunks: they fit, and smaller round ones do not.
+// Tests the cell sizes that are suggested for a region with too many chunks: they suffice, and smaller round ones do
+// not.
 
 #include "world/fitting_cell.h"
 #include "seed.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Samples of a box, and what can be said of them by looking at all of them at once.
+// Samples of a box, and reference results that are computed from all samples at once.
 
 #include <algorithm>
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace sgm {
 
-/// x fastest; solid outside of the box.
+/// Signs of samples; x varies fastest. Everything outside the box is solid.
 class SampledBox {
  public:
   SampledBox(Int3 low, Int3 size) : low_(low), size_(size) {
     solid_.assign(static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z), 1);
   }
 
-  /// A world's, sampled block by block by what is left of one program there.
+  /// Samples a world block by block, each with a field program that is pruned to the block.
   SampledBox(const WorldField& world, Int3 low, Int3 size) : SampledBox(low, size) {
     const int32_t cell = world.settings().finest_cell;
     const auto units = [&](Int3 p) { return Int3{p.x * cell, p.y * cell, p.z * cell}; };
@@ -72,7 +72,7 @@ class SampledBox {
     if (has(p)) solid_[index(p)] = solid;
   }
 
-  /// As chunks; of one sign alone where all samples have it.
+  /// The samples as chunks of signs; a chunk whose samples all have the same sign is stored as uniform.
   SignField field(int32_t cell) const {
     return {[this](Int3 chunk) -> Result<ChunkSigns> {
               ChunkSigns signs;
@@ -97,7 +97,7 @@ class SampledBox {
   std::vector<uint8_t> solid_;
 };
 
-/// The steps from a sample to those that it joins with.
+/// The steps from a sample to the neighbours with which it is connected.
 inline const std::vector<Int3>& joiningSteps() {
   static const std::vector<Int3> steps = [] {
     std::vector<Int3> all;
@@ -111,7 +111,8 @@ inline const std::vector<Int3>& joiningSteps() {
   return steps;
 }
 
-/// All voids of a closed box of samples for a ball, found by looking around every sample and by flooding.
+/// All voids of a closed box of samples in which a ball fits, found by examining the surroundings of every sample and
+/// by flooding.
 class FloodedVoids {
  public:
   FloodedVoids(const SampledBox& lattice, const IntBox& region, double radius_in_cells)
@@ -144,14 +145,14 @@ class FloodedVoids {
   uint64_t samplesOf(Int3 p) const {
     return open(p) ? found_[static_cast<size_t>(number_[lattice_.index(p)])].samples : 0;
   }
-  /// As VoidAnswer::voids.
+  /// The voids in the form of VoidAnswer::voids.
   std::vector<RegionVoid> voids() const {
     std::vector<RegionVoid> sorted = found_;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
     return sorted;
   }
 
-  /// The length of the shortest way, in cells. Precondition: joined.
+  /// The length of the shortest path, in cells. Precondition: the samples are connected.
   double shortest(Int3 from, Int3 to) const {
     std::vector<double> cost(number_.size(), 1e30);
     std::priority_queue<std::pair<double, size_t>> queue;
@@ -201,7 +202,7 @@ class FloodedVoids {
   }
 
   const SampledBox& lattice_;
-  std::vector<int> number_;  ///< of the void that a sample belongs to
+  std::vector<int> number_;  ///< for each sample, the number of its void
   std::vector<RegionVoid> found_;
 };
 

@@ -1,4 +1,4 @@
-// Whatever octree is drawn, its surface is closed: bodies, seams between levels whose fields differ, outer faces.
+// Tests that the surface of any drawn octree is closed: bodies, seams between levels whose fields differ, outer faces.
 
 #include <algorithm>
 #include <random>

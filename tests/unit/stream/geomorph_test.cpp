@@ -1,4 +1,4 @@
-// Offsets to the next coarser level: they lead to its surface, and neighbours agree.
+// Tests offsets to the next coarser level: they lead to its surface, and neighbouring chunks have equal ones.
 
 #include <cmath>
 #include <map>
@@ -27,7 +27,7 @@ std::vector<ChunkRequest> block(int level, uint8_t seams) {
   return requests;
 }
 
-/// The coarser level's field at a place in units, between them too: linear steps of the gradient from the nearest.
+/// The coarser level's field at a place in units, interpolated linearly from the nearest lattice point by the gradient.
 double coarseValue(const WorldField& world, int level, const std::array<double, 3>& p) {
   Int3 at;
   for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(std::lround(p[static_cast<size_t>(axis)]));

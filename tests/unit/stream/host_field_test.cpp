@@ -1,5 +1,5 @@
-// A field of the host's beside the grammar's: closed with it in every frame, the same whoever asks, and as exact as its
-// samples.
+// Tests a field of the host together with the grammar's: it is closed with it in every frame, the same for all queries,
+// and as exact as its samples.
 
 #include <atomic>
 #include <cmath>
@@ -43,7 +43,7 @@ HostField hostBall(double x, double y, double z, double radius, float steepness 
                 steepness);
 }
 
-/// Solid under hills around a height.
+/// A host's field that is solid below hills around a height.
 HostField hills(double height, double phase, float steepness) {
   return hostOf(
       [=](double x, double y, double z) {

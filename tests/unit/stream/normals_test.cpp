@@ -1,4 +1,4 @@
-// Normals point out of what they belong to, whatever made it.
+// Tests that normals point out of the solid, for all kinds of shapes.
 
 #include "catch.h"
 #include "mesh/vertex.h"
@@ -8,7 +8,7 @@ using namespace sgm;
 
 namespace {
 
-/// The share of a mesh's triangles, by area, whose vertices' normals look away from them.
+/// The share of a mesh's area whose triangles have vertex normals that point to their other side.
 double shareAstray(const std::string& rules) {
   const WorldField world(settingsOf("sgm 1; units m; start Main;\n" + rules, 128), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;

@@ -1,4 +1,4 @@
-// The octree's two rules, what viewers want, and steps from one octree to another.
+// Tests the octree's two rules, the octree for a set of viewers, and steps from one octree to another.
 
 #include <algorithm>
 #include <map>
@@ -18,15 +18,15 @@ namespace {
 constexpr int kTop = 4;
 constexpr int32_t kCell = 256;
 
-/// Level of the leaf that covers a level-0 chunk; kTop + 1 where that is virtual. Independent of how the rules are
-/// found.
+/// Level of the leaf that covers a level-0 chunk; kTop + 1 if no leaf does. Does not use the octree's own checks of
+/// rules.
 int levelAt(const Octree& tree, Int3 at) {
   int level = kTop + 1;
   while (level > 0 && tree.isSplit({level, {at.x >> level, at.y >> level, at.z >> level}})) --level;
   return level;
 }
 
-/// Where a rule is broken, over every pair and every edge of level-0 chunks of a box.
+/// Number of places in a box where a rule is broken, by testing every pair and every edge of level-0 chunks.
 size_t brokenPlaces(const Octree& tree, int32_t extent) {
   const int32_t side = 2 * extent + 2;
   std::vector<int> levels;

@@ -1,4 +1,4 @@
-// How worlds share workers between planning and meshing, in virtual time.
+// Tests how worlds share workers between planning and meshing, in simulated time.
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,12 @@ class CountedJobs final : public JobSystem {
   unsigned workers_;
 };
 
-/// Worlds whose viewers move all the time, with always more to mesh, on workers that do plans first.
+/// Worlds whose viewers move continuously, and which always have chunks to mesh, on workers that run plans first.
 class Simulation {
  public:
   struct World {
     PlanTurns::Member member;
-    double plan_cost = 0, chunk_cost = 0;  ///< seconds
+    double plan_cost = 0, chunk_cost = 0;  ///< seconds of work
     bool waits = false, plans = false, again = false;
     double waits_since = 0, longest_wait = 0;
     uint64_t planned = 0, meshed = 0;

@@ -1,4 +1,4 @@
-// Worlds that share workers, where one of them keeps the workers busy: the others plan all the same.
+// Tests worlds that share workers, one of which keeps the workers busy: the others must plan all the same.
 
 #include <chrono>
 #include <deque>
@@ -12,7 +12,7 @@ using namespace sgm;
 
 namespace {
 
-/// Jobs in order of their arrival, which run only when a test says so.
+/// A job system whose jobs run in order of submission when the test says so.
 class HeldJobs final : public JobSystem {
  public:
   ~HeldJobs() override {
@@ -34,7 +34,7 @@ class HeldJobs final : public JobSystem {
   std::deque<std::pair<void (*)(void*), void*>> jobs_;
 };
 
-/// Two worlds on one worker. The first has planned and waits for the worker to mesh; the second has asked for a plan.
+/// Two worlds on one worker. The first has planned and waits for the worker to mesh; the second has requested a plan.
 struct TwoWorlds {
   TwoWorlds() : scene(std::make_unique<HeldJobs>()), jobs(static_cast<HeldJobs&>(*scene.jobs)) {
     auto turns = std::make_shared<PlanTurns>(jobs);

@@ -1,4 +1,4 @@
-// What a plan asks for: each chunk once, with all its seams, whatever came before.
+// Tests the requests of a plan: each chunk once, with all its seams, whatever the previous plans were.
 
 #include <algorithm>
 #include <optional>
@@ -25,7 +25,7 @@ PlannerSettings plannerSettings(bool by_reach) {
   return settings;
 }
 
-/// A surface of which only the number of bytes and the seams matter.
+/// A surface without geometry, of which only the number of bytes and the seams matter.
 std::shared_ptr<const ChunkSurface> surfaceFor(const ChunkRequest& request, const ChunkSurface* before) {
   ChunkSurface surface(std::pmr::get_default_resource());
   surface.key = request.key;
@@ -126,7 +126,7 @@ TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing
   std::optional<WorldChange> pending;
   bool fails = false;
   Viewer viewer;
-  /// Plans and meshes until nothing is left to do.
+  /// Plans and meshes until no requests are left.
   const auto settle = [&] {
     PlanInput input;
     for (int turn = 0; turn < 500; ++turn) {
@@ -171,7 +171,7 @@ TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing
 
 namespace {
 
-/// Plans for a viewer and meshes what is asked for, a number of chunks a plan; takes each step that is offered.
+/// Plans for a viewer, meshes a number of the requested chunks after each plan, and takes each offered step.
 class Flight {
  public:
   explicit Flight(bool by_reach) : planner(plannerSettings(by_reach)) {}

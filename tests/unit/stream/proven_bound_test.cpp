@@ -1,4 +1,4 @@
-// Chunks gather the cells that are proven to reach them: nobody can tell from their programs.
+// Tests that programs of chunks, which use only the cells proven to reach them, equal those from all cells.
 
 #include <algorithm>
 #include <cstring>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int32_t kFinestCell = 256;
 
-/// Assets beside a sample.
+/// Resolves imports of assets in a sample's folder.
 class Beside : public ImportResolver {
  public:
   explicit Beside(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -60,7 +60,7 @@ std::vector<Sample> samples() {
   return out;
 }
 
-/// Each parameter with a range at one of its ends, or as the grammar has it.
+/// For each parameter with a range an end of the range, or the default.
 ParameterValues parametersAtEnds(const Program& program, std::mt19937& random) {
   ParameterValues values = ParameterValues::defaults(program);
   const bool keep = random() % 4 == 0;
@@ -80,7 +80,7 @@ WorldFieldSettings settingsAtEnds(std::shared_ptr<const Program> program, std::m
   return settings;
 }
 
-/// A cell near the origin, one anywhere, or one at the end of the world.
+/// A grammar cell near the origin, anywhere, or at the end of the world.
 Int3 anyCell(const Layer& layer, std::mt19937& random) {
   Int3 cell;
   const auto kind = random() % 3;
@@ -96,7 +96,7 @@ Int3 anyCell(const Layer& layer, std::mt19937& random) {
   return cell;
 }
 
-/// What compile() gives, from all cells whose declared reach meets the box.
+/// The result of compile(), from all cells whose declared reach meets the box.
 FieldProgram fromAllInReach(const WorldField& world, const IntBox& box, int level) {
   const WorldFieldSettings& s = world.settings();
   const int32_t cell_edge = world.cellAt(level);
@@ -131,7 +131,7 @@ bool sameProgram(const FieldProgram& a, const FieldProgram& b) {
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), sameGroup);
 }
 
-/// A box of the size of a chunk where a cell's shapes end, or anywhere about it.
+/// A box of the size of a chunk at the border of a cell's shapes, or anywhere around them.
 IntBox boxAbout(const GrammarChunk& chunk, int32_t edge, std::mt19937& random) {
   Int3 at;
   if (!chunk.groups.empty()) {
@@ -291,7 +291,7 @@ TEST_CASE("cells that cannot show in a chunk are not derived for it") {
   CHECK(world.cacheStats().misses == 1);
 }
 
-// In builds with assertions it ends the process.
+// In builds with assertions, such a shape ends the process.
 #if defined(NDEBUG)
 TEST_CASE("a shape that passes what is proven ends there in every chunk, and a note tells") {
   WorldFieldSettings settings = settingsOf(

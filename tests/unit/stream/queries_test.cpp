@@ -1,4 +1,4 @@
-// Questions to the field, against analytic answers and dense sampling; far from the origin as near it.
+// Tests queries of the field against analytic results and dense sampling, near the origin and far from it.
 
 #include "query/queries.h"
 
@@ -17,7 +17,7 @@ namespace {
 using Vector = std::array<double, 3>;
 constexpr double kMetre = 1024;
 
-/// A world with its field.
+/// A world, and its field.
 struct Asked {
   WorldField world;
   QueryField field;
@@ -33,7 +33,7 @@ WorldFieldSettings oneShape(const std::string& shape, int32_t cell = 256, Int3 s
   return s;
 }
 
-/// The cave without what probes for a place: a probe asks where it is, and not where a test has moved the world to.
+/// The cave without the layer that probes for places: probes depend on world positions, and the test moves the world.
 std::string withoutDrips() {
   return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }
@@ -102,7 +102,7 @@ Int3 rounded(const Vector& p) {
   return {whole(p[0]), whole(p[1]), whole(p[2])};
 }
 
-/// Signed distance to a box of full edges `size` around the origin, turned by an angle around y.
+/// Signed distance to a box around the origin with edges `size`, rotated around y by an angle.
 double boxDistance(Vector p, const Vector& size, double angle) {
   p = {std::cos(angle) * p[0] - std::sin(angle) * p[2], p[1], std::sin(angle) * p[0] + std::cos(angle) * p[2]};
   Vector outside{};

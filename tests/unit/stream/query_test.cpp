@@ -1,4 +1,4 @@
-// Answers to queries against the field that they are about.
+// Tests the results of queries of lower layers against the field.
 
 #include <cmath>
 #include <random>
@@ -25,7 +25,7 @@ bool holds(const Ball& ball, Int3 p) {
   return square <= int64_t{ball.radius} * ball.radius;
 }
 
-/// A lattice of positions in the ball, and as many anywhere in it.
+/// A lattice of positions in the ball, and as many random ones.
 std::vector<Int3> positionsIn(std::mt19937& random, const Ball& ball) {
   std::vector<Int3> found{ball.centre};
   for (int k = 0; k < 1000; ++k) {
@@ -40,7 +40,7 @@ std::vector<Int3> positionsIn(std::mt19937& random, const Ball& ball) {
 
 struct Sampled {
   std::vector<int32_t> q;
-  float centre = 0;  ///< the field there, in units
+  float centre = 0;  ///< the field's value at the ball's centre, in units
 };
 
 Sampled sampled(const WorldField& world, uint32_t layer, const std::vector<Int3>& at) {
@@ -65,7 +65,7 @@ Sampled sampled(const WorldField& world, uint32_t layer, const std::vector<Int3>
   return out;
 }
 
-/// A hall in rock, its walls displaced by `amp` metres of noise, and who asks about it everywhere.
+/// A hall in rock whose walls are displaced by `amp` metres of noise, and a layer that queries it everywhere.
 std::string hall(const std::string& amp, const std::string& condition) {
   return "sgm 1; import \"std/rock.sgm\" as rock; domain infinite solid;\n"
          "param width = 9m in 6m..12m; param other = 1 in 0..2;\n"

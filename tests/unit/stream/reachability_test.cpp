@@ -1,4 +1,4 @@
-// What can be reached through the void: never less than there is, and not much more.
+// Tests which chunks are reachable through the void: all that really are, and not many more.
 
 #include "stream/plan/reachability.h"
 
@@ -25,7 +25,7 @@ std::vector<ReachedChunk> reachedFrom(const Place& viewer, double radius, const 
   return reachedChunks(std::span(&viewer, 1), radius, kFineCell, voids);
 }
 
-/// A cube of chunks cut from one lattice of samples, x fastest; solid outside of it.
+/// A cube of chunks cut from one lattice of samples, x fastest; everything outside is solid.
 class Cluster {
  public:
   explicit Cluster(int chunks) : chunks_(chunks), side_(chunks * kChunkCells + 1) {
@@ -70,7 +70,7 @@ class Cluster {
     return all;
   }
 
-  /// The chunks that have a sample of the void that `from` lies in.
+  /// The chunks that contain a sample of the void to which `from` belongs.
   std::set<ChunkKey> floodFill(Int3 from) const {
     std::vector<bool> seen = solid_;
     std::vector<Int3> open{from};
@@ -99,7 +99,7 @@ class Cluster {
   std::vector<bool> solid_;
 };
 
-/// Rock with small hollows and tubes between random places, some of which meet; a place in each tube.
+/// Digs small hollows, and tubes between random places, some of which meet. Returns a place in each tube.
 std::vector<Int3> digTubes(Cluster& cluster, std::mt19937& random, int count, double noise) {
   const auto real = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
   cluster.fill([&](Int3) { return real(0, 1) >= noise; });
@@ -137,13 +137,13 @@ VoidLookup lookupIn(const std::map<ChunkKey, VoidComponents>& chunks) {
   };
 }
 
-/// A place in one of the cells that have the sample.
+/// A place in a grid cell that has the sample as a corner.
 Place placeBy(Int3 sample) { return {sample.x * 256.0, sample.y * 256.0, sample.z * 256.0}; }
 Place middleOf(const ChunkKey& key) {
   return {(key.at.x + 0.5) * kChunkEdge, (key.at.y + 0.5) * kChunkEdge, (key.at.z + 0.5) * kChunkEdge};
 }
 
-/// A chunk whose one void has the middle of the faces named, bit (1 << Face).
+/// A chunk with one void that reaches the middle of the given faces, bits (1 << Face).
 VoidComponents passageThrough(unsigned faces) {
   VoidComponents voids(1);
   for (size_t f = 0; f < 6; ++f) voids[0].faces[f] = faces >> f & 1 ? uint64_t{1} << 36 : 0;

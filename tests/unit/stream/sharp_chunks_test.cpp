@@ -1,4 +1,4 @@
-// Sharp features of chunks: closed whatever octree is drawn, crisp, the same however a chunk came to be.
+// Tests sharp features of chunks: closed for any drawn octree, crisp, and independent of how a chunk was made.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace sgm;
 
 namespace {
 
-/// Turned boxes, some of which coarse levels have lost, in a world with a border that cuts one.
+/// Rotated boxes, some of which coarse levels omit, in a world whose border cuts one of them.
 const char* const kBoxes =
     "sgm 1; units m; domain finite box(160m, 160m, 160m) empty; start Heap;\n"
     "rule Heap {\n"
@@ -28,7 +28,7 @@ const char* const kBoxes =
 constexpr int kTop = 3;
 constexpr int32_t kFinest = 256;
 
-/// All of the world, refined at random places around its middle.
+/// An octree of the whole world, refined at random places around its middle.
 Octree randomTree(std::mt19937& random) {
   Octree tree(kTop, kFinest);
   for (int corner = 0; corner < 8; ++corner)

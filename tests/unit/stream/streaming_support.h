@@ -1,5 +1,5 @@
 #pragma once
-// A streamed world with an engine that draws it, and what must hold of every frame.
+// A streamed world with an engine that draws it, and checks that must hold for every frame.
 
 #include <cstdio>
 #include <cstdlib>
@@ -20,12 +20,12 @@ namespace sgm {
 
 inline constexpr int32_t kStreamedCell = 512;
 
-/// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
+/// The cave without its drips: their many small cells would only make the tests slow.
 inline std::string caveText() {
   return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }
 
-/// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that
+/// A job system whose jobs run only when a thread helps, in random order: the latest and most disorderly execution that
 /// the contract allows.
 class LateJobs final : public JobSystem {
  public:
@@ -63,8 +63,8 @@ inline WorldFieldSettings withHosts(WorldFieldSettings settings, std::vector<Hos
   return settings;
 }
 
-/// The CPU, or what SGM_TEST_BACKEND names: the same tests for every backend. Where that one is not to be had the whole
-/// program is skipped, as status 77 tells, unless SGM_REQUIRE_VULKAN forbids it.
+/// The backend that SGM_TEST_BACKEND names, or the CPU: the same tests run with every backend. If that backend is
+/// unavailable, the whole program is skipped with exit status 77, unless SGM_REQUIRE_VULKAN forbids that.
 inline const BackendRequest& testedBackend() {
   static const BackendRequest tested = [] {
     BackendRequest request;
@@ -83,7 +83,7 @@ inline const BackendRequest& testedBackend() {
   return tested;
 }
 
-/// One that is waited for until it is ready: what is tested is streaming on the device, not on the CPU in its stead.
+/// A backend that waits until the device is ready: the tests must stream on the device, not on the CPU in its place.
 class PatientBackend final : public Backend {
  public:
   explicit PatientBackend(std::unique_ptr<Backend> backend) : backend_(std::move(backend)) {}
@@ -102,7 +102,7 @@ class PatientBackend final : public Backend {
   std::unique_ptr<Backend> backend_;
 };
 
-/// Of a field that outlives whoever has it.
+/// A shared_ptr to a field that outlives all of its users.
 inline std::shared_ptr<const WorldField> lent(const WorldField& field) { return {std::shared_ptr<void>(), &field}; }
 
 struct Scene {
@@ -134,7 +134,7 @@ struct Scene {
   std::unique_ptr<World> world;
 };
 
-/// An engine that believes nothing but events.
+/// An engine that knows only what the events report.
 class Engine {
  public:
   struct Shown {
@@ -143,7 +143,7 @@ class Engine {
     Neighbourhood coarser = 0;
   };
 
-  /// Bytes that came since the last call.
+  /// Processes all events. Returns the number of bytes that arrived since the last call.
   size_t take(World& world) {
     using Kind = WorldEvent::Kind;
     size_t bytes = 0;
@@ -199,7 +199,8 @@ class Engine {
 
 using PartHashes = std::map<std::pair<ChunkKey, size_t>, ContentHash>;
 
-/// What the engine draws is, part by part, the frame of the octree; and that frame is closed in every vertex.
+/// Checks that the engine draws exactly the frame of the octree, part by part, and that the frame is closed at every
+/// vertex.
 inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnapshot* edits = nullptr,
                        const WorldField* field = nullptr) {
   const std::shared_ptr<const DrawnFrame> frame = scene.world->drawn();
@@ -227,7 +228,7 @@ inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnaps
   CHECK(checkParts(parts).closed());
 }
 
-/// A frame's time of an engine that lends its thread.
+/// Runs jobs for about the time of a frame, as an engine does that lends its thread.
 inline void workOrWait(Scene& scene) {
   for (int jobs = 0; jobs < 50; ++jobs) {
     if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -240,7 +241,7 @@ inline Viewer viewerAt(double x, double y, double z) {
   return viewer;
 }
 
-/// A walk with turns, and now and then a leap to another part of the world.
+/// The next place of a viewer that walks with turns and sometimes teleports to another part of the world.
 inline Viewer wander(std::mt19937& random, Viewer viewer) {
   const auto step = [&](double most) {
     return (static_cast<double>(random() % 2001) / 1000.0 - 1) * most * kUnitsPerMetre;

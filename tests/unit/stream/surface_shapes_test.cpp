@@ -1,4 +1,5 @@
-// Texture coordinates of worlds: by the shapes that make the surface, the same on both sides of a chunk's border.
+// Tests texture coordinates of worlds: they follow the shapes of the surface, and are equal on both sides of a chunk's
+// border.
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +18,7 @@ using namespace sgm;
 
 namespace {
 
-/// Passages and halls, and a ball in a hall's place for which nothing else stands.
+/// Passages and halls, and a ball in place of a hall, which has no texture coordinates of its own.
 const char* const kPassages =
     "sgm 1; units m; domain infinite solid; layer net cell 48m reach 44m { start Node; }\n"
     "rule Node { cut { at(c()) sphere(6m); for f in cell.links(tree 2) { Way(c(), f); } } }\n"
@@ -28,7 +29,7 @@ std::string passages() {
          "let hub(c) = c.point(jitter 0.2);\n";
 }
 
-/// Of the chunks from (low, low, low) on, eight of level 0 along each axis.
+/// The surfaces of the chunks from (low, low, low) on, eight chunks of level 0 along each axis.
 std::vector<ChunkSurface> surfacesFrom(const WorldField& field, int level, int32_t low) {
   std::vector<ChunkRequest> requests;
   const int32_t first = low >> level, last = (low + 8) >> level;

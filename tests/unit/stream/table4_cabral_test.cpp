@@ -1,6 +1,6 @@
-// What the row Cabral of the paper's Table 4 claims, of the sample that stands for it: assets in many sizes whose
-// angles and textures stay. How they are stretched: tests/unit/asset; that they are closed: tests/unit/region and the
-// sample's own words (expect).
+// Tests the claims of the row Cabral in the paper's Table 4, with the sample that represents it: assets in many sizes
+// whose angles and textures stay. Stretching is tested in tests/unit/asset; that meshes are closed, in
+// tests/unit/region and by the sample's own `expect` statements.
 
 #include <set>
 

@@ -1,6 +1,6 @@
-// What the row GK-M of the paper's Table 4 claims, column by column, of the sample that stands for it: clouds,
-// buildings and caves in one world, levels of detail, control, morphing, texturing, no hidden surfaces, welded
-// vertices, no holes. That it is closed and connected it says itself (expect).
+// Tests the claims of the row GK-M in the paper's Table 4, column by column, with the sample that represents it:
+// clouds, buildings and caves in one world, levels of detail, control, morphing, texturing, no hidden surfaces, welded
+// vertices, no holes. The sample's own `expect` statements test that it is closed and connected.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr IntBox kPatch{{-200 * 1024, -60 * 1024, -200 * 1024}, {200 * 1024, 120 * 1024, 200 * 1024}};
 
-/// Clouds are few and far apart.
+/// A box with clouds, which are few and far apart.
 constexpr IntBox kSky{{-900 * 1024, 380 * 1024, -900 * 1024}, {900 * 1024, 480 * 1024, 900 * 1024}};
 
 WorldField worldOf(uint64_t seed, const char* parameter = "round", double value = 0.6) {
@@ -59,8 +59,8 @@ Int3 moved(Int3 p, double x, double y, double z) {
   return {p.x + units(x), p.y + units(y), p.z + units(z)};
 }
 
-/// Chunks around the tower of the world's origin, from the caves to the clouds; half of them under a sanitizer, for
-/// which they are most of what these tests do.
+/// Chunks around the tower at the world's origin, from the caves to the clouds; half of them with a sanitizer, since
+/// most of the time of these tests is spent on them.
 std::pmr::vector<PlacedChunk> chunksOf(const WorldField& world, int level) {
   std::vector<ChunkRequest> requests;
   const int32_t edge = kChunkCells * world.cellAt(level) / kUnitsPerMetre;
@@ -72,7 +72,7 @@ std::pmr::vector<PlacedChunk> chunksOf(const WorldField& world, int level) {
   return meshAll(world, requests, 2);
 }
 
-/// How evenly a texture lies on a chunk's surface.
+/// The texel density on a chunk's surface.
 TexelDensity textureOf(const WorldField& world, const PlacedChunk& chunk) {
   const MeshPart& body = chunk.mesh.body;
   std::vector<TexturePoint> positions;

@@ -1,6 +1,6 @@
-// What the row Greuter of the paper's Table 4 claims, of samples/grammars/table4/greuter.sgm: an endless city whose
-// buildings are merged from random polygons, extruded and roofed; fly any distance, return, and find identical
-// buildings, from a cache that stays bounded.
+// Tests the claims of the row Greuter in the paper's Table 4, with samples/grammars/table4/greuter.sgm: an endless city
+// whose buildings are merged from random polygons, extruded and roofed. After a flight of any distance, the same
+// buildings are found again, with a cache of bounded size.
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,8 @@ std::vector<int32_t> samplesAt(const WorldField& world, const std::vector<Int3>&
   return q;
 }
 
-/// For each place the largest height at which a world is solid, to a unit; solid below, void above, at most 64 m high.
+/// For each place, the largest height at which the world is solid, exact to a unit; the world is solid below it and
+/// void above, and at most 64 m high.
 std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   for (Int3& p : places) p.y = 1;
   for (int32_t step = 1 << 15; step > 0; step /= 2) {
@@ -70,7 +71,7 @@ std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   return places;
 }
 
-/// The share of a unit by which the field grows along an axis.
+/// The slope of the field along an axis at each place, relative to 1.
 std::vector<double> slopesAlong(const WorldField& world, const std::vector<Int3>& places, int axis) {
   constexpr int32_t kStep = 24;
   std::vector<Int3> at = places;

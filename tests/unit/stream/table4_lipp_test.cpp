@@ -1,6 +1,6 @@
-// What the row Lipp of the paper's Table 4 claims, of the sample that stands for it: local edits of single parts hold
-// where they are when rules and parameters are edited, and it is told where their part is gone. That it is closed and
-// connected it says itself (expect).
+// Tests the claims of the row Lipp in the paper's Table 4, with the sample that represents it: local edits of single
+// parts stay in place when rules and parameters change, and are reported if their part no longer exists. The sample's
+// own `expect` statements test that it is closed and connected.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ struct Palace {
   double storeyAt(double index) const { return -0.5 * height() + kGroundFloor + (index + 0.5) * storey(); }
 };
 
-/// The base grammar, as somebody edits it who thinks of other parts.
+/// The base grammar with random changes of other parts than the edited ones.
 std::string editedElsewhere(std::string text, std::mt19937& random) {
   const auto chance = [&] { return random() % 2 == 0; };
   if (chance()) text = replaced(text, "rule Pier {", "rule Chimney { box(1m, 3m, 1m); }\nrule Pier {");
@@ -73,7 +73,7 @@ bool isSolid(const WorldField& world, double x, double y, double z) {
   return q < 0;
 }
 
-/// Without what stands below the rules.
+/// The grammar without the edits below its rules.
 std::string lippWithoutEdits(const std::string& text) { return text.substr(0, text.find("// The gate:")); }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the row Marson of the paper's Table 4 claims, of the sample that stands for it: labelled rooms of given areas,
-// each of which one can walk into. What is reached is asked of the field itself; of the plan: test_treemap.cpp.
+// Tests the claims of the row Marson in the paper's Table 4, with the sample that represents it: labelled rooms with
+// given areas, each of which can be entered. Walking is tested in the field itself; the floor plan in test_treemap.cpp.
 
 #include <cmath>
 #include <random>
@@ -14,8 +14,8 @@ using namespace sgm;
 
 namespace {
 
-/// Samples in a grid of an eighth of a metre over a house, floor to ceiling; a walker half a metre wide, over what
-/// stands there.
+/// Walks through a house, sampled on a grid of 1/8 m from floor to ceiling, with a walker 0.5 m wide, above low
+/// objects.
 WalkedVoid walkedHouse(const WorldField& world) {
   constexpr int32_t kStep = 128;
   constexpr Int3 kSize{170, 15, 130};

@@ -1,6 +1,6 @@
-// What the row Mueller of the paper's Table 4 claims, of the sample that stands for it: splits, repeats and parts of
-// boxes, whose rules see their scope, with solids that are cut. That it is closed and connected it says itself
-// (expect).
+// Tests the claims of the row Mueller in the paper's Table 4, with the sample that represents it: splits, repeats and
+// parts of boxes, with rules that see their scope, and solids that are cut. The sample's own `expect` statements test
+// that it is closed and connected.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr double kFloor = 3.2, kGround = 5, kTop = 1.6, kBlind = 0.8;
 struct Plan {
   double floors = 8, wide = 20, deep = 14, bay = 2.6, balconies = 0.3;
   double height() const { return kGround + kFloor * floors + kTop; }
-  /// The rule of repeats: as often as fits, to the nearest whole number.
+  /// The rule of repeats: the number that fits best, rounded to the nearest whole number.
   int bays(double width) const { return static_cast<int>(std::floor((width - 2 * kBlind) / bay + 0.5)); }
 };
 

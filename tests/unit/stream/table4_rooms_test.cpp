@@ -1,4 +1,4 @@
-// Rooms of random floors, in the field itself: who is as large as a person walks from outside into each of them.
+// Tests rooms of random floors, in the field itself: a walker of a person's size can go from outside into each of them.
 
 #include <algorithm>
 #include <random>
@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-/// A floor under a ceiling, so that doors alone lead in.
+/// A random floor below a ceiling, so that only doors lead in.
 std::string drawnFloor(std::mt19937& random, double x, double z, const std::string& doors) {
   std::uniform_real_distribution<double> unit(0, 1);
   const auto metresIn = [&](double low, double high) {
@@ -40,7 +40,7 @@ std::string drawnFloor(std::mt19937& random, double x, double z, const std::stri
 
 constexpr IntBox kHome{{-16 * 1024, -4 * 1024, -16 * 1024}, {16 * 1024, 4 * 1024, 16 * 1024}};
 
-/// An eighth of a metre a sample; a walker half a metre wide and deep, and one and a half high.
+/// Walks through the floor with 8 samples for each metre; the walker is 0.5 m wide and deep, and 1.5 m high.
 WalkedVoid walkedIn(const WorldField& world, double x, double z) {
   const auto samples = [](double metres) { return static_cast<int32_t>(metres * 8) + 16; };
   const Int3 size{samples(x), 30, samples(z)};

@@ -1,5 +1,5 @@
-// What the rows of the paper's Table 4 claim, of the samples that stand for them (samples/grammars/table4). That they
-// are closed and connected they say themselves (expect).
+// Tests the claims of rows of the paper's Table 4, with the samples that represent them (samples/grammars/table4). The
+// samples' own `expect` statements test that they are closed and connected.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace sgm;
 
 namespace {
 
-/// Where each use of a rule stands.
+/// The places of all uses of a rule.
 std::vector<Int3> placesOf(const WorldField& world, std::string_view rule, const IntBox& box) {
   const auto found = world.instances(ruleNamed(*world.settings().program, rule), box, 100'000);
   INFO((found ? std::string() : found.error().message));
@@ -25,7 +25,7 @@ std::vector<Int3> placesOf(const WorldField& world, std::string_view rule, const
   return places;
 }
 
-/// The world without what was placed in it.
+/// The solid of the world without the objects in it.
 class Rock {
  public:
   Rock(const WorldField& world, uint32_t layer, const IntBox& box) : program_(*world.compileBelow(layer, box)) {}
@@ -136,8 +136,8 @@ TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[tab
 
 namespace {
 
-/// A deck of clouds, cut by its middle plane along lines: the share that is cloud, and how often they enter or leave
-/// it.
+/// A layer of clouds, cut by lines in its middle plane: the share of the lines in clouds, and how often lines enter or
+/// leave a cloud.
 struct Cut {
   double share = 0, crossings = 0;
 };

@@ -1,5 +1,5 @@
-// What the row Voxel of the paper's Table 4 claims, of samples/grammars/table4/voxel.sgm: an automaton in cells with an
-// exact halo, its controls, voxels that are edited, meshes without holes.
+// Tests the claims of the row Voxel in the paper's Table 4, with samples/grammars/table4/voxel.sgm: an automaton in
+// grammar cells with an exact halo, its controls, edited voxels, meshes without holes.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr uint32_t kMaze = 0, kNet = 1;  // layers
+constexpr uint32_t kMaze = 0, kNet = 1;  // numbers of layers
 
 struct Setting {
   const char* name;
@@ -30,7 +30,7 @@ WorldField voxelCave(const std::string& text, uint64_t seed, std::initializer_li
   return {std::move(s), std::pmr::get_default_resource()};
 }
 
-/// Whether each place of a cube of `edge` places a metre apart, x fastest, is rock.
+/// For each place in a cube of `edge` places, one metre apart, x fastest: whether it is rock.
 class Voxels {
  public:
   Voxels(const WorldField& world, uint32_t layer, Int3 low, int edge)
@@ -50,7 +50,7 @@ class Voxels {
     return static_cast<double>(std::count(rock_.begin(), rock_.end(), 1)) / static_cast<double>(rock_.size());
   }
 
-  /// Shares of the voxels: those that differ from all six beside them, and of pairs side by side those that differ.
+  /// Two shares: of voxels that differ from all six neighbours, and of neighbouring pairs that differ.
   std::array<double, 2> roughness() const {
     size_t alone = 0, apart = 0, all = 0;
     for (int z = 1; z + 1 < edge_; ++z)
@@ -65,7 +65,7 @@ class Voxels {
             static_cast<double>(apart) / static_cast<double>(6 * all)};
   }
 
-  /// The air that one comes to from a place, stepping from voxel to voxel.
+  /// The air that can be reached from a place, in steps from voxel to voxel.
   std::vector<uint8_t> reached(Int3 from) const {
     std::vector<uint8_t> out(rock_.size());
     std::vector<Int3> open{from};

@@ -1,4 +1,4 @@
-// What is told of parts that a mesh may miss, and what is not.
+// Tests the notes about parts that a mesh may miss.
 
 #include "chunk/thin_parts.h"
 #include "world_support.h"
@@ -7,9 +7,9 @@ using namespace sgm;
 
 namespace {
 
-constexpr int32_t kCell = 123;  // 12 cm
+constexpr int32_t kCell = 123;  // 12 cm, in units
 
-/// "Pane 41 312; cut Bay 20 1": rules, thickness in units, uses.
+/// The thin parts as text, "Pane 41 312; cut Bay 20 1": rule, thickness in units, number of uses.
 std::string thinIn(const std::string& rules, int32_t cell = kCell, int level = 0,
                    const std::string& domain = "domain finite box(60m); start Main;") {
   const WorldField world(

@@ -1,4 +1,4 @@
-// The octree of a single picture: closed under its rules, and as fine as the camera asks.
+// Tests the octree for a single picture: it satisfies the rules of octrees, and is as fine as the camera requires.
 
 #include "stream/plan/view_target.h"
 
@@ -31,7 +31,7 @@ PictureView randomView(std::mt19937& random, const IntBox& region) {
   return view;
 }
 
-/// The angle, radians, at which the camera sees the middle of a chunk.
+/// The angle in radians between the camera's direction and the middle of a chunk.
 double angleTo(const PictureView& view, const ChunkKey& chunk) {
   double along = 0, away = 0, length = 0;
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Many viewers: what is found without a look at all of them is what a look at all of them finds.
+// Tests the index of many viewers: it gives the same results as examining all viewers.
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ std::vector<Viewer> randomViewers(std::mt19937& random, size_t count, double spr
   return viewers;
 }
 
-/// What the viewers want split, by a look at all of them for every node.
+/// Splits the nodes that the viewers require, by examining all viewers for every node.
 void splitWanted(Octree& tree, const ChunkKey& node, std::span<const LodViewer> viewers, const LodSettings& lod,
                  double near, const ChunkSet* finest) {
   if (node.level == 1 && finest != nullptr && !finest->contains(node)) return;

@@ -1,4 +1,4 @@
-// Voids and ways, against a flood of all samples at one time.
+// Tests voids and paths against a flood of all samples at once.
 
 #include "query/void_path.h"
 
@@ -16,18 +16,18 @@ using namespace sgm;
 namespace {
 
 constexpr int32_t kCell = 512;
-constexpr int32_t kBeyond = 6;  // samples around a region that are there too
+constexpr int32_t kBeyond = 6;  // number of samples around a region that are also sampled
 
-/// A cave: its samples, and the region of whole chunks that is asked about.
+/// A cave: its samples, and the queried region of whole chunks.
 struct Cave {
-  Int3 chunks, first;  ///< how many on each axis, and the lowest one
+  Int3 chunks, first;  ///< number of chunks on each axis, and the lowest chunk
   SampledBox lattice;
 
   explicit Cave(Int3 chunks_in, Int3 first_in = {}) : chunks(chunks_in), first(first_in), lattice(low(), size()) {}
   Cave(const WorldField& world, Int3 chunks_in, Int3 first_in)
       : chunks(chunks_in), first(first_in), lattice(world, low(), size()) {}
 
-  /// In samples, closed.
+  /// The region in samples, including its last ones.
   IntBox region() const {
     return {{first.x * 32, first.y * 32, first.z * 32},
             {(first.x + chunks.x) * 32, (first.y + chunks.y) * 32, (first.z + chunks.z) * 32}};
@@ -64,13 +64,14 @@ void digBall(Cave& cave, Int3 at, double radius) {
         if (x * x + y * y + z * z <= radius * radius) cave.lattice.set({at.x + x, at.y + y, at.z + z}, false);
 }
 
-/// Void samples strewn about, as dense as hang together or do not quite: voids that cross each border very often.
+/// Scatters void samples at a density at which they are just connected or not quite, so that voids cross each border
+/// very often.
 void strew(Cave& cave, Random& random) {
   const double share = random.real(0.08, 0.3);
   for (size_t i = 0; i < cave.lattice.samples(); ++i) cave.lattice.set(cave.lattice.sampleAt(i), !random.chance(share));
 }
 
-/// Tubes of many widths between random places.
+/// Digs tubes of many widths between random places.
 void digTubes(Cave& cave, Random& random) {
   const int tubes = 2 + random.below(8);
   for (int i = 0; i < tubes; ++i) {
@@ -83,7 +84,7 @@ void digTubes(Cave& cave, Random& random) {
   }
 }
 
-/// Threads one sample wide that run by the diagonals of faces, which join, and now and then of a cell, which does not.
+/// Digs threads one sample wide along diagonals of faces, which are connected, and sometimes of cells, which are not.
 void spinThreads(Cave& cave, Random& random) {
   const int threads = 1 + random.below(4);
   for (int i = 0; i < threads; ++i) {
@@ -98,8 +99,8 @@ void spinThreads(Cave& cave, Random& random) {
   }
 }
 
-/// Walls across the region with a gap one sample wide each, at alternate ends: the way winds through all chunks. Some
-/// gaps are not there.
+/// Builds walls across the region, each with a gap of one sample at alternating ends, so that the path winds through
+/// all chunks. Some gaps are missing.
 void buildMaze(Cave& cave, Random& random) {
   for (size_t i = 0; i < cave.lattice.samples(); ++i) {
     const Int3 p = cave.lattice.sampleAt(i);
@@ -141,7 +142,7 @@ Cave randomCave(uint32_t kind, Random& random) {
   return cave;
 }
 
-/// Any sample that is open; now and then, and where none is, any sample.
+/// A random void sample; sometimes, or if there is none, any sample.
 Int3 someSample(Random& random, const Cave& cave, const FloodedVoids& flooded) {
   const Int3 any = random.in(cave.region());
   if (random.chance(0.03)) return any;
@@ -178,7 +179,7 @@ VoidAnswer answered(const SignField& field, const VoidQuestion& question, unsign
   return std::move(*answer);
 }
 
-/// Every place free, every step joined, from end to end; false at the first that is not.
+/// Whether a path is valid: each place is free, successive places are connected, and both ends are right.
 bool isWay(const VoidWay& way, const FloodedVoids& flooded, Int3 from, Int3 to, int32_t cell) {
   if (way.places.empty() || way.places.front() != Int3{from.x * cell, from.y * cell, from.z * cell}) return false;
   if (way.places.back() != Int3{to.x * cell, to.y * cell, to.z * cell}) return false;
@@ -195,13 +196,13 @@ bool isWay(const VoidWay& way, const FloodedVoids& flooded, Int3 from, Int3 to, 
   return std::fabs(length - way.length) <= 1e-9 * length;
 }
 
-/// What the tests have seen, so that none of them can be of nothing.
+/// Counts of the cases that occurred, to ensure that each test has tested something.
 struct Seen {
   size_t found = 0, apart = 0, narrow = 0, rock = 0;
   double walked = 0, shortest = 0;
 };
 
-/// One question to a cave, against the flood.
+/// Compares one query of a cave with the flood.
 void compare(const SignField& field, const Cave& cave, Random& random, double radius, Seen& seen) {
   const FloodedVoids flooded(cave.lattice, cave.region(), radius);
   const Int3 from = someSample(random, cave, flooded), to = someSample(random, cave, flooded);
@@ -235,7 +236,7 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   seen.shortest += shortest;
 }
 
-/// The most bytes that were taken at one time.
+/// A memory resource that records its peak use.
 class MostBytes : public std::pmr::memory_resource {
  public:
   size_t most() const { return most_; }
@@ -557,7 +558,7 @@ TEST_CASE("the error of an end outside of the region says which, where it is, an
   CHECK(findVoids(field, *jobs, question).error().message == "the end `from` of the path is not finite");
 }
 
-/// What a search tells of its progress: the counts of each look or walk.
+/// Records the progress of a search: the counts of each pass.
 class Told {
  public:
   Progress counter() {
@@ -569,7 +570,7 @@ class Told {
       return true;
     };
   }
-  /// Of the runs, each of which has come to its end.
+  /// The totals of the passes, each of which must have been completed.
   std::vector<uint64_t> totals() const {
     std::vector<uint64_t> all;
     for (const auto& [done, total] : runs_) {

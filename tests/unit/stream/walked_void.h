@@ -1,5 +1,5 @@
 #pragma once
-// Where someone can walk, asked of the field itself: a flood of the void by a box, sample by sample.
+// Determines where a walker can go by the field itself: floods the void with a box, sample by sample.
 
 #include <vector>
 
@@ -8,10 +8,11 @@
 
 namespace sgm {
 
-/// Samples `step` units apart in a box; a walker of some of them a side, who fits where none is solid.
+/// Samples `step` units apart in a box. The walker is a box of samples, and fits where none of them is solid.
 class WalkedVoid {
  public:
-  /// Walks from the lowest corner, which lies outside of what is asked about. size, walker: samples along each axis.
+  /// Floods from the lowest corner, which must lie outside of the examined places. size, walker: numbers of samples on
+  /// each axis.
   WalkedVoid(const WorldField& world, Int3 low, Int3 size, int32_t step, Int3 walker)
       : low_(low), size_(size), step_(step), walker_(walker) {
     closed_ = solidIn(world);
@@ -21,13 +22,13 @@ class WalkedVoid {
     flood();
   }
 
-  /// Whether a walker whose middle is there, to half a sample, has come from outside.
+  /// Whether a walker that comes from outside can reach a place with its middle, to half a sample.
   bool reaches(Int3 p) const { return walked_[firstOf(p)]; }
-  /// Whether there is room for one, who may have come or not.
+  /// Whether a walker fits at a place, even if it cannot get there.
   bool fits(Int3 p) const { return !closed_[firstOf(p)]; }
 
  private:
-  /// The lowest sample of a walker whose middle is there.
+  /// Index of the lowest sample of a walker whose middle is at p.
   size_t firstOf(Int3 p) const {
     const auto first = [&](int32_t at, int32_t low, int32_t wide) {
       return (2 * (at - low) + step_ - (wide - 1) * step_) / (2 * step_);
@@ -56,7 +57,7 @@ class WalkedVoid {
     return solid;
   }
 
-  /// Closed where one of `wide` samples from there on is; as is what passes the box.
+  /// For each sample, whether one of `wide` samples from there on is closed, or lies outside the box.
   static std::vector<bool> widened(const std::vector<bool>& closed, int32_t stride, int32_t count, int32_t wide) {
     std::vector<bool> out(closed.size());
     for (int32_t i = 0; i < static_cast<int32_t>(closed.size()); ++i) {
@@ -86,7 +87,7 @@ class WalkedVoid {
   Int3 low_, size_;
   int32_t step_;
   Int3 walker_;
-  std::vector<bool> closed_, walked_;  ///< by the walker's lowest sample
+  std::vector<bool> closed_, walked_;  ///< indexed by the walker's lowest sample
 };
 
 }  // namespace sgm

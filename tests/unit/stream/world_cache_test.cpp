@@ -1,4 +1,4 @@
-// A world with a folder for what it has meshed.
+// Tests a world with a cache folder.
 
 #include "disk_cache_support.h"
 #include "streaming_support.h"
@@ -7,7 +7,7 @@ using namespace sgm;
 
 namespace {
 
-/// How many parts of chunks the engine shows, bodies and seams, that have a surface.
+/// Number of parts of chunks, bodies and seams, that the engine draws and that have a surface.
 size_t drawnParts(const sgm::Engine& engine) {
   size_t count = 0;
   for (const auto& [key, shown] : engine.shown) {

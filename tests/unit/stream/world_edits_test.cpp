@@ -1,5 +1,5 @@
-// Edits of a streamed world: frames show one state of them, closed; digs come soon; worlds that exchange them are
-// equal.
+// Tests edits of a streamed world: each frame shows one state of them and is closed, digs are drawn soon, and worlds
+// that exchange edits become equal.
 
 #include <algorithm>
 #include <filesystem>
@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-/// Edits a world and remembers every state of its edits.
+/// Edits a world, and records every state of its edits.
 class Editor {
  public:
   explicit Editor(World& world) : world_(world), states_{nullptr} {}
@@ -31,7 +31,7 @@ class Editor {
     remember();
     return *undone;
   }
-  /// The brushes of a state, by its number.
+  /// The brushes of the state with this number.
   const EditSnapshot* at(uint64_t state) const { return states_.at(state).get(); }
 
  private:

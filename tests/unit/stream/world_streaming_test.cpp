@@ -1,4 +1,5 @@
-// A streamed world: every frame is the closed frame of its octree, within its caps, whatever the viewers do.
+// Tests a streamed world: every frame is the closed frame of its octree and within its limits, however the viewers
+// move.
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +13,7 @@ using namespace sgm;
 
 namespace {
 
-/// How far along the x axis the drawn surface is, in units.
+/// Distance in units from a place along the x axis to the nearest drawn surface. side: 1 or -1, the direction.
 double wallAlong(const Engine& engine, const std::array<double, 3>& from, double side) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& [key, shown] : engine.shown) {
@@ -284,7 +285,7 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
 }
 
 TEST_CASE("jobs that run at once, where they are submitted, mesh a chunk an update and no more") {
-  /// A system without threads, which cannot keep a job for later either.
+  /// A job system without threads, which cannot queue jobs either.
   class NoJobs final : public JobSystem {
    public:
     unsigned concurrency() const override { return 1; }
@@ -315,7 +316,7 @@ TEST_CASE("jobs that run at once, where they are submitted, mesh a chunk an upda
 }
 
 TEST_CASE("while there is always something to mesh no jobs pile up that have nothing to do") {
-  /// One worker, who does what is most urgent, and of that what has waited longest.
+  /// A job system with one worker, which runs the most urgent job, and among these the one that has waited longest.
   class OneWorker final : public JobSystem {
    public:
     ~OneWorker() override {

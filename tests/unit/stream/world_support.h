@@ -23,7 +23,8 @@ inline std::string textOfFile(const std::string& path) {
 
 inline std::string sample(const std::string& name) { return textOfFile(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name); }
 
-/// The copy that does not change with the sample: for places and figures that a test knows.
+/// The text of a grammar in tests/bench/grammars, a copy that does not change with the sample: for tests that depend on
+/// certain places and figures.
 inline std::string yardstick(const std::string& name) {
   return textOfFile(std::string(SGM_BENCH_GRAMMARS) + "/" + name);
 }

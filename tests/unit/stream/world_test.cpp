@@ -1,4 +1,4 @@
-// The world does not depend on how it is visited: order, threads, reach, place, cache.
+// Tests that the world does not depend on how it is visited: order, threads, reach, place, cache.
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +33,7 @@ uint64_t hashOf(const std::pmr::vector<PlacedChunk>& chunks) {
   return hashParts(parts).value();
 }
 
-// The first hall of the cave's cell 0 0 0 lies somewhere around the cell's middle.
+// The first hall of the cave's grammar cell 0 0 0 lies somewhere around the cell's middle.
 const IntBox kHall{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A world that is streamed from a Vulkan device: closed in every frame, and the CPU's.
+// Tests a world that is streamed from a Vulkan device: closed in every frame, and equal to the CPU's.
 
 #include <cstdlib>
 #include <iostream>

@@ -1,4 +1,4 @@
-// What is sampled of a cave of which one knows the measures.
+// Tests the sampled columns of a cave whose measures are known.
 
 #include "tools/survey/sheet.h"
 #include "world_support.h"
@@ -8,7 +8,7 @@ using namespace sgm::survey;
 
 namespace {
 
-// Two rooms one above the other, the upper one with a pool along a side.
+// Two rooms one above the other, the upper one with a pool along one side.
 constexpr const char* kRooms = R"(sgm 1;
 units m;
 domain infinite axes xz solid limestone;

@@ -16,7 +16,7 @@ Grid cone(int size, double radius) {
   return grid;
 }
 
-/// Twice the area that a ring encloses; positive where it turns clockwise on paper.
+/// Twice the area that a ring encloses; positive if the ring is clockwise on paper.
 double turned(const Line& ring) {
   double sum = 0;
   for (size_t i = 1; i < ring.size(); ++i) sum += ring[i - 1].x * ring[i].y - ring[i].x * ring[i - 1].y;

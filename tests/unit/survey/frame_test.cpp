@@ -1,4 +1,4 @@
-// Uses of a rule, and the camera that shows one.
+// Tests finding uses of a rule, and the camera that shows one.
 
 #include "tools/framing/frame_camera.h"
 

@@ -1,4 +1,4 @@
-// Pairs of materials and shares of planes: the most of what is there, whatever the order of corners.
+// Tests pairs of materials and shares of planes: the most frequent ones are chosen, in any order of corners.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace sgm;
 
 namespace {
 
-/// Of few materials, so that counts are often alike.
+/// A random mix of few materials, so that counts are often equal.
 MaterialMix someMix(std::mt19937& random, uint32_t materials) {
   MaterialMix mix{};
   const auto kinds = static_cast<uint32_t>(1 + random() % materials);

@@ -1,4 +1,4 @@
-// Texture coordinates of shapes: as long as the surface they lie on, never mirrored, closed around what is closed.
+// Tests texture coordinates of shapes: they preserve lengths, are never mirrored, and close around closed shapes.
 
 #include <cmath>
 #include <random>
@@ -31,7 +31,7 @@ TexturePoint randomDirection(std::mt19937& random) {
   }
 }
 
-/// A frame turned at random.
+/// A randomly rotated frame.
 Frame randomFrame(std::mt19937& random) {
   Frame frame;
   frame.origin = {static_cast<int32_t>(random() % 2000000) - 1000000,
@@ -63,15 +63,15 @@ TexturePoint turnedToWorld(const Frame& frame, const TexturePoint& q) {
   return toWorld(at_origin, q);
 }
 
-/// A point of a shape's surface and its normal, in the world.
+/// A point on a shape's surface, and the normal there, in world coordinates.
 struct SurfacePoint {
   TexturePoint place, normal;
 };
 
 struct Sample {
   GrammarChunk chunk;
-  std::function<SurfacePoint(std::mt19937&)> point;  ///< away from edges
-  double stretch = 1.03;                             ///< how far lengths may be from the surface's
+  std::function<SurfacePoint(std::mt19937&)> point;  ///< returns a random point away from edges
+  double stretch = 1.03;  ///< maximum ratio between lengths in the texture and on the surface
 };
 
 Shape leaf(ShapeKind kind, const Frame& frame, std::initializer_list<double> sizes) {

@@ -1,4 +1,5 @@
-// A mesh and its wedges: the same triangles, charts split only where they must be, every triangle in one piece.
+// Tests a mesh and its wedges: the triangles are unchanged, charts are split only where necessary, and every triangle
+// is in one chart.
 
 #include <cmath>
 #include <map>
@@ -15,7 +16,7 @@ using namespace sgm;
 
 namespace {
 
-/// A tube along y with its middle at the origin, of rings of vertices.
+/// A tube along y with its middle at the origin, made of rings of vertices.
 struct Tube {
   std::vector<TexturePoint> positions, normals;
   std::vector<MaterialMix> materials;

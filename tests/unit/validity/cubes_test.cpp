@@ -1,4 +1,4 @@
-// A cube at any angle stays crisp: its sharp surface is the cube's, to a twentieth of a cell.
+// Tests that a cube at any angle stays crisp: its sharp surface differs from the cube's by at most 1/20 of a cell.
 
 #include <cstdio>
 
@@ -11,12 +11,12 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr double kFarthestOff = 0.05;  // cells
-constexpr double kLookedFor = 0.01;    // cells: how closely the farthest place is looked for
+constexpr double kFarthestOff = 0.05;  // cells, maximum distance between the surfaces
+constexpr double kLookedFor = 0.01;    // cells, accuracy with which the largest distance is computed
 
 using Axes = std::array<measure::Point, 3>;
 
-/// Rotated about y, then x, then z, the innermost last, as the grammar has it; degrees.
+/// The axes rotated about y, then x, then z, the innermost rotation last, as in the grammar language; degrees.
 Axes turned(const std::array<double, 3>& degrees) {
   Axes axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   const auto rotate = [](int about, double angle, measure::Point p) {

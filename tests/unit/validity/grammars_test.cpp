@@ -1,7 +1,7 @@
-// Every sample grammar gives a valid surface, at three cells, sharp and not.
+// Tests that every sample grammar gives a valid surface, with three cell sizes, sharp and not.
 //
-// While working on the mesher: SGM_VALIDITY_ONLY=muller test_sharp_validity "[table]" has the rows of the grammars with
-// that in their name alone.
+// While working on the mesher, SGM_VALIDITY_ONLY=muller test_sharp_validity "[table]" tests only the rows of grammars
+// whose names contain "muller".
 
 #include <chrono>
 #include <cstdio>
@@ -17,7 +17,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// Metres, lo <= p < hi; at most 512 chunks at every cell.
+/// A box in metres, lo <= p < hi, with at most 512 chunks at every cell size.
 struct Row {
   const char* grammar;
   std::array<double, 3> low, high;
@@ -89,7 +89,7 @@ bool isWanted(const std::string& grammar) {
   return only == nullptr || grammar.find(only) != std::string::npos;
 }
 
-/// One seed a grammar and cell; twenty in the long run.
+/// Number of seeds for each grammar and cell size; twenty in the long run.
 uint64_t seedsWanted() { return std::getenv("SGM_LONG") != nullptr ? 20 : 1; }
 
 void checkTable(bool sharp) {
@@ -150,6 +150,4 @@ TEST_CASE("every sample grammar is valid as marching cubes make it", "[validity]
   checkTable(false);
 }
 
-TEST_CASE("every sample grammar is valid with sharp features", "[validity][table][sharp][costly]") {
-  checkTable(true);
-}
+TEST_CASE("every sample grammar is valid with sharp features", "[validity][table][sharp][costly]") { checkTable(true); }

@@ -1,5 +1,5 @@
-// CGAL's word on random sharp solids: closed, manifold, facing outward, no triangle without area, none cuts another.
-// tests/judges runs these; SGM_JUDGE_CGAL names the judge.
+// Tests random sharp solids with CGAL: closed, manifold, oriented outward, without triangles of zero area, and without
+// intersections. tests/judges runs these tests; SGM_JUDGE_CGAL names the judge.
 
 #include <cstdio>
 #include <cstdlib>
@@ -12,7 +12,7 @@ using namespace sgm::test;
 
 namespace {
 
-/// A thousand surfaces in the long run.
+/// Number of solids; with both cell sizes, a thousand surfaces in the long run.
 unsigned solidsJudged() { return std::getenv("SGM_LONG") != nullptr ? 500 : 20; }
 
 void judgeSolids(bool sharp) {

@@ -1,5 +1,5 @@
 #pragma once
-// A region's surface as `sgm measure --strict` judges it, and which kinds of faults it has.
+// The surface of a region as `sgm measure --strict` judges it, and the numbers of its defects.
 
 #include <algorithm>
 #include <fstream>
@@ -40,22 +40,23 @@ inline WorldFieldSettings worldOf(std::shared_ptr<const Program> program, double
   return settings;
 }
 
-/// Two cores, and what meshes on them.
+/// A thread pool of two workers, and a backend.
 struct Workshop {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
 };
 
-/// What is wrong with a surface, counted by place as well as by vertex.
+/// Numbers of defects of a surface. Vertices are compared by position as well as by index.
 struct Faults {
   size_t triangles = 0;
-  size_t degenerate = 0;    ///< two corners in one place
-  size_t without_area = 0;  ///< three places on a line
-  size_t folded = 0;        ///< pairs that share an edge and lie upon each other
-  size_t cuts = 0;          ///< pairs that meet elsewhere
-  size_t nonmanifold = 0;   ///< edges of three triangles or more
-  size_t others = 0;        ///< pinched vertices, duplicates, holes, turned edges, shells that face wrongly
-  bool valid = false;       ///< as `sgm measure --strict` has it
+  size_t degenerate = 0;    ///< triangles with two corners at the same position
+  size_t without_area = 0;  ///< triangles with three corners on a line
+  size_t folded = 0;        ///< pairs of triangles that share an edge and lie on each other
+  size_t cuts = 0;          ///< pairs of triangles that intersect elsewhere
+  size_t nonmanifold = 0;   ///< edges of three or more triangles
+  /// Non-manifold vertices, duplicates, holes, misoriented edges, shells with the wrong orientation.
+  size_t others = 0;
+  bool valid = false;  ///< the verdict of `sgm measure --strict`
 
   friend std::ostream& operator<<(std::ostream& out, const Faults& f) {
     return out << f.triangles << " triangles, " << f.degenerate << " degenerate, " << f.without_area
@@ -64,7 +65,7 @@ struct Faults {
   }
 };
 
-/// Calls visit(a, b) with each two triangles whose boxes overlap.
+/// Calls visit(a, b) for each pair of triangles whose boxes overlap.
 template <class Visit>
 void forPairs(const measure::Triangles& mesh, JobSystem& jobs, const Visit& visit) {
   const measure::Bvh tree(mesh, jobs);
@@ -79,7 +80,7 @@ inline size_t commonCorners(const measure::Triangle& a, const measure::Triangle&
       std::count_if(a.begin(), a.end(), [&](uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); }));
 }
 
-/// cut: the box that the mesh was cut from, or null. Vertices in one place are one.
+/// Counts defects. cut: the box from which the mesh was cut, or null. Vertices at the same position count as one.
 inline Faults faultsOf(const asset::TriangleMesh& mesh, const measure::Cut* cut, JobSystem& jobs) {
   measure::MeshSettings settings;
   if (cut != nullptr) settings.cut = *cut;
@@ -113,7 +114,7 @@ struct MeshedRegion {
   uint64_t chunks = 0;
 };
 
-/// The chunks of one level that meet lo <= p < hi.
+/// The mesh of the chunks of one level that meet lo <= p < hi.
 inline MeshedRegion meshedRegion(const WorldField& world, const Workshop& shop, const IntBox& box, bool sharp) {
   const Result<RegionMesh> region = meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
   INFO((region ? "" : region.error().message));

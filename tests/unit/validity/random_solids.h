@@ -1,6 +1,6 @@
 #pragma once
-// Boxes, prisms and balls at any angle, united and cut: solids with all the edges and corners that sharp features meet,
-// concave ones and thin walls among them.
+// Random unions and cuts of boxes, prisms and balls in any orientation: solids with all kinds of edges and corners that
+// sharp features must handle, among them concave ones and thin walls.
 
 #include <random>
 
@@ -8,7 +8,7 @@
 
 namespace sgm::test {
 
-/// The two cells that solids are meshed with, metres: the second is no power of two units.
+/// The two cell sizes with which solids are meshed, metres; the second is not a power of two of units.
 inline constexpr double kSolidCells[] = {0.5, 0.3};
 
 inline double between(std::mt19937& random, double low, double high) {
@@ -21,7 +21,8 @@ inline std::string metresText(double value) {
   return text;
 }
 
-/// At any angle; of four, one is a multiple of 45 degrees, where faces and edges fall on the grid and on each other.
+/// A random rotation. One in four is a multiple of 45 degrees, with which faces and edges coincide with the grid and
+/// each other.
 inline std::string turn(std::mt19937& random) {
   const bool even = random() % 4 == 0;
   std::string text;
@@ -35,7 +36,7 @@ inline std::string turn(std::mt19937& random) {
 }
 
 inline std::string place(std::mt19937& random, double reach) {
-  // Of four, one on a lattice that cells share.
+  // One place in four lies on a lattice that is aligned with grid cells.
   const bool even = random() % 4 == 0;
   std::string text = "at(";
   for (int axis = 0; axis < 3; ++axis) {
@@ -45,7 +46,7 @@ inline std::string place(std::mt19937& random, double reach) {
   return text + ") ";
 }
 
-/// thin: of six sides one is thinner than a cell.
+/// A random length of a side; one in six is thinner than a cell.
 inline std::string side(std::mt19937& random) {
   return metresText(random() % 6 == 0 ? between(random, 0.1, 0.5) : between(random, 1, 6));
 }
@@ -55,7 +56,7 @@ inline std::string shape(std::mt19937& random) {
     case 0:
       return "box(" + side(random) + ", " + side(random) + ", " + side(random) + ");";
     case 1: {
-      // Corners in order around the middle, so that no side crosses another: also such with a dent.
+      // The corners are in order around the middle, so that no sides cross, but the prism may be concave.
       const int corners = 3 + static_cast<int>(random() % 4);
       std::string text = "prism(" + side(random);
       for (int i = 0; i < corners; ++i) {
@@ -70,7 +71,7 @@ inline std::string shape(std::mt19937& random) {
   }
 }
 
-/// Two to five shapes; of those behind the first, two of five are cut away.
+/// Two to five shapes; each shape after the first is subtracted with a probability of two fifths.
 inline std::string randomSolid(std::mt19937& random) {
   std::string text = "sgm 1;\nunits m;\ndomain finite box(32m, 32m, 32m) empty;\nstart Solid;\nrule Solid {\n  " +
                      turn(random) + "box(" + metresText(between(random, 2, 7)) + ", " +

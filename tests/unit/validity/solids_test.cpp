@@ -1,5 +1,5 @@
-// Random solids: valid as a region of one level; as an octree of chunks with seams closed, manifold, without triangles
-// that have two corners in one place or pierce another.
+// Tests random solids: as a region of one level they are valid; as an octree of chunks with seams they are closed,
+// manifold, and without triangles that have two corners at the same place or pierce another.
 
 #include <cstdio>
 #include <map>
@@ -18,10 +18,10 @@ namespace {
 constexpr IntBox kAll{{-12 * kUnitsPerMetre, -12 * kUnitsPerMetre, -12 * kUnitsPerMetre},
                       {12 * kUnitsPerMetre, 12 * kUnitsPerMetre, 12 * kUnitsPerMetre}};
 
-/// A thousand in the long run.
+/// Number of solids: a thousand in the long run.
 unsigned solidsWanted() { return rounds(100); }
 
-/// The regions of random solids, at both cells.
+/// Checks the regions of random solids with both cell sizes.
 void checkSolids(bool sharp) {
   const Workshop shop;
   size_t valid = 0, seen = 0, triangles = 0;
@@ -56,7 +56,7 @@ void checkSolids(bool sharp) {
   CHECK(triangles > 1000 * seen);
 }
 
-/// All of the solid's surroundings, refined at random places.
+/// An octree of the solid's surroundings, refined at random places.
 Octree randomTree(std::mt19937& random, int32_t finest) {
   constexpr int kTop = 2;
   Octree tree(kTop, finest);
@@ -79,8 +79,8 @@ Octree randomTree(std::mt19937& random, int32_t finest) {
   return tree;
 }
 
-/// Whether the triangles pass through each other: an edge of one has its ends on both sides of the other, and goes
-/// through its inside. Touching, and lying upon each other, are no passing through.
+/// Whether the triangles pierce each other: the ends of an edge of one lie on both sides of the other, and the edge
+/// passes through the other's inside. Triangles that touch or lie on each other do not pierce.
 bool pierce(std::span<const measure::Point> points, const measure::Triangle& a, const measure::Triangle& b) {
   using measure::orientation;
   const auto goesThrough = [&](const measure::Triangle& edges, const measure::Triangle& wall) {
@@ -98,9 +98,9 @@ bool pierce(std::span<const measure::Point> points, const measure::Triangle& a, 
 
 struct SeamFaults {
   size_t triangles = 0, in_seams = 0;
-  size_t degenerate = 0;  ///< two corners in one place, but for one of each level in a seam
-  size_t cuts = 0;        ///< pairs in the bodies of one level that meet wrongly
-  size_t pierced = 0;     ///< pairs anywhere that pass through each other
+  size_t degenerate = 0;  ///< triangles with two corners at the same place, except one corner of each level in a seam
+  size_t cuts = 0;        ///< pairs in the bodies of one level that intersect
+  size_t pierced = 0;     ///< pairs anywhere that pierce each other
 
   bool any() const { return degenerate + cuts + pierced > 0; }
 };

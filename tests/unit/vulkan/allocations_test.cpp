@@ -1,4 +1,4 @@
-// What recording and submitting takes of the host's memory.
+// Tests how much host memory recording and submitting allocate.
 
 #include "counted_heap.h"
 #include "support.h"

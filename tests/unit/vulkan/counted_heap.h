@@ -1,9 +1,9 @@
 #pragma once
-// The program's operator new counts.
+// A replacement of the program's operator new that counts its calls.
 
 namespace sgm::vulkan {
 
-/// Calls of operator new on this thread so far.
+/// Number of calls of operator new on this thread so far.
 int allocationsOfThread();
 
 }  // namespace sgm::vulkan

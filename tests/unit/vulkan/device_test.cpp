@@ -1,4 +1,4 @@
-// Devices of our own and an engine's.
+// Tests devices of our own, and an engine's device.
 
 #include "backend/vulkan/device.h"
 
@@ -10,7 +10,7 @@ using namespace sgm::vulkan;
 
 namespace {
 
-/// An environment variable, for as long as this lives.
+/// Sets an environment variable during its lifetime.
 struct Environment {
   const char* name;
   Environment(const char* variable, const char* value) : name(variable) { setenv(name, value, 1); }

@@ -1,4 +1,4 @@
-// Which devices are refused, and why: mostly of devices that are not here.
+// Tests which devices are rejected, and the reasons: mostly with simulated properties of devices.
 
 #include "backend/vulkan/devices.h"
 

@@ -1,12 +1,12 @@
 #pragma once
-// An engine that lends its device.
+// An engine that provides its Vulkan device to the library.
 
 #include "backend/vulkan/device.h"
 #include "catch.h"
 
 namespace sgm::vulkan {
 
-/// Made without our help; the validation layer has to be silent until its end.
+/// Its device is made without the library. The validation layer must report nothing until its end.
 struct Engine {
   std::unique_ptr<Instance> instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -15,7 +15,7 @@ struct Engine {
   DeviceTable calls;
   int locks = 0, unlocks = 0, held = 0;
 
-  /// external_memory: made with VK_KHR_external_memory_fd.
+  /// external_memory: the device has the extension VK_KHR_external_memory_fd.
   explicit Engine(Validation validation = Validation::synchronization, bool external_memory = false) {
     auto made = Instance::create({validation});
     REQUIRE(made);

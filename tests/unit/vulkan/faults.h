@@ -1,7 +1,8 @@
 #pragma once
-// Vulkan calls that fail when told: the tables' entries are replaced by ones that count and may refuse.
+// Makes Vulkan calls fail on request: replaces the entries of the function tables by functions that count calls and may
+// return an error.
 //
-// The replaced functions know nothing but their arguments, so what they ask stands in statics: one Faults at a time.
+// Vulkan functions have no user data, so the state is static: only one Faults may exist at a time.
 
 #include <map>
 #include <mutex>
@@ -15,7 +16,7 @@ class Faults {
  public:
   Faults() { state() = State(); }
 
-  /// The nth call of a function from now on, counted from 1, does nothing but give the result.
+  /// The nth call of a function from now on, counted from 1, does nothing but return `result`.
   void arm(const std::string& function, unsigned nth, VkResult result) {
     const std::scoped_lock lock(mutex());
     state().function = function;
@@ -25,7 +26,7 @@ class Faults {
   }
   void disarm() { arm({}, 0, VK_SUCCESS); }
   bool struck() const { return state().function.empty() || state().counts[state().function] >= state().nth; }
-  /// Calls since the last arm, by function: those alone that give a VkResult.
+  /// Number of calls since the last arm() of each function that returns a VkResult.
   std::map<std::string, unsigned> counts() const { return state().counts; }
 
   static void wrap(DeviceTable& table) {

@@ -1,4 +1,4 @@
-// Every call that can fail does so once: an error that says what happened, and nothing is left behind.
+// Makes every call that can fail do so once: an error must describe the failure, and nothing may be left behind.
 
 #include "faults.h"
 
@@ -12,7 +12,7 @@ using namespace sgm::vulkan;
 
 namespace {
 
-/// What a function of Vulkan may give, beside success.
+/// The error codes that a Vulkan function may return.
 std::vector<VkResult> failuresOf(const std::string& function) {
   const std::set<std::string> of_the_queue{"vkQueueSubmit", "vkWaitSemaphores", "vkGetSemaphoreCounterValue"};
   std::vector<VkResult> failures{VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY};
@@ -37,7 +37,7 @@ Code codeOf(VkResult failure) {
   }
 }
 
-/// Failures of these are made good, or come when nobody asks any more.
+/// Whether failures of a function are compensated, or occur when no result is needed any more.
 bool mayBeMadeGood(const std::string& function) {
   const std::set<std::string> functions{"vkCreateBuffer",
                                         "vkAllocateMemory",
@@ -67,7 +67,8 @@ Result<std::vector<int32_t>> runOnBorrowed(Engine& engine) {
   return runOn(Device::borrow(lent));
 }
 
-/// Makes every function fail that `run` calls, at each of its calls that is wanted; all has to be quiet after it.
+/// Makes every function fail that `run` calls, at each call that `wanted` selects; the validation layer must report
+/// nothing.
 template <class Run, class Wanted, class Quiet>
 void failEverywhere(Run run, Wanted wanted, Quiet quiet) {
   const std::vector<int32_t> expected{29, 38, 47};

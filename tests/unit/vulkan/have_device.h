@@ -1,5 +1,5 @@
 #pragma once
-// Whether this machine has a device to test on.
+// Checks whether this machine has a Vulkan device for the tests.
 
 #include <cstdio>
 #include <cstdlib>
@@ -20,8 +20,8 @@ inline OwnDevice watched(std::shared_ptr<MessageLog> log = std::make_shared<Mess
   return options;
 }
 
-/// false, after saying so, where this machine has no usable Vulkan device; an error where the tests must not be
-/// skipped.
+/// Returns false, after printing the reason, if this machine has no usable Vulkan device; fails if the tests must not
+/// be skipped.
 inline bool haveDevice() {
   static const std::string missing = [] {
     if (const auto device = Device::open(watched())) keepLibraries();

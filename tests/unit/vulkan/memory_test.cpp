@@ -24,7 +24,7 @@ VkPhysicalDeviceMemoryProperties memoryOf(std::vector<VkMemoryPropertyFlags> typ
   return memory;
 }
 
-/// A loader whose driver allows 1 MiB of each heap, half of which others use.
+/// Simulates a driver that allows 1 MiB of each heap, half of which other programs use.
 PFN_vkGetInstanceProcAddr real_resolver = nullptr;
 
 VKAPI_ATTR void VKAPI_CALL scarceMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties2* properties) {

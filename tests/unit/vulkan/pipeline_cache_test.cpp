@@ -24,7 +24,7 @@ void writeAll(const fs::path& path, std::span<const std::byte> bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-/// The data that a driver would give: its header and some more.
+/// The cache data that a driver would write: its header, and some more bytes.
 std::vector<std::byte> driverData(const DeviceInfo& info) {
   VkPipelineCacheHeaderVersionOne header{};
   header.headerSize = sizeof header;

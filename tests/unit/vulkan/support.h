@@ -1,5 +1,5 @@
 #pragma once
-// A device to test on, a shader to run on it, and calls that fail when told.
+// A Vulkan device for tests, a shader that runs on it, and calls that fail on request.
 
 #include <array>
 #include <cstring>
@@ -17,7 +17,7 @@
 
 namespace sgm::vulkan {
 
-/// A device that the validation layer watches, which has to be silent until the end.
+/// A device with the validation layer, which must report nothing until the end.
 struct TestDevice {
   std::shared_ptr<MessageLog> log = std::make_shared<MessageLog>();
   std::unique_ptr<Device> device;
@@ -62,8 +62,8 @@ inline void write(const Buffer& buffer, std::span<const int32_t> numbers) {
   std::memcpy(buffer.data(), numbers.data(), numbers.size_bytes());
 }
 
-/// All layers once: numbers go up, through a shader twice (the second time by counts that a shader has written) and
-/// come back as 3 * (3 * x + 5) + 5.
+/// Uses all layers of the Vulkan code once: uploads numbers, runs a shader over them twice (the second time with a
+/// dispatch size that a shader has written), and downloads 3 * (3 * x + 5) + 5.
 Result<std::vector<int32_t>> throughAllLayers(Device& device, std::span<const int32_t> numbers,
                                               const std::filesystem::path& cache_folder);
 

@@ -1,4 +1,4 @@
-// Bodies of whole batches, against polygonizeBody.
+// Tests bodies of whole batches against polygonizeBody.
 
 #include "catch.h"
 #include "mesh/tables.h"
@@ -11,7 +11,8 @@ using namespace sgm::test;
 
 namespace {
 
-/// What the census must say of the rows of one body: vertices, indices and active cells before, active cells.
+/// The census that the shader must compute for the rows of one body: numbers of vertices, indices and active cells
+/// before the row, and of active cells in it.
 std::vector<std::array<uint32_t, 4>> rowsOf(const ChunkSamples& samples, const MeshPart& part) {
   constexpr size_t kSide = kChunkSamples;
   std::vector<std::array<uint32_t, 4>> rows(kSide * kSide);

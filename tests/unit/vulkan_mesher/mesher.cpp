@@ -39,7 +39,7 @@ enum Kernel {
 constexpr uint32_t kGuard = 0xBADC0DE5;
 constexpr size_t kGuardWords = 256;
 
-/// The buffers as words, before the first kernel.
+/// The contents of the buffers as words, before the first kernel runs.
 struct Buffers {
   std::vector<uint32_t> batch, scratch, parts, vertices, indices, tables;
   batch::Sizes sizes;

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes chunks and seams by the shaders of shaders/mesher/, and says what the CPU makes of them.
+// Meshes chunks and seams with the shaders of shaders/mesher/, and with the CPU for comparison.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace sgm::test {
 
-/// What is to be meshed.
+/// A seam to mesh.
 struct SeamInput {
   size_t chunk;
   Face face;
@@ -21,34 +21,35 @@ struct SeamInput {
 };
 struct MeshInput {
   std::vector<ChunkSamples> chunks;
-  std::vector<bool> with_body;  ///< one a chunk
+  std::vector<bool> with_body;  ///< for each chunk, whether its body is meshed
   std::vector<SeamInput> seams;
 
   size_t bodies() const;
 };
 
-/// How much room there is.
+/// Capacities of the output buffers, in elements.
 struct Room {
   uint32_t vertices, indices, cells;
 };
 
-/// What came back. Parts are the bodies, then the seams. Behind what each buffer has room for lie guard words.
+/// The shaders' output. Parts are the bodies, then the seams. Guard words follow the capacity of each buffer.
 struct MeshOutput {
   batch::Head head;
   std::vector<batch::Part> parts;
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
-  std::vector<std::array<uint32_t, 4>> rows;  ///< 33^2 for each body: vertices, indices, cells before; active cells
-  bool inputs_kept;                           ///< samples, signs, records and tables
-  bool guards_kept;                           ///< and all that lies behind what is used
+  /// 33^2 rows for each body: numbers of vertices, indices and cells before the row, and of active cells in it.
+  std::vector<std::array<uint32_t, 4>> rows;
+  bool inputs_kept;  ///< whether samples, signs, records and tables are unchanged
+  bool guards_kept;  ///< whether everything after the used elements is unchanged
 };
 
-/// The shaders, ready. Skips, visibly, where there is no device.
+/// The compiled shaders. create() prints the reason and returns nullopt if there is no device.
 class Mesher {
  public:
   static std::optional<Mesher> create();
 
-  /// groups: of the kernel of triangles; 0 for as many as it asks for itself.
+  /// groups: number of workgroups of the kernel for triangles; 0: as many as it computes itself.
   MeshOutput run(const MeshInput& input, Room room, uint32_t groups = 0) const;
 
   std::vector<std::string> messages() const { return compute_.messages(); }
@@ -60,18 +61,18 @@ class Mesher {
   std::vector<ComputeShader> shaders_;
 };
 
-/// The same on the CPU, hashes included.
+/// Meshes the same input on the CPU, including hashes.
 std::vector<MeshPart> meshOnCpu(const MeshInput& input);
 
-/// Room for all of these parts, and nothing to spare.
+/// The exact capacities for these parts.
 Room roomFor(const MeshInput& input, const std::vector<MeshPart>& parts);
 
 uint32_t activeCells(const ChunkSamples& samples);
 
-/// Random samples: smooth, noisy, lone points, all the same, or of extreme size.
+/// Random samples: smooth, noisy, with isolated points, uniform, or of extreme size.
 MeshInput randomInput(std::mt19937_64& random, size_t chunks);
 
-/// Requires that parts first..last-1 have come out, byte by byte.
+/// Requires that the first `count` parts are equal, byte by byte.
 void requireParts(const MeshOutput& output, const std::vector<MeshPart>& expected, size_t count);
 
 }  // namespace sgm::test

@@ -1,4 +1,4 @@
-// Buffers that are too small for a batch.
+// Tests buffers that are too small for a batch.
 
 #include "catch.h"
 #include "mesher.h"

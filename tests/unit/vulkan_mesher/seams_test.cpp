@@ -1,4 +1,4 @@
-// Seams of all faces, against polygonizeSeam.
+// Tests seams of all faces against polygonizeSeam.
 
 #include <algorithm>
 
