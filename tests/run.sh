@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds and runs the tests, on a bare Debian 12 as root or with sudo. Installs what is missing, and says so.
+# Builds and runs the tests, on a bare Debian 12 as root or with sudo. Installs missing packages, and prints their names.
 #
 #   bash tests/run.sh                 the quick tests: one optimised build, the library's own tests
 #   bash tests/run.sh --module NAME   the tests of one module (grammar, derive, field, mesh, stream, ...)
-#   bash tests/run.sh --all           every test, in four builds; this is what is run before a change lands
+#   bash tests/run.sh --all           every test, in four builds; run this before merging a change
 #   bash tests/run.sh --long          as --all with far longer property tests and fuzzers, which begin from new random
 #                                     seeds, three more builds, and AVX-512 under emulation (label emulated; installs an
 #                                     emulator)
@@ -11,23 +11,23 @@
 #   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, slurm,
 #                   ...); implies --all
 #   --without NAME  leave out a build (fuzz, plain, tsan) or a label; each is named in the summary
-#   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
-#                   skipped, and named so in the summary; implies --all
+#   --require-cuda  fail if nvcc or an NVIDIA GPU is missing, which some tests of label cuda need; without this option
+#                   they are skipped then, and the summary names them; implies --all
 #   --jobs N        at most N compilers and tests at once (default: one for each processor)
 #
 # A failed test prints its seed, and SGM_SEED=n repeats the test with that seed (after --long: SGM_LONG=1 SGM_SEED=n).
 #
-# The quick tests need no Godot and no browser; with a Godot at hand (editor_plugin/get_godot.sh) one script runs in it. They
-# end with the names of the tests that were left out, and the command that runs them.
+# The quick tests need neither Godot nor a browser; if Godot is installed (editor_plugin/get_godot.sh), one script runs in
+# it. Their output ends with the names of the tests that were left out, and the command that runs them.
 #
 # --all tests the Godot plugin in a real Godot, which editor_plugin/get_godot.sh finds or unpacks, unless --without godot
-# leaves it out. A Vulkan device must be there (software Vulkan is installed, and is enough), unless --without vulkan
-# leaves it out.
+# is given. It needs a Vulkan device (software Vulkan suffices, and is installed), unless --without vulkan is given.
 #
-# Four builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; plain
-# (clang++ again, optimised, but no vector unit; also the static package) those that compare bits; tsan those with
-# threads. --long adds dev (both sanitizers, g++, each file by itself), scalar (g++, no vector unit) and clang (clang++,
-# vectors). The last lines are ctest's summary over all of them. Exit status: 0 if every test passed.
+# The four builds: release runs every test; fuzz (clang++, address and undefined-behaviour sanitizers) runs the unit tests
+# again, and the fuzzers; plain (clang++, optimised, without vector instructions; also the static package) runs the tests
+# that compare bits; tsan (thread sanitizer) runs the tests with threads. --long adds dev (g++, the sanitizers of fuzz, no
+# unity build), scalar (g++, without vector instructions) and clang (clang++, with them). The last lines are the summary
+# of ctest over all builds. Exit status: 0 if every test passed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -63,13 +63,13 @@ modules=$(grep -l sgm_unit_test tests/*/CMakeLists.txt tests/unit/*/CMakeLists.t
 [[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
-# Paths within the checkout are hashed as relative ones, so that a clone elsewhere finds what another has compiled.
+# Paths within the checkout are hashed as relative ones, so that a clone elsewhere finds compiled objects in the cache.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 
 started=$SECONDS
 step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 
-# build PRESET [TARGET]: quiet if all is well, the whole log if not.
+# build PRESET [TARGET]: builds; prints the whole log only if the build failed.
 build() {
   step "build $1"
   local log=build/$1.configure.log options=() target=()
@@ -126,7 +126,7 @@ for name in ${without[@]+"${without[@]}"}; do
 done
 for preset in "${chosen[@]}"; do build "$preset"; done
 
-# One ctest over all builds: its summary is the verdict.
+# One ctest runs the tests of all builds, so that its summary and exit status cover all of them.
 mkdir -p build/all
 {
   for preset in "${chosen[@]}"; do echo "subdirs(\"$root/build/$preset\")"; done
@@ -146,7 +146,7 @@ filter=()
 ((${#labels[@]})) && filter+=(-L "$(joined "${labels[@]}" left_out)")
 ((${#left_out_labels[@]})) && filter+=(-LE "$(joined "${left_out_labels[@]}")")
 for name in ${without[@]+"${without[@]}"}; do echo "LEFT OUT by --without: $name"; done
-# A device or a tool that is not there is an error here, not a skip: the machine was set up for it.
+# A missing device or tool makes a test fail instead of being skipped, since the setup above has installed all of them.
 export SGM_REQUIRE_ALL=1
 ctest --test-dir build/all --output-on-failure --no-tests=error --no-label-summary --timeout "$timeout" -j "$jobs" \
   ${filter[@]+"${filter[@]}"} </dev/null

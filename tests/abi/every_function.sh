@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every function that sgm/sgm.h declares is called in arguments_test.cpp, or is one of the four that take no pointer; and
-# every number that it defines is pinned in layout.c.
+# Checks that arguments_test.cpp calls every function that sgm/sgm.h declares, except the four that take no pointer, and
+# that layout.c asserts the value of every constant that the header defines.
 #   every_function.sh HEADER ARGUMENTS_TEST LAYOUT
 set -euo pipefail
 missing=0

@@ -6,9 +6,9 @@
 #   instructions.sh PROGRAM COMPILER PATH [--record]
 #
 #   PROGRAM   sgm_bench_instructions
-#   COMPILER  name and version, as CMake says it: figures are kept for each
+#   COMPILER  name and version, as CMake prints them: each compiler has its own figures
 #   PATH      scalar or avx2: the instruction set that the evaluator uses
-#   --record  writes today's figures into instructions.json instead
+#   --record  writes the counts of this run into instructions.json instead
 set -euo pipefail
 program=$1 compiler=$2 path=$3 record=${4-}
 figures=$(dirname "${BASH_SOURCE[0]}")/instructions.json
@@ -54,7 +54,7 @@ done
 if ((failed)); then
   echo "If the change is meant, run: bash $0 $program '$compiler' $path --record" >&2
 fi
-# What was compared counts first: a figure that is missing hides no failure.
+# A deviation fails even where other figures are missing: only a run without deviations is skipped for a missing figure.
 if ((!failed)) && [[ -n $unknown ]]; then
   skip "no figures for '$compiler, $path' and$unknown yet: run with --record"
 fi

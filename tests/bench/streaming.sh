@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures the streaming figures with `sgm fly`, and with sgm_bench_crowds where that lies beside it: streaming.csv,
-# streaming.svg, and a table on standard output, with what was asked. It judges no time: exit status 1 only where a flight
-# fails, or a surface was not closed.
+# Measures the streaming figures with `sgm fly`, and with sgm_bench_crowds if that lies in the same folder. Writes
+# streaming.csv, streaming.svg, and a table with the targets on standard output. No time makes the script fail: exit
+# status 1 only if a flight fails, or a surface was not closed.
 #
 #   streaming.sh SGM [OUT_DIR] [--long | --quick]
 #
@@ -36,7 +36,8 @@ if [[ $mode == --quick ]]; then
 fi
 
 failed=0
-# flight NAME OPTION...: its report, its command and its exit status in NAME.flight.json.
+# flight NAME OPTION...: flies with these options; writes the report, the command and the exit status to
+# NAME.flight.json.
 flight() {
   local name=$1 status=0 report=$out/$1.report
   shift
@@ -61,7 +62,7 @@ for speed in "${speeds[@]}"; do
       --top-level 5 --view 200 --teleports 10 --edits 5 --unpaced --check
   done
 done
-# crowd NAME ROW OPTION...: its figures and its command in NAME.crowd.json.
+# crowd NAME ROW OPTION...: runs sgm_bench_crowds; writes its figures and its command to NAME.crowd.json.
 crowd() {
   local name=$1 status=0 report=$out/$1.report
   shift

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# sgm bench paper: its figures follow from its times, its meshes are equal, and what is not measured says why.
+# Tests sgm bench paper: its figures follow from its times, all backends' meshes are equal, and each missing measurement
+# has a reason.
 source "$(dirname "$0")/common.sh"
 
 expect 0 "$SGM" bench paper --help
@@ -15,7 +16,7 @@ json 'j.stages.every(s => s.chunks >= 1 && s.operations > 1000 && s.cell_units =
 json 'j.stages.every(s => s.rows.slice(0, 2).every(r => r.measured && r.device && r.triangles > 0 && r.seconds > 0 && r.first_seconds > 0))'
 json 'j.stages.every(s => s.rows[0].workers === 1 && s.rows[0].speedup === 1 && s.rows[0].efficiency === 1)'
 json 'j.stages.every(s => s.rows[1].workers === 2 && s.rows[1].chunks_on_cpu === 0)'
-# One hash a stage, and another in each.
+# All rows of a stage have one hash, and each stage has another.
 json 'j.stages.every(s => new Set(s.rows.filter(r => r.measured).map(r => r.hash)).size === 1)'
 json 'new Set(j.stages.map(s => s.rows[0].hash)).size === 3 && j.stages.every(s => /^[0-9a-f]{16}$/.test(s.rows[0].hash))'
 # Equations 2 to 4, from the times of the runs.
@@ -25,15 +26,15 @@ json "$near $measured rows.every(({r}) => r.run_seconds.length === 3 && near(r.s
 json "$near $measured rows.every(({s, r}) => near(r.speedup, s.rows[0].seconds / r.seconds))"
 json "$near $measured rows.every(({r}) => r.workers === null ? r.no_efficiency : near(r.efficiency, r.speedup / r.workers))"
 json "$near $measured rows.every(({s, r}) => near(r.operations_per_second, s.operations / r.seconds))"
-# What is not here, or not taken by itself, says why.
+# A row that was not measured (its backend is missing, or cannot run the stage by itself) gives the reason.
 json 'j.stages.every(s => s.rows.every(r => r.measured ? r.reason === undefined : r.reason.length > 0 && !r.hash))'
-# The paper.
+# The figures that the paper printed.
 json 'j.paper.workers === 255 && j.paper.sequential_gflops === 0.8 && j.paper.parallel_gflops === 20.61'
 json 'j.stages[0].paper.speedup === 0.81 / 0.096 && j.stages[0].paper.printed_efficiency === 0.028'
 json 'j.paper.inconsistencies.length >= 5 && j.counted && j.measured'
 operations=$(node -p 'JSON.parse(require("fs").readFileSync(".out")).stages.map(s => s.operations + s.rows[0].hash).join()')
 
-# The same meshes and the same work with other threads, and in the table.
+# Another number of threads gives the same meshes and the same work; the table shows both rows.
 expect 0 "$SGM" bench paper --size 32 --runs 1 --threads 1 --backend cpu --json
 json 'j.stages.every(s => s.rows.map(r => r.name).join() === "sequential,cpu" && s.rows[1].workers === 1)'
 json "j.stages.map(s => s.operations + s.rows[0].hash).join() === '$operations'"
@@ -55,7 +56,7 @@ out_has 'Operations: instructions of the field programs'
 expect 0 "$SGM" bench paper --cell 8 --runs 1 --backend cpu --json
 json 'j.stages.every(s => s.cell === 8)'
 
-# Asked for by name and not here: the other rows come, and the status says so.
+# A backend that is requested by name but missing: the other rows are measured, and the exit status reports it.
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(".out")).backends[2].usable ? 0 : 1)'; then
   expect 0 "$SGM" bench paper --size 32 --runs 1 --backend cuda --json
@@ -67,7 +68,7 @@ else
   one_line
 fi
 
-# The processor's instruction sets on a grammar of the caller's.
+# sgm bench chunks: each instruction set of the processor, on a grammar of the user's.
 expect 0 "$SGM" bench chunks "$SOURCE"/samples/grammars/sphere.sgm --runs 2 --threads 2 --json
 json 'j.rows.length >= 2 && j.rows[0].instruction_set === "scalar" && j.rows.every(r => r.threads <= 2)'
 json 'new Set(j.rows.map(r => r.hash + r.triangles + r.chunks)).size === 1 && j.rows[0].triangles > 1000'
@@ -76,7 +77,7 @@ expect 0 "$SGM" bench chunks "$SOURCE"/tests/bench/grammars/cave.sgm --region 0,
 err_empty
 out_has 'scalar +1 +[0-9.]+ +[0-9.]+'
 
-# Wrong input, wrong usage.
+# Invalid input and invalid usage.
 wrong() {
   expect "$@"
   out_empty

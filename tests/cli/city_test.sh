@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# A flight through an endless city and back ends before the buildings that it began with, to the bit, within its caps: 300 m
-# away at 60 m/s, in the long run 2 km.
+# Tests that a flight through an endless city and back ends at the very buildings where it began, bit for bit, within
+# its memory limits: 300 m away at 60 m/s, in the long run 2 km.
 source "$(dirname "$0")/common.sh"
 
-# More frames than the way takes: a busy machine brings the last chunks while the viewer stands.
+# More frames than the path takes: on a busy machine, the last chunks are loaded while the viewer stands still.
 away=300 frames=1000
 [[ ${SGM_LONG-} != 1 ]] || away=2000 frames=6000
 city=$SOURCE/samples/grammars/city.sgm

@@ -1,4 +1,4 @@
-# Sourced by the tests of the command: SGM and SOURCE come as the first two arguments of each.
+# Sourced by the tests of the command; each test's first two arguments are SGM (the command) and SOURCE (the project).
 set -uo pipefail
 SGM=$1
 SOURCE=$2
@@ -6,12 +6,13 @@ work=$(mktemp -d)
 cleanup() { rm -rf "$work"; }
 trap cleanup EXIT
 cd "$work"
-# What the command keeps for its user is not the user's here; what the driver keeps is, for it takes long to make.
+# The user's own cache folder stays untouched; only Mesa's shader cache is kept there, since compiling shaders takes
+# long.
 export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-}/.cache}} XDG_CACHE_HOME=$work/.cache
 failures=0
 status=0 out= err= last=
 
-# run COMMAND...: its status, standard output and standard error in `status`, `out`, `err`.
+# run COMMAND...: runs it; sets `status`, `out` (standard output) and `err` (standard error).
 run() {
   "$@" >"$work/.out" 2>"$work/.err" </dev/null
   status=$?
@@ -23,7 +24,7 @@ failed() {
   failures=$((failures + 1))
   printf 'FAILED: %s\n  command: %s\n  status: %s\n  stdout: %.600s\n  stderr: %.600s\n' "$1" "$last" "$status" "$out" "$err" >&2
 }
-# expect STATUS COMMAND...
+# expect STATUS COMMAND...: runs the command and fails unless its exit status is STATUS.
 expect() {
   local wanted=$1
   shift
@@ -34,14 +35,14 @@ out_has() { [[ $out =~ $1 ]] || failed "standard output lacks /$1/"; }
 err_has() { [[ $err =~ $1 ]] || failed "standard error lacks /$1/"; }
 out_empty() { [[ -z $out ]] || failed "standard output is not empty"; }
 err_empty() { [[ -z $err ]] || failed "standard error is not empty"; }
-# One line that says what is wrong, and no more.
+# Fails unless standard error is exactly one line.
 one_line() { [[ $(grep -c . <<<"$err") == 1 ]] || failed "standard error is not one line"; }
-# json EXPRESSION: of the object on standard output, called j, must be true.
+# json EXPRESSION: fails unless this JavaScript expression is true for the object j parsed from standard output.
 json() {
   node -e 'const j = JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")); process.exit(eval(process.argv[2]) ? 0 : 1)' \
     "$work/.out" "$1" || failed "the JSON does not satisfy $1"
 }
-# only FILE...: nothing else is in the working folder (but for what these functions keep).
+# only FILE...: fails if the working folder has other files than these (and those that the functions above write).
 only() {
   local wanted have
   wanted=$(printf '%s\n' "$@" | sort)

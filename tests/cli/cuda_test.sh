@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The command on a GPU that pretends: LD_LIBRARY_PATH has its libcuda.so.1 first.
+# Tests the command on a simulated GPU, whose libcuda.so.1 is the first in LD_LIBRARY_PATH.
 source "$(dirname "$0")/common.sh"
 
 expect 0 "$SGM" backends

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# sgm check --expect: what holds, what fails and where, seeds, uses of a rule, JSON.
+# Tests sgm check --expect: statements that hold or fail, places of failures, seeds, uses of a rule, JSON.
 source "$(dirname "$0")/common.sh"
 
 cat >row.sgm <<'END'
@@ -22,7 +22,7 @@ out_has 'row.sgm:8:21: expect: genus == 0: holds \(0; '
 out_has 'row.sgm:9:1: report: volume per Ball = 3 uses, minimum [0-9.]+, mean [0-9.]+, maximum [0-9.]+ m3 \('
 out_has 'row.sgm: ok, its 4 expectations hold$'
 
-# One that fails: its place, the line, a caret under it, the value; the others are evaluated all the same.
+# A statement that fails: its place, its line, a caret below it, and the measured value; the others are still evaluated.
 expect 1 "$SGM" check --expect row.sgm --set count=4
 [[ $err == "row.sgm:7:1: error: expected components == 3, but it is 4
   expect components == 3;
@@ -30,7 +30,7 @@ expect 1 "$SGM" check --expect row.sgm --set count=4
   note: "*" m, cells of 0.5 m, seed 0" ]] || failed "the message of a failed expectation"
 out_has 'row.sgm:8:1: expect: watertight: holds'
 out_has 'row.sgm: 1 statement fails$'
-# Without --expect nothing is derived.
+# Without --expect, the grammar is not derived.
 expect 0 "$SGM" check row.sgm
 [[ $out == 'row.sgm: ok' ]] || failed "check alone evaluates"
 
@@ -48,7 +48,7 @@ expect 1 "$SGM" check --expect --json row.sgm --set count=1
 err_empty
 json '!j.ok && !j.files[0].ok && j.files[0].expectations[1].value === 1 && j.files[0].expectations[1].holds === false'
 
-# Each use of a rule must hold; the first that does not is named.
+# A statement "per Rule" must hold for each use of the rule; the first use for which it fails is named.
 sed 's/^expect components == 1 per Ball;/expect volume < 60m3 per Ball;/' row.sgm >large.sgm
 expect 1 "$SGM" check --expect large.sgm --seed 1 --seeds 4
 err_has 'large.sgm:10:1: error: expected volume < 60m3 per Ball, but it is [0-9.]+ m3 in Row/Ball\[[0-2]\] at (0|8|16),0,0 m'
@@ -58,7 +58,7 @@ expect 0 "$SGM" check --expect row.sgm --seeds 3
 out_has 'seed 2\)'
 out_has 'row.sgm: ok, its 4 expectations hold with 3 seeds$'
 
-# What cannot be measured fails, and says why; a report of it does not.
+# A statement about a quantity that cannot be measured fails with a reason; a report statement about it does not fail.
 cat >bar.sgm <<'END'
 sgm 1;
 domain infinite;
@@ -71,7 +71,7 @@ expect 1 "$SGM" check --expect bar.sgm
 out_has "bar.sgm:5:1: report: genus = not measured: the region's border cuts the surface"
 err_has "bar.sgm:6:1: error: expected genus == 0 in block\(1\), but it is not measured: the region's border cuts"
 
-# Where pieces lie that should not be: the smallest first, around the cubes of their samples.
+# Reports where unwanted components lie: the smallest first, each by the bounding box of its samples.
 cat >stray.sgm <<'END'
 sgm 1;
 domain finite box(64m);
@@ -85,12 +85,12 @@ err_has 'note: the smallest are 1 m3 in -20.5,3.5,-0.5 to -19.5,4.5,0.5 m; [0-9.
 expect 1 "$SGM" check --expect stray.sgm --cell 1 --json
 out_has '"pieces":'
 
-# Below one sample nothing can be told apart.
+# Components smaller than one sample cannot be distinguished.
 sed 's/^report genus;/report components(solid above 0.01m3);/; s/^expect .*/expect components(solid above 2m3) >= 1;/' bar.sgm >small.sgm
 expect 0 "$SGM" check --expect small.sgm --cell 1 --region=-16,0,0:16,16,16
 out_has 'not measured: one sample stands for 1 m3, more than the volume in question: measure with smaller cells'
 
-# The volume is that of the solid, in a region that cuts it as well; the paper's count of cubes has a name of its own.
+# The measured volume is that of the solid, also where the region cuts it; the paper's count of cubes has another name.
 cat >slab.sgm <<'END'
 sgm 1;
 start Slab;
@@ -104,7 +104,7 @@ json 'j.files[0].expectations[1].holds && j.files[0].expectations[1].values[0].c
 expect 0 "$SGM" check --expect slab.sgm --cell 0.1 --region=0,-3.2,-6.4:6.4,3.2,6.4 --json
 json 'Math.abs(j.files[0].expectations[0].value - 50) < 0.5'
 
-# Where and how finely: the command line's region and cell, and a cap that says what to do.
+# The region and cell of the command line are used; if there are too many chunks, the message gives a remedy.
 expect 0 "$SGM" check --expect row.sgm --region=-4,-4,-4:20,4,4 --cell 0.25
 out_has 'cells of 0.25 m'
 expect 1 "$SGM" check --expect row.sgm --cell 0.02 --max-chunks 100
@@ -113,7 +113,7 @@ expect 1 "$SGM" check --expect row.sgm --set count=99
 one_line
 expect 1 "$SGM" check --expect row.sgm --cell 0
 
-# Usage: what says how to evaluate needs --expect.
+# Usage: options that control the evaluation need --expect.
 for option in --seed=1 --seeds=2 --set=count=2 --region=0,0,0:1,1,1 --cell=1 --max-chunks=9; do
   expect 2 "$SGM" check row.sgm "$option"
 done
@@ -121,7 +121,7 @@ expect 2 "$SGM" check --expect row.sgm --seeds 0
 expect 2 "$SGM" check --expect
 expect 3 "$SGM" check --expect row.sgm --backend cuda
 
-# Several files: what is wrong with one does not keep the others from being evaluated.
+# With several files, an error in one does not prevent the evaluation of the others.
 printf 'sgm 1;\nstart R;\nrule R { sphere 3m; }\n' >syntax.sgm
 expect 1 "$SGM" check --expect syntax.sgm row.sgm
 out_has 'row.sgm: ok, its 4 expectations hold'

@@ -1,4 +1,4 @@
-// Tokenizes grammars as VS Code does, and looks whether each word of the language has its colour.
+// Tokenizes grammars as VS Code does, and checks that each word of the language has the right scope for its colour.
 //
 //   node highlighting.js FOLDER_OF_NODE_MODULES PROJECT
 const fs = require('fs');
@@ -14,7 +14,7 @@ try {
   process.exit(process.env.SGM_REQUIRE_ALL === '1' ? 1 : 77);
 }
 
-/// Words of a table in keywords.cpp.
+/// The words of the table `name` in keywords.cpp.
 function table(source, name) {
   return [...source.match(new RegExp(`${name} = \\{([^}]*)\\}`))[1].matchAll(/"(\w+)"/g)].map((m) => m[1]);
 }
@@ -49,7 +49,7 @@ function check(holds, what) {
     return token.scopes[token.scopes.length - 1];
   };
 
-  // No part of a sample is without a scope, and none is called invalid.
+  // Every token of a sample has a scope, and none has the scope `invalid`.
   let tokens = 0;
   for (const sample of samples(path.join(project, 'samples/grammars'))) {
     let stack = textmate.INITIAL;

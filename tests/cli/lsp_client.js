@@ -1,4 +1,5 @@
-// An editor's part, with the client library that VS Code itself uses: opens, edits and asks about grammars.
+// Plays an editor with the client library that VS Code itself uses: opens and edits grammars, and sends requests about
+// them.
 //
 //   node lsp_client.js FOLDER_OF_NODE_MODULES COMMAND PROJECT
 const { spawn } = require('child_process');
@@ -51,7 +52,7 @@ async function change(uri, text) {
     textDocument: { uri, version: ++version }, contentChanges: [{ text }] });
   return diagnostics;
 }
-/// Where the n-th `word` of the text begins, in UTF-16 units as JavaScript has them.
+/// The position of the n-th `word` of the text, plus `into`, in UTF-16 units as in JavaScript strings.
 function placeOf(text, word, n = 0, into = 0) {
   let at = -1;
   for (let i = 0; i <= n; ++i) at = text.indexOf(word, at + 1);
@@ -102,7 +103,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
     'characters are UTF-16 units', wrong);
   check((await change(uri, cave)).length === 0, 'and taken back');
 
-  // What an import's own document says counts before the file, and its errors are told where they are.
+  // An imported file's open document has priority over the file on the disk; its errors are reported in that document.
   const arch = uriOf('parts/arch.sgm');
   fs.writeFileSync(path.join(folder, 'parts/bad.sgm'), 'sgm 1;\nrule Bad { sphere(2); }\n');
   const bad = nextDiagnostics(uriOf('parts/bad.sgm'));
@@ -149,7 +150,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
   check((await hover('cut {')).length > 20, 'a keyword');
   check((await ask('textDocument/hover', uri, placeOf(cave, 'Häuser'))) === null, 'not a comment');
 
-  // Completion, of text that is not done.
+  // Completion in an unfinished text; `|` marks the cursor.
   const labels = async (written) => {
     await change(uri, written);
     const p = placeOf(written, '|');
@@ -183,7 +184,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
   check((await connection.sendRequest('textDocument/formatting', {
     textDocument: { uri }, options: { tabSize: 2, insertSpaces: true } })).length === 0, 'what is wrong stays');
 
-  // What is asked wrongly.
+  // Invalid requests.
   for (const [method, params, code] of [
     ['no/such', {}, -32601],
     ['initialize', {}, -32600],
@@ -195,7 +196,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
     check(refused.code === code, `${method} is refused`, refused);
   }
 
-  // Every sample is right, also by its parts' own questions.
+  // Every sample grammar opens without diagnostics.
   const samples = (dir) => fs.readdirSync(dir, { withFileTypes: true }).flatMap((entry) =>
     entry.isDirectory() ? samples(path.join(dir, entry.name)) : entry.name.endsWith('.sgm') ? [path.join(dir, entry.name)] : []);
   for (const file of samples(path.join(project, 'samples/grammars'))) {

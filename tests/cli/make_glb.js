@@ -1,4 +1,4 @@
-// Writes small .glb files, good and bad ones, into the working folder: a tetrahedron, and what can be wrong with it.
+// Writes small .glb files into the working folder: a valid tetrahedron, and one file for each defect.
 "use strict";
 const fs = require("fs");
 
@@ -21,7 +21,7 @@ function glb(json, binary) {
   return Buffer.concat([head, body]);
 }
 
-// change: of the JSON, before it is written. of: of the binary part.
+// Writes one file. change: edits the JSON before it is written. of: edits the binary part.
 function write(name, change = () => {}, of = () => {}) {
   const binary = Buffer.alloc(48 + 24 + 16);
   positions.flat().forEach((x, i) => binary.writeFloatLE(x, 4 * i));

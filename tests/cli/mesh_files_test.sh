@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Mesh files as people have them: what common exporters write, what is beside the triangles, and wrong endings. Measured,
-# inspected and imported, they are read alike and noted alike.
+# Tests mesh files as common exporters write them, with other things than triangles, or with wrong extensions. Measure,
+# inspect and import must read them alike and give the same notes.
 source "$(dirname "$0")/common.sh"
 files=$SOURCE/tests/cli/mesh_files
 
-# measured FILE EXPRESSION NOTE: valid JSON that satisfies it, and the one note in JSON and on stderr; '' for none.
+# measured FILE EXPRESSION NOTE: the JSON satisfies the expression, and JSON and standard error have this note only (''
+# for none).
 measured() {
   expect 0 "$SGM" measure "$1" --json
   json "$2"
@@ -35,11 +36,11 @@ measured missing_coordinates.obj "j.valid && $(near j.volume '8 / 6')" '12 corne
 measured surplus_values.ply "j.valid && $(near j.volume 4.5)" '4 lines have more values than the header declares, the first at line 19'
 measured unpadded.glb "j.valid && $(near j.volume '8 / 6')" 'the length of a chunk is not a multiple of 4 (518), at byte 12'
 
-# A square of one metre under a picture of 256 pixels that is laid four times each way.
+# A square of one metre with a texture of 256 pixels that is repeated four times in each direction.
 expect 0 "$SGM" measure texture_transform.glb --texels 256 --json
 json 'Math.abs(j.texels.mean - 1024) < 0.01 || Math.abs(j.texels.median - 1024) < 0.01'
 
-# The same in UTF-16, and as text of glTF.
+# The same mesh in UTF-16, and as glTF in text form.
 { printf '\xFF\xFE' && iconv -f UTF-8 -t UTF-16LE concave_l.obj; } >wide.obj
 measured wide.obj "j.valid && $(near j.volume 3)" ''
 node -e '
@@ -55,7 +56,7 @@ err_has 'outside.gltf: buffer 0 lies in another file, `sparse.bin`, at /buffers/
 one_line
 out_empty
 
-# What is no mesh is called by its name, whatever it is named.
+# The message names the real format of a file that is no mesh, whatever its name.
 printf '\x89PNG\r\n\x1A\n' >picture.glb
 expect 1 "$SGM" measure picture.glb
 err_has 'picture.glb: it is a PNG picture, not a mesh; '
@@ -65,12 +66,12 @@ expect 1 "$SGM" measure grammar.obj
 err_has 'it is a grammar .\.sgm., not a mesh file'
 one_line
 
-# Polygons that cross themselves are told with their line.
+# A polygon that crosses itself is reported with its line.
 printf 'v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n' >bow.obj
 expect 0 "$SGM" measure bow.obj
 err_has '^sgm: note: bow.obj: 1 polygon crosses itself or has no area, at line 5'
 
-# The other file of --against has notes too, and so has what is classified.
+# The second file of --against has notes too, and so have classified files.
 expect 0 "$SGM" measure concave_l.obj --against bytes_behind.stl --json
 err_has '^sgm: note: bytes_behind.stl: 16 bytes'
 ball >ball.sgm
@@ -80,7 +81,7 @@ expect 0 "$SGM" classify ball.stl --json
 json 'j.notes.length === 1 && j.notes[0].startsWith("6 bytes after")'
 err_has '^sgm: note: ball.stl: 6 bytes after'
 
-# An upload is read likewise, whatever its type says, and its report has the notes.
+# An upload is read in the same way, whatever its type says, and its report has the notes.
 "$SGM" inspect --kind stl --name house.stl <glb_named.stl >.frame 2>.err
 last='inspect glb_named.stl'
 [[ -s .err ]] && failed 'inspect speaks on standard error'
@@ -90,7 +91,7 @@ node -e '
 out=$(<.out)
 json "j.valid && $(near j.measures.volume 8) && j.measures.notes.length === 1 && j.measures.notes[0].startsWith('by its bytes')"
 
-# A grammar imports it with the notes as warnings, at the import.
+# A grammar that imports such a file reports the notes as warnings at the import.
 cp lines_beside.glb box.glb
 printf 'sgm 1;\nunits m;\nimport "box.glb" as box;\nstart Box;\nrule Box { size(2m, 2m, 2m) fit box; }\n' >box.sgm
 expect 0 "$SGM" check box.sgm
@@ -98,7 +99,7 @@ expect 0 "$SGM" check box.sgm
 expect 0 "$SGM" measure box.sgm --cell 0.25 --json
 json 'j.valid'
 
-# Materials lie in a file whose name every reader finds.
+# The .mtl file's name is written so that every reader finds it.
 mkdir 'my meshes'
 expect 0 "$SGM" mesh ball.sgm --cell 0.5 --out 'my meshes/a house ß.obj'
 library=$(sed -n 's/^mtllib //p' 'my meshes/a house ß.obj')

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# sgm mesh: what it prints and writes, and what it refuses.
+# Tests sgm mesh: what it prints and writes, and what it refuses.
 source "$(dirname "$0")/common.sh"
 ball >ball.sgm
 cave=$SOURCE/tests/bench/grammars/cave.sgm
@@ -21,7 +21,7 @@ for format in obj ply stl GLB; do
 done
 rm -f ball.glb ball.obj ball.mtl ball.ply ball.stl ball.GLB
 
-# Texture coordinates: of the same triangles, and only where a file can have them.
+# Texture coordinates: the triangles stay the same, and formats without coordinates are refused.
 expect 0 "$SGM" mesh ball.sgm --out plain.glb --json
 json 'j.texture === null'
 plain=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).hash' "$work/.out")
@@ -41,7 +41,7 @@ for format in ply stl; do
 done
 rm -f plain.glb ball.glb ball.obj ball.mtl
 
-# Sharp features: more vertices at the edges of a box, the same bytes on any number of threads; a ball stays as it is.
+# Sharp features: a box gets more vertices at its edges, the same bytes on any number of threads; a ball stays as it is.
 echo 'sgm 1; units m; start Box; rule Box { rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }' >box.sgm
 expect 0 "$SGM" mesh box.sgm --out box.ply --region=-4,-4,-4:4,4,4 --cell 0.5 --json
 json 'j.area < 95.5 && j.objects === 1'
@@ -55,7 +55,7 @@ done
 cmp -s ball.ply ball--sharp.ply || failed "--sharp changes a ball"
 rm -f box.sgm box.ply sharp.ply again.ply ball.ply ball--sharp.ply
 
-# An .obj brings its materials, and says so; a .mtl of somebody else's is not touched.
+# An .obj is written with its .mtl, which is reported; a .mtl that somebody else wrote is not overwritten.
 expect 0 "$SGM" mesh ball.sgm --out ball.obj
 out_has '^ball\.obj, ball\.mtl: [0-9]+ triangles'
 expect 0 "$SGM" mesh ball.sgm --out ball.obj --json
@@ -70,14 +70,14 @@ err_has "cannot write 'ball.mtl'"
 cmp -s ball.mtl theirs && cmp -s ball.obj before || failed "a file of somebody else's was touched"
 rm ball.obj ball.mtl theirs before
 
-# A name that is no UTF-8 is written as it is; in JSON something stands for it.
+# A name that is not UTF-8 is used as it is; JSON has replacement characters instead.
 name=$(printf 'b\xe4ll.glb')
 expect 0 "$SGM" mesh ball.sgm --out "$name" --json
 json 'j.out === "b\ufffdll.glb"'
 [[ -s $name ]] || failed "no file of that name"
 rm "$name"
 
-# Nothing to see: why that may be, and what to try.
+# An empty mesh: the message gives possible reasons and what to try.
 empty() {
   local why=$1
   shift
@@ -110,7 +110,7 @@ expect 0 "$SGM" mesh rooms.sgm --cell 0.125
 err_empty
 rm rooms.sgm
 
-# The volume is the solid's in the region, cut by its border or not, crisp or round.
+# The volume is the part of the solid inside the region, whether its border cuts the solid or not, sharp or round.
 printf 'sgm 1;\nstart A;\nrule A { box(10m, 1m, 10m); }\n' >slab.sgm
 for sharp in '' --sharp; do
   expect 0 "$SGM" mesh slab.sgm --cell 0.1 $sharp --json
@@ -122,7 +122,7 @@ rm slab.sgm
 expect 0 "$SGM" mesh "$cave" --region 64,64,64:128,128,128 --cell 1 --json
 json 'j.volume > 64 ** 3 / 2 && j.volume < 64 ** 3 && Math.abs(j.volume / j.cubes.solid - 1) < 0.01'
 
-# A region of too many chunks is told the cells that fit, and they do.
+# For a region of too many chunks, the message suggests a cell size, and that size works.
 for level in 0 2; do
   expect 1 "$SGM" mesh ball.sgm --cell 0.01 --max-chunks 10 --level $level --region=-4,-4,-4:4,4,4
   one_line
@@ -142,7 +142,7 @@ json "j.triangles === $(sed -n 's/.*"triangles": \([0-9]*\).*/\1/p' <<<"$out_lev
 expect 2 "$SGM" mesh ball.sgm --level 17
 expect 2 "$SGM" mesh ball.sgm --level -1
 
-# Far from the world's origin positions count from the region's corner, and that is said.
+# Far from the world's origin, positions are relative to the region's corner, and the report says so.
 expect 0 "$SGM" mesh ball.sgm --json
 json 'j.origin.join() === "0,0,0" && j.origin_units.join() === "0,0,0"'
 expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1
@@ -151,7 +151,7 @@ expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1 --json
 json 'j.origin.join() === "4992,0,0" && j.origin_units[0] === 4992 * 1024'
 only ball.sgm
 
-# The same world, whatever the threads; another one for another seed or parameter.
+# The world does not depend on the number of threads, but on the seed and parameters.
 hash() { sed -n 's/.*"hash": "\([0-9a-f]*\)".*/\1/p' <<<"$out"; }
 expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 7 --json --threads 1
 first=$(hash)
@@ -172,7 +172,7 @@ expect 0 "$SGM" mesh ball.sgm --json
 json 'Math.abs(j.area - 4 * Math.PI * 9) < 2'
 only ball.sgm
 
-# Wrong input: status 1, one line, no file.
+# Invalid input: status 1, one line, no file.
 wrong() {
   expect 1 "$SGM" mesh ball.sgm --out wrong.glb "$@"
   err_has '^sgm: error: .'
@@ -216,7 +216,7 @@ wrong $region --set no_such_name=2m
 err_has "no parameter 'no_such_name'; it has radius"
 wrong $region --set =
 
-# Wrong usage: status 2.
+# Invalid usage: status 2.
 usage() {
   expect 2 "$SGM" mesh "$@"
   err_has '^sgm: usage: .'
@@ -237,9 +237,9 @@ usage ball.sgm --backend metal
 usage ball.sgm --threads -2
 usage ball.sgm --max-chunks many
 usage ball.sgm --max-chunks -1
-usage "$cave" --out cave.glb # endless, and no region
+usage "$cave" --out cave.glb  # an endless world without a region
 
-# No such backend: status 3.
+# A backend that is not available: status 3.
 refused() {
   expect 3 "$SGM" mesh ball.sgm --out wrong.glb --backend "$1"
   one_line
@@ -247,7 +247,7 @@ refused() {
 }
 refused cuda
 
-# A Vulkan device, lavapipe at least, writes the CPU's file.
+# A Vulkan device, lavapipe at least, writes the same file as the CPU.
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).backends[1].usable ? 0 : 1)' "$work/.out"; then
   expect 0 "$SGM" mesh ball.sgm $region --out cpu.glb --backend cpu
@@ -260,7 +260,7 @@ else
   refused vulkan
 fi
 
-# Files that cannot be read or written: status 4, one line, nothing left.
+# Files that cannot be read or written: status 4, one line, no file left behind.
 unwritable() {
   expect 4 "$SGM" mesh ball.sgm $region --out "$1"
   err_has '^sgm: error: cannot write '
@@ -274,10 +274,10 @@ unwritable folder.glb
 rmdir folder.glb
 only ball.sgm
 expect 4 "$SGM" mesh none.sgm --out wrong.glb
-# Standard output on a full disk.
+# Standard output goes to a full disk.
 "$SGM" mesh ball.sgm $region --json >/dev/full 2>"$work/.err" </dev/null
 [[ $? == 4 ]] || failed "a full standard output went unseen"
-# A disk that fills up: a cap on file sizes acts like one, at the first byte, on the way, and in the last part.
+# A disk that fills up, simulated by a limit on file sizes: at the first byte, in the middle, and in the last part.
 trap '' XFSZ
 for format in glb obj ply stl; do
   printf 'what was here before' >"ball.$format"
@@ -292,21 +292,21 @@ for format in glb obj ply stl; do
 done
 trap - XFSZ
 
-# A name that cannot be written is said before the work, which would take minutes here.
+# An output file that cannot be written is reported before the work, which would take minutes here.
 expect 4 timeout 120 "$SGM" mesh "$cave" --region=-512,-512,-512:512,512,512 --cell 0.1 --max-chunks 99999999 \
   --out nowhere/cave.glb
 one_line
 
-# A signal ends it at once, in whatever it is doing, and leaves nothing. With and without O_TMPFILE it is the same for
-# the user; tests/unit/base tests both.
+# A signal ends the command at once, at any stage, and leaves no file behind. The result is the same with and without
+# O_TMPFILE; tests/unit/base tests both.
 printf 'what was here before' >cave.obj
 for signal in TERM INT HUP; do
   for delay in 0.02 0.3 1; do
     last="kill -$signal after $delay s"
-    # A background job of a script ignores SIGINT unless it is told otherwise.
+    # A script's background jobs ignore SIGINT by default.
     env --default-signal=INT "$SGM" mesh "$cave" --region=-192,-192,-192:192,192,192 --cell 0.1 --max-chunks 99999999 \
       --out cave.obj >"$work/.out" 2>"$work/.err" </dev/null &
-    # A busy machine may take longer to begin it than the shortest delay.
+    # Waits until the command runs: on a busy machine its start may take longer than the shortest delay.
     until [[ $(readlink "/proc/$!/exe") == "$(readlink -f "$SGM")" || ! -d /proc/$! ]]; do sleep 0.01; done
     sleep $delay
     kill -$signal $!
@@ -319,7 +319,7 @@ done
 [[ $(cat cave.obj) == 'what was here before' ]] || failed "a signal took something"
 rm cave.obj
 
-# What stands at --out stays until the new file is whole.
+# The old file at --out stays until the new one is complete.
 printf 'before' >ball.glb
 expect 1 "$SGM" mesh ball.sgm $region --cell 0 --out ball.glb
 [[ $(cat ball.glb) == before ]] || failed "a failure touched the file"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# sgm paper: every figure and table is there, the page is well formed, its pictures are pictures, its numbers plausible;
-# and what it refuses leaves nothing behind.
+# Tests sgm paper: every figure and table is there, the page is well-formed, its pictures are valid, its numbers
+# plausible; a refused call leaves no files behind.
 source "$(dirname "$0")/common.sh"
 
-# Refused before any work.
+# Calls that are refused before any work.
 wrong() {
   expect "$@"
   out_empty
@@ -30,8 +30,8 @@ fi
 rm -r file full
 only
 
-# page FOLDER: the page is well-formed XML, its links lead somewhere, all its pictures are there, are PNGs of more than
-# one colour, and nothing else is in the folder of pictures.
+# page FOLDER: checks that the page is well-formed XML, its links lead somewhere, all its pictures are there, are PNGs
+# of more than one colour, and that the folder of pictures has nothing else.
 page() {
   node - "$1" <<'JS' || failed "the page in $1"
 const fs = require("fs"), zlib = require("zlib"), path = require("path");
@@ -77,8 +77,8 @@ if (there.length !== new Set(images.map((i) => i.src)).size) fail("pictures that
 JS
 }
 
-# commands FOLDER PATTERN: those that the page prints and that match, run in its folder, end well and leave it as it was.
-# Judged by the shell, as a reader's would be.
+# commands FOLDER PATTERN: runs the commands on the page that match, in its folder, through a shell as a reader would;
+# they must succeed and leave the folder as it was.
 commands() {
   local before line count=0
   before=$(find "$1" -type f -exec cksum {} + | sort)
@@ -101,7 +101,7 @@ commands() {
   [[ $before == "$(find "$1" -type f -exec cksum {} + | sort)" ]] || failed "the commands changed $1"
 }
 
-# Without pictures, one part: no device is needed. Two runs give the same bytes.
+# One part without pictures needs no device. Two runs give the same bytes.
 expect 0 "$SGM" paper --out part --only density --quick --no-pictures --json
 json 'Object.keys(j.exhibits).join() === "figure-10,figure-11" && j.quick'
 json 'Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1 && Math.abs(j.exhibits["figure-11"].ball_order - 2) < 0.1'
@@ -110,13 +110,13 @@ json 'j.exhibits["figure-10"].models.map(m => m.model).join() === "cave,cloud,bu
 page part
 expect 0 "$SGM" paper --out again --only density --quick --no-pictures
 cmp -s part/index.html again/index.html || failed "two runs differ"
-# As it is without --quick, where cells are finer: in the long run all of it.
+# The same without --quick, where cells are finer; in the long run, all parts.
 expect 0 "$SGM" paper --out fine --only density --no-pictures --json
 json '!j.quick && Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1'
 json 'j.exhibits["figure-10"].roughness.every(m => m.values.length > 4)'
 page fine
 rm -r fine
-# An earlier report is replaced, one with something else in it is not.
+# An earlier report is replaced; a folder with other files in it is not.
 expect 0 "$SGM" paper --out again --only cave --quick --no-pictures --json
 json 'Object.keys(j.exhibits).join() === "figure-8"'
 json 'j.exhibits["figure-8"].series.every((s, i, all) => i === 0 || all[i - 1].morph !== s.morph || s.volume < all[i - 1].volume)'
@@ -132,7 +132,8 @@ echo '// mine' >>again/grammars/cave.sgm
 wrong 4 "$SGM" paper --out again --only cave --quick --no-pictures
 err_has 'grammars/cave.sgm in it has changed'
 rm -r again
-# A signal while a report takes an earlier one's place: it waits, and the place holds one whole.
+# A signal arrives while a new report replaces an earlier one: the replacement is finished first, so the folder holds
+# one whole report.
 expect 0 "$SGM" paper --out again --only cave --quick --no-pictures
 "$SGM" paper --out again --only density --quick --no-pictures >.out 2>.err &
 process=$!
@@ -142,13 +143,14 @@ wait $process
 [[ $? == 143 ]] || failed "it did not end by the signal"
 only part again
 cmp -s part/index.html again/index.html || failed "what is there is not the report that was being written"
-# The report's own commands work in its folder, also that which makes it again, with the options that it was made with.
+# The commands on the page work in its folder, also the one that makes the page again, with the options it was made
+# with.
 grep -q 'sgm paper --only density --out ../density --quick --no-pictures$' part/index.html || failed "the command of the part"
 commands part .
 only part again
 (cd part && "$SGM" check grammars/*.sgm grammars/*/*.sgm >/dev/null) || failed "the report's grammars do not compile"
 rm -r again
-# No room for it: nothing is left.
+# A report that does not fit on the disk leaves no files behind.
 expect 4 bash -c 'ulimit -f 8; "$1" paper --out large --only density --quick --no-pictures' _ "$SGM"
 only part
 rm -r part
@@ -165,7 +167,7 @@ fi
 wrong 3 env VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json "$SGM" paper --out report --quick
 err_has '--no-pictures'
 
-# All of it.
+# The whole report.
 expect 0 "$SGM" paper --out report --quick --json
 page report
 only report
@@ -174,17 +176,18 @@ json 'j.exhibits["figure-1"].nodes_a_point === 3 && j.exhibits["figure-2"].nodes
 json 'j.exhibits["figure-9"].houses.length === 6 && j.exhibits["figure-9"].houses.every(h => h.watertight && h.volume > 100)'
 json 'j.exhibits["figure-12"].kinds.map(k => k.kind).join() === "architecture,caves,clouds" && j.exhibits["figure-12"].cloud_of_ten_seed !== null'
 json 'j.exhibits["figure-14"].densities.map(d => d.ld).join() === "2,5,10" && j.exhibits["figure-14"].densities.every(d => d.class === "building")'
-# The paper's own remark: by angle the largest bar grows with the density.
+# The paper's own observation: counted by angle, the largest bar grows with the density.
 json 'j.exhibits["figure-14"].densities.every((d, i, all) => i === 0 || d.largest_share.corrected > all[i - 1].largest_share.corrected)'
 json 'j.exhibits["figure-15"].modes.every(m => Object.values(m.mean).every(h => Math.abs(h.reduce((a, b) => a + b) - 1) < 1e-9))'
 json 'j.exhibits["figure-15"].modes[2].right > 0.8 * j.exhibits["figure-15"].modes[2].models'
 json 'j.exhibits["figure-16"].points.every(p => p.seconds > 0 && p.triangles > 0)'
 json 'j.exhibits["table-1"].stages.length === 3 && j.exhibits["table-1"].stages.every(s => s.rows[0].speedup === 1)'
 json 'j.exhibits["table-4"].systems.length === 10'
-# table4: what table 4 says of ours, sign by sign. A YES of the paper's that is no yes here is one of:
-# - an automaton's caves, and small clouds beside towers, which no built-in master is like;
-# - Greuter's morphing, which that grammar has not;
-# - without --quick, what is classified at cells finer than those of the masters that are most like it.
+# table4: compares Table 4 as we measure it with the paper's, sign by sign. A YES in the paper may be another sign here
+# only for:
+# - caves of a cellular automaton, and small clouds beside towers, which no built-in master resembles;
+# - Greuter's morphing, which our grammar lacks;
+# - without --quick, worlds classified at finer cells than those of the masters that are most similar.
 table4() {
   node - .out "$1" <<'JS' || failed "table 4"
 const { systems } = JSON.parse(require("fs").readFileSync(process.argv[2], "utf8")).exhibits["table-4"];
@@ -219,7 +222,7 @@ for (const { system, criteria } of systems) {
 JS
 }
 table4 quick
-# The command of figure 14 shows the largest bar, and what is below the array, as the page has them.
+# The command printed for figure 14 reports the same largest bar and below-array counts as the page.
 house=$(node -p 'JSON.stringify(JSON.parse(require("fs").readFileSync(".out")).exhibits["figure-14"].densities[0])')
 cp .out numbers.json
 line=$(grep -o 'sgm measure grammars/storeys.sgm .*--ld 2 .*--mode printed.*' report/index.html | head -1)
@@ -227,8 +230,8 @@ line=$(grep -o 'sgm measure grammars/storeys.sgm .*--ld 2 .*--mode printed.*' re
 last=$line
 json "Math.max(...j.histogram.shares) === $house.largest_share.printed && j.histogram.entries_index_le_0 === $house.entries_index_le_0"
 mv numbers.json .out
-# What the signs of surfaces, vertices and holes rest on is what the command says: of two cut worlds and a whole one, and
-# of all in the long run.
+# The signs for surfaces, vertices and holes follow from the commands on the page: checked for two cut worlds and a
+# whole one, and for all in the long run.
 node -e 'for (const s of JSON.parse(require("fs").readFileSync(".out")).exhibits["table-4"].systems) console.log(s.criteria["No holes"].command)' >holes
 [[ $(wc -l <holes) == 10 ]] || failed "a system without a command"
 [[ ${SGM_LONG-} == 1 ]] || sed -i -n '/greuter\|marson\|gkm/p' holes

@@ -1,5 +1,5 @@
-// Reads pictures that sgm writes: node png.js FILE [X Y WIDE HIGH] prints, of all or of that part, the mean of red, green
-// and blue together (0..765), and how many pixels have less than 240 of that.
+// Reads a picture that sgm wrote: node png.js FILE [X Y WIDE HIGH] prints, for the whole picture or for that rectangle,
+// the mean of red + green + blue (0..765), and the number of pixels where this sum is below 240.
 const fs = require('fs'), zlib = require('zlib');
 const png = fs.readFileSync(process.argv[2]), parts = [];
 for (let at = 8; at < png.length; ) {

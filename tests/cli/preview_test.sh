@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# sgm preview under a virtual display: a window, a mouse, keys, and saves of the file that it shows.
+# Tests sgm preview under a virtual display: its window, mouse, keys, and saves of the file that it shows.
 source "$(dirname "$0")/common.sh"
 
 ball >ball.sgm
@@ -40,7 +40,7 @@ read -r -t 60 number <display || { cat xvfb.log >&2; echo "FAILED: no virtual di
 export DISPLAY=:$number
 unset WAYLAND_DISPLAY
 
-# The first ball is found in the library that the second text imports.
+# The second text of ball.sgm imports the library that holds the ball of the first one.
 printf 'sgm 1;\nunits m;\nrule Stone(r) { sphere(r); mat marble; tag "stone"; }\n' >parts.sgm
 world() {
   printf 'sgm 1;\nimport "parts.sgm" as parts;\nunits m;\nparam radius = %s in 1m..3.5m "of the ball";\nstart Ball;\nrule Ball { parts.Stone(radius); }\n' "$1"
@@ -50,7 +50,8 @@ world 3m >ball.sgm
 "$SGM" preview ball.sgm --json --size 800x600 --seed 3 >events 2>errors &
 previewed=$!
 
-# await EXPRESSION [FROM]: waits for a line that satisfies it, after FROM lines; prints how many lines there were then.
+# await EXPRESSION [FROM]: waits for an event line after the first FROM ones that satisfies it; prints that line's
+# number.
 await() {
   node -e '
     const fs = require("fs"), [wanted, from] = [process.argv[1], Number(process.argv[2])];
@@ -65,7 +66,7 @@ await() {
       setTimeout(look, 20);
     })();' "$1" "${2:-0}"
 }
-# waited EXPRESSION: the same after all that was awaited before.
+# waited EXPRESSION: like await, starting after the last line that was awaited.
 seen=0
 waited() {
   local now
@@ -75,7 +76,7 @@ waited() {
 }
 key() { xdotool search --sync --name 'sgm preview' windowfocus --sync key "$1"; }
 
-# First a draft, then the picture.
+# A draft is drawn first, then the full picture.
 waited 'j.event === "picture" && j.draft && j.seed === 3 && j.triangles > 100 && j.width * j.height < 100000'
 waited 'j.event === "picture" && !j.draft && j.width === 800 && j.height === 600 && j.messages === "" && j.triangles > 1000'
 # The window has a picture: its middle is pale marble, beside it is sky.
@@ -88,7 +89,8 @@ colour() {
     const c = [pixel >> 16 & 255, pixel >> 8 & 255, pixel & 255];
     process.exit(eval(process.argv[3]) ? 0 : (console.error(width, c), 1));' "$1" "$2" "$3"
 }
-# shown X Y EXPRESSION MESSAGE: awaits it, since the window shows a picture some time after the preview has told of it.
+# shown X Y EXPRESSION MESSAGE: waits until the pixel's colour satisfies the expression, since the window shows a
+# picture some time after the preview has reported it.
 shown() {
   for _ in {1..40}; do
     run colour "$1" "$2" "$3"
@@ -100,7 +102,7 @@ shown() {
 shown 400 300 'c[0] > 60 && Math.abs(c[0] - c[2]) < 60' "no ball in the middle of the window"
 shown 780 20 'c[2] > c[0] + 20' "no sky beside it"
 
-# A save is drawn at once; so is one of an imported file. What is wrong is told, and the last picture stays.
+# A saved file is drawn at once, also an imported one. Errors are reported, and the last picture stays.
 world 1.5m >ball.sgm
 waited 'j.event === "picture" && j.draft && j.messages === ""'
 waited 'j.event === "picture" && !j.draft'
@@ -113,7 +115,7 @@ world 3m >ball.sgm
 sed -i 's/box(r, r, r)/sphere(r)/' parts.sgm
 waited 'j.event === "picture" && !j.draft && j.messages === ""'
 
-# A click tells the rule; the wheel comes nearer; H goes back; P prints the command.
+# A click reports the rule; the wheel zooms in; H resets the camera; P prints the command.
 xdotool search --sync --name 'sgm preview' windowfocus --sync mousemove --window %1 400 300 sleep 0.1 click 1
 waited 'j.event === "place" && j.path === "Ball/parts.Stone[0]" && j.source === "parts.sgm:3:17" && j.material === "marble" && j.tag === "stone"'
 before=$(tail -n +1 events | grep '"draft":false' | tail -1)
@@ -121,12 +123,12 @@ xdotool click 4
 waited 'j.event === "picture" && !j.draft && j.camera !== '"$(node -p "JSON.stringify(JSON.parse(process.argv[1]).camera)" "$before")"
 key h
 waited 'j.event === "picture" && !j.draft && j.camera === '"$(node -p "JSON.stringify(JSON.parse(process.argv[1]).camera)" "$before")"
-# A slider: the third control of the panel, drawn to its right end.
+# Drags the slider, the third control of the panel, to its right end.
 xdotool search --sync --name 'sgm preview' mousemove --window %1 60 97 sleep 0.1 mousedown 1 sleep 0.1 mousemove --window %1 300 97 sleep 0.1 mouseup 1
 waited 'j.event === "picture" && !j.draft && j.sets.join() === "radius=3.5m"'
 key p
 waited 'j.event === "command" && /^sgm render ball.sgm .*--seed 3 --set radius=3.5m --region=.* --cell .* --camera=/.test(j.command)'
-# Pictures may still come after it.
+# The last printed command; pictures may still have been reported after it.
 command=$(grep '"event":"command"' events | tail -1 | node -p 'JSON.parse(require("fs").readFileSync(0)).command')
 # shellcheck disable=SC2086  # the command's words
 expect 0 "$SGM" ${command#sgm }

@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
-# sgm bake --slurm on a real Slurm of three nodes: the store of one process, also where a node dies in the middle.
+# Tests sgm bake --slurm on a real Slurm of three nodes: its store equals that of one process, also if a node dies
+# during the bake.
 source "$(dirname "$0")/slurm_cluster.sh"
 source "$(dirname "$0")/common.sh"
 cave=$SOURCE/tests/bench/grammars/cave.sgm
 world=("$cave" --seed 3 --region 0,0,0:512,512,256 --levels 0..6 --cell 0.25 --backend cpu)
 
-# Without Slurm there is one clear error.
+# Without Slurm, there is one clear error.
 expect 4 env PATH=/nowhere "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2
 err_has 'sbatch cannot be run'
 err_has 'samples/bake'
 one_line
 rm -r none
-# Nor is it another failure where only a part of it is there.
+# The error is the same if only a part of Slurm is installed.
 mkdir part
 printf '#!/bin/sh\necho 1\n' >part/sbatch
 chmod +x part/sbatch
@@ -42,11 +43,11 @@ expect 0 bash -c 'grep -h "complete and closed" shared/slurm/*/verify.txt'
 expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7
 out_has 'already baked'
 
-# A node dies while it bakes; its shard starts anew elsewhere, when the others have long ended.
+# A node dies while it bakes; its shard is restarted on another node, long after the others have ended.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach
 out_has '0 failed'
 cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been met"
-# Slurm lets a shard of a dead node wait for two minutes; nobody here wants to.
+# Slurm delays the restart of a dead node's shard by two minutes; this loop releases it earlier.
 (
   for _ in $(seq 120); do
     sleep 0.5
@@ -56,7 +57,7 @@ cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been
   done
 ) >/dev/null 2>&1 &
 hurry=$!
-# Whatever count is named: what is under way is not begun anew.
+# Whatever number of shards is given, a bake in progress is not started again.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 5 --detach --json
 err_has 'are under way'
 json 'j.shards === 3'
@@ -67,7 +68,7 @@ kill $hurry
 expect 0 diff -r -x slurm alone hurt
 grep -q "Requeuing\|requeue" cluster/log/slurmctld.log || failed "no shard was started anew"
 
-# What sbatch refuses is told as it says it, and nothing is left waiting.
+# A refusal by sbatch is reported in its own words, and no job is left in the queue.
 expect 4 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2 \
   --sbatch=--partition=none
 err_has 'invalid partition'

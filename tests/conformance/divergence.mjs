@@ -1,13 +1,13 @@
-// Subgroup operations that not all invocations of a subgroup come to, in the SPIR-V of shaders that count on all of
-// them (shaders/mesher/tape.glsl). Software Vulkan forgives them: its lanes hand on what they hold even where they are
-// masked. Hardware does not.
+// Finds subgroup operations in SPIR-V that not all invocations of a subgroup reach, in shaders that rely on all of them
+// (shaders/mesher/tape.glsl). Software Vulkan hides such bugs: its lanes pass their values on even if they are masked.
+// Real hardware does not.
 //
-//   node divergence.mjs SPIRV-DIS FILE.spv...      status 3 where one is found, 1 where that cannot be told
+//   node divergence.mjs SPIRV-DIS FILE.spv...      status 3 if one is found, 1 if a file cannot be analysed
 //
-// A value diverges where invocations may see different ones. That is what an invocation's number brings, what is made of
-// it, and what is written where a diverging branch has parted them; reading a buffer at one place gives one value, as it
-// does where nobody writes there meanwhile. Who calls is not told apart, nor the order of writes: it may suspect too much.
-// Invocations are taken to meet again where SPIR-V's constructs say so.
+// A value diverges if invocations may see different values of it. Divergent are an invocation's number, what is
+// computed from it, and what is written after a divergent branch has separated the invocations; reading one place of a
+// buffer gives one value, if nobody writes there meanwhile. The analysis ignores call sites and the order of writes, so
+// it may report too much. It assumes that invocations reconverge where SPIR-V's structured constructs end.
 import { execFileSync } from 'node:child_process';
 import { basename } from 'node:path';
 
@@ -17,13 +17,13 @@ const BUFFERS = ['StorageBuffer', 'Uniform', 'PushConstant'];
 const CHOICES = ['OpBranchConditional', 'OpSwitch'];
 const BRANCHES = ['OpBranch', ...CHOICES];
 const LEAVING = ['OpReturn', 'OpReturnValue', 'OpKill', 'OpTerminateInvocation'];
-// What gives all of a subgroup the same; reductions do so, too.
+// Operations that return the same value to all invocations of a subgroup; reductions do so, too.
 const SHARED = /^OpGroupNonUniform(All|Any|AllEqual|BroadcastFirst|Ballot|BallotFindLSB|BallotFindMSB)$/;
 const isAccess = (op) => op === 'OpAccessChain' || op === 'OpInBoundsAccessChain';
 const isSubgroup = (op) => op.startsWith('OpGroupNonUniform');
 const isBarrier = (op) => op === 'OpControlBarrier';
 
-/** Of a module's text: functions with their blocks of instructions, and all that stands outside of them. */
+/** Parses a module's text into functions with their blocks of instructions, and everything outside of functions. */
 function parse(text) {
   const module = { names: new Map(), builtins: new Map(), globals: new Map(), functions: new Map() };
   let current = null;
@@ -50,7 +50,7 @@ const nextOf = (blocks, label) => {
   return BRANCHES.includes(op) ? operands.filter((id) => blocks.has(id)) : [];
 };
 
-/** The blocks that follow on one, none of `stops` and none behind these. */
+/** The blocks reachable from `label` without passing one of `stops`. */
 function following(blocks, label, stops) {
   const found = new Set();
   const open = [label];
@@ -64,7 +64,7 @@ function following(blocks, label, stops) {
   return found;
 }
 
-/** Loops by their headers: their blocks, where they end, and where they go on. */
+/** The loops by their headers: their blocks, their merge blocks, and their continue targets. */
 function loopsOf(blocks) {
   const loops = [];
   for (const [header, instructions] of blocks) {
@@ -74,8 +74,10 @@ function loopsOf(blocks) {
   return loops;
 }
 
-/** What runs apart after a branch that diverges: up to where its paths meet; where one leaves a loop, or goes on with it,
- *  all of that; where one leaves the function, all that may follow. */
+/**
+ * The blocks that run separately after a divergent branch: up to where its paths merge; if a path leaves or continues a
+ * loop, the whole loop; if one returns from the function, everything that may follow.
+ */
 function parted(blocks, loops, label) {
   const around = loops.filter(({ inside }) => inside.has(label));
   const ends = around.flatMap(({ merge, next }) => [merge, next]);
@@ -91,9 +93,9 @@ function parted(blocks, loops, label) {
   return all;
 }
 
-/** The blocks that not all invocations may come to together: of a subgroup, or of a workgroup. */
+/** The blocks that not all invocations of a subgroup, or of a workgroup, may reach together. */
 function findDivergent(module, ofWorkgroup) {
-  const values = new Set(); // and variables, by their own name
+  const values = new Set(); // also holds variables, by their ids
   const blocks = new Set();
   const calledApart = new Set();
   const roots = new Map();
@@ -154,7 +156,7 @@ function findDivergent(module, ofWorkgroup) {
   return blocks;
 }
 
-/** Sentences: which function comes to what where its invocations may be apart. */
+/** One sentence for each function that executes a collective operation where its invocations may have diverged. */
 function findings(text) {
   const module = parse(text);
   const found = new Set();

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The libraries show what their headers declare and nothing else.
+# Checks that the libraries export exactly the functions that their headers declare.
 #
 #   bash exported_symbols.sh LIBRARY INCLUDE_FOLDER [SERVICE_LIBRARY]
 set -euo pipefail
 export LC_ALL=C
 different=0
 
-# compare LIBRARY HEADER...
+# compare LIBRARY HEADER...: compares the exported functions of one library with the declared ones.
 compare() {
   local exported declared
   exported=$(nm -D --defined-only --format=posix "$1" | awk '{ print $1 }' | sort)

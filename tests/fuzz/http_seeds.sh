@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Writes small requests as first inputs of http_fuzz: four bytes that say how the rest is cut, then what a client sends.
+# Writes small requests as first inputs of http_fuzz: four bytes that determine how the rest is divided into pieces,
+# then the client's bytes.
 #
 #   http_seeds.sh FOLDER
 set -euo pipefail

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes small files of triangles as first inputs of mesh_file_fuzz: a letter for the kind, then the file.
+# Writes small mesh files as first inputs of mesh_file_fuzz: a letter for the format, then the file.
 #
 #   mesh_seeds.sh FOLDER GLB...
 set -euo pipefail

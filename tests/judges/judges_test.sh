@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The cases of one judge (cgal, manifold), or what there is to install where it is missing.
+# Runs the test cases that use one judge (cgal, manifold); if it is not installed, prints what to install.
 #
 #   judges_test.sh JUDGE TEST_PROGRAM
 set -euo pipefail

@@ -1,4 +1,4 @@
-// What Manifold (npm manifold-3d) says of the meshes of a file (meshes.h): a line each.
+// Prints one line for each mesh of a file (format: meshes.h): what Manifold (npm manifold-3d) reports about it.
 //
 //   node manifold_judge.js FOLDER_OF_NODE_MODULES FILE
 const fs = require('fs');
@@ -33,7 +33,7 @@ const [tools, file] = process.argv.slice(2);
     } catch (e) {
       status = e.code || e.message;
     }
-    // Its genus is right of one part only.
+    // Manifold's genus is correct only for a single part, so the sum over the parts is used.
     const genus = parts.reduce((sum, part) => sum + part.genus(), 0);
     console.log(status, parts.length, genus, solid ? solid.surfaceArea() : 0, solid ? solid.volume() : 0);
     for (const part of parts) part.delete();

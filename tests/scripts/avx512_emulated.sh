@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Runs the AVX-512 evaluators on a processor that lacks them: boots a small Linux in bochs, which emulates one that has
-# them. In it run the programs that compare AVX-512 with the scalar evaluator, and its meshes with the recorded ones.
+# Tests the AVX-512 evaluators on a processor that lacks AVX-512: boots a small Linux in the emulator bochs, and runs in
+# it the programs that compare the AVX-512 evaluator with the scalar one, and its meshes with the recorded hashes.
 #
 #   SGM_LONG=1 [LIMIT=SECONDS] avx512_emulated.sh WORK TEST_CONFORMANCE SGM_HASHES
 #
-#   WORK    a folder to work in: the kernel is kept there, and serial.txt is what the guest said
-#   others  the programs of those names
-#   LIMIT   seconds of real time after which the machine is stopped, and the test failed (default: 5400)
+#   WORK    a folder for the kernel, which later runs use again, and for serial.txt, the guest's output
+#   others  the paths of the programs of those names
+#   LIMIT   seconds of real time after which the emulator is stopped and the test fails (default: 5400)
 #
-# It takes minutes and packages that nothing else needs, so that without SGM_LONG=1 it is skipped, with status 77.
+# It takes minutes, and packages that no other test needs, so without SGM_LONG=1 it is skipped, with status 77.
 set -euo pipefail
 (($# == 3)) || { echo "usage: avx512_emulated.sh WORK TEST_CONFORMANCE SGM_HASHES" >&2; exit 2; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -35,7 +35,7 @@ for command in bochs-bin busybox xorriso script; do
   command -v "$command" >/dev/null || die "there is no command $command here"
 done
 
-# Unpacked, never installed: a kernel that is installed is the one that this machine boots next.
+# Unpacks the kernel's package without installing it: this machine would boot an installed kernel next time.
 fetch_kernel() {
   local name folder=$work/kernel
   rm -rf "$folder"
@@ -49,7 +49,7 @@ if [[ ! -s $work/linux ]]; then
   fetch_kernel || die "could not unpack a kernel of $kernel_package (is the network there? run apt-get update first)"
 fi
 
-# What the guest boots: the programs, the libraries that they load, the sample grammars, and a shell to start them.
+# The guest's file system: the programs, the libraries that they load, the sample grammars, and a shell to start them.
 rm -rf "$work/guest" "$work/iso"
 mkdir -p "$work"/guest/{bin,dev,lib,lib64,proc,tmp} "$work/iso"
 cp "$(command -v busybox)" "$work/guest/bin/busybox"
@@ -63,8 +63,9 @@ for program in "${programs[@]}"; do
     esac
   done < <(ldd "$program" | grep -o '/[^ ]*')
 done
-# SGM_TEST_INSTRUCTION_SET makes the test fail where it would otherwise skip AVX-512. What is left out is left out for
-# its time alone, some hundred times that of a real processor: the cloud takes most of that of all recorded meshes.
+# SGM_TEST_INSTRUCTION_SET makes the test fail where it would otherwise skip AVX-512. Some cases are left out only
+# because they take too long, some hundred times as long as on a real processor: the cloud takes most of the time of all
+# recorded meshes.
 grep -v '^cloud' "$root/tests/determinism/golden.txt" >"$work/guest/golden.txt"
 cat >"$work/guest/init" <<'END'
 #!/bin/busybox sh
@@ -85,8 +86,8 @@ END
 chmod +x "$work/guest/init"
 (cd "$work/guest" && find . | busybox cpio -o -H newc 2>/dev/null) >"$work/iso/initrd"
 cp "$work/linux" /usr/lib/ISOLINUX/isolinux.bin /usr/lib/syslinux/modules/bios/ldlinux.c32 "$work/iso"
-# Without noxsaves and clearcpuid the kernel finds that bochs gives the size of the uncompacted state for the compacted
-# one, and turns AVX off. The others leave out probes and loops that take long when every instruction is emulated.
+# Without noxsaves and clearcpuid, the kernel turns AVX off, since bochs reports the size of the uncompacted state for
+# the compacted one. The other options skip probes and loops that take long under emulation.
 cat >"$work/iso/isolinux.cfg" <<'END'
 default test
 prompt 0
@@ -97,7 +98,7 @@ END
 xorriso -as mkisofs -quiet -o "$work/boot.iso" -b isolinux.bin -c boot.cat -no-emul-boot -boot-load-size 4 \
   -boot-info-table "$work/iso" >"$work/xorriso.log" 2>&1 || die "no boot image: see $work/xorriso.log"
 
-# Many instructions to the guest's second, so that few of them go to its timer.
+# The guest's clock advances slowly (many instructions per second), so that few instructions are spent on its timer.
 cat >"$work/bochsrc" <<END
 display_library: term
 romimage: file=/usr/share/bochs/BIOS-bochs-latest
@@ -115,7 +116,8 @@ END
 echo c >"$work/bochs.commands"
 rm -f "$work/serial.txt" "$work/bochs.log"
 started=$SECONDS
-# bochs has no display without a terminal; script lends it one. Its exit status is the same for a guest that ended well.
+# bochs has no display without a terminal, so `script` gives it one. bochs' exit status does not tell whether the
+# guest's programs passed.
 TERM=vt100 timeout -k 10 "$limit" \
   script -qec "bochs-bin -q -f '$work/bochsrc' -rc '$work/bochs.commands'" /dev/null >/dev/null 2>&1 </dev/null || true
 

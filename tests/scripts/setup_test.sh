@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# samples/setup_debian.sh against a machine made of stand-ins: what is there is left alone, what is missing is installed
-# and said, and a package that cannot be had is named in one line with a non-zero status.
+# Tests samples/setup_debian.sh with stand-ins for apt and other commands: installed packages are left alone, missing
+# ones are installed and reported, and a package that is not available is named in one line with a non-zero status.
 #
 #   bash tests/scripts/setup_test.sh [ROOT]
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What the tree must not hold: arithmetic outside the contract, paths of one machine, package hosts, unfinished marks,
-# files too long to read, a README whose program is not the sample that is tested, or whose packages are not those that
-# the scripts install.
+# Finds what the tree must not contain: arithmetic outside the contract, absolute paths of one machine, addresses of
+# package servers, marks of unfinished work, and files that are too long; a README whose program differs from the tested
+# sample, or whose list of packages differs from what the scripts install.
 #
 #   bash tests/scripts/style.sh [ROOT]
 set -euo pipefail
@@ -14,7 +14,9 @@ complain() {  # complain WHAT MATCHES
   failed=1
 }
 tracked() { git ls-files -co --exclude-standard -- "$@" ':!tests/scripts/style.sh'; }
-search() {  # search PATTERN PATHS...: tracked text files only; a path without any is an error, or it would forbid nothing
+# Search PATTERN PATHS...: prints matches in tracked text files; a path without such files is an error, because the rule
+# would otherwise check nothing.
+search() {
   local pattern=$1 path
   shift
   for path in "$@"; do
@@ -37,19 +39,19 @@ complain "unfinished marks" "$(search '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" "
 complain "paths of one machine" "$(search '(^|[^[:alnum:]_.$}*])/(work|home|farm|root|Users)/' .)"
 complain "package hosts: packages come by name from the machine's own clients" \
   "$(search '\b(deb\.debian\.org|archive\.ubuntu\.com|registry\.npmjs\.org|pypi\.org|crates\.io)' .)"
-# The C interface is one header, which is its manual; the built-in masters are numbers that a command has written.
+# Exceptions: the C interface is one header, which is also its manual; the table of built-in masters is generated.
 complain "files over 1,000 lines" \
   "$(tracked "${code[@]}" '*.sh' '*.py' ':!runtime/include/sgm/sgm.h' \
     ':!runtime/tools/classify/built_in_masters.inc' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
 complain "a test begins from testSeed() (tests/unit/seed.h), which is the same in every run but the long one" \
   "$(search 'random_device' 'tests/**' ':!tests/unit/seed.h')"
-# field/reference.* only judges what the kernels compute.
+# field/reference.* is excepted: it only checks the results of the kernels.
 complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floor, fabs are exact)" \
   "$(search '\bstd::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|pow|cbrt|hypot|fma)f?\(' \
     'runtime/base/*' 'runtime/asset/*' 'runtime/grammar/*' 'runtime/derive/*' 'runtime/field/*' 'runtime/mesh/*' 'runtime/backend/*' \
     ':!runtime/field/reference*')"
 
-# broken_links: links of pages to files of the tree that are not there.
+# broken_links: prints links in Markdown pages to files that do not exist in the tree.
 broken_links() {
   local page target
   while IFS= read -r page; do
@@ -60,14 +62,14 @@ broken_links() {
 }
 complain "links to files that are not there" "$(broken_links)"
 
-# The program in the README is the one that is built and run as a sample.
+# The program in the README must be that of the sample, which is built and run as a test.
 if [[ -e samples/minimal_c/main.c ]]; then
   shown=$(awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md)
   complain "README.md's C program differs from samples/minimal_c/main.c" \
     "$(diff <(printf '%s\n' "$shown") samples/minimal_c/main.c || true)"
 fi
 
-# A reader who installs by hand gets what samples/setup_debian.sh would have installed.
+# The packages that the README lists for installation by hand must be those that samples/setup_debian.sh installs.
 if [[ -e samples/setup_debian.sh ]]; then
   source samples/setup_debian.sh
   words=$(tr -s ' \\\n' ' ' <README.md)

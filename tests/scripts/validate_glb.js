@@ -1,4 +1,4 @@
-// The Khronos glTF validator on files of ours: no error and no warning is allowed.
+// Runs the Khronos glTF validator on files that we wrote; fails on any error or warning.
 //
 //   node validate_glb.js FOLDER_OF_NODE_MODULES FILE.glb...
 const fs = require('fs');

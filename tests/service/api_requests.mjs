@@ -1,10 +1,10 @@
-// Requests as api_test.mjs draws them, and the chance that it draws by.
+// Sends the HTTP requests of api_test.mjs, and draws its random numbers.
 import http from 'node:http';
 import net from 'node:net';
 
 export const seed = Number(process.env.SGM_SEED ?? Date.now() % 1e9);
 let state = seed >>> 0;
-/// Mulberry32: from 0 to 1.
+/// A random number from 0 to 1 (Mulberry32).
 function draw() {
   state = (state + 0x6d2b79f5) | 0;
   let t = Math.imul(state ^ (state >>> 15), state | 1);
@@ -14,7 +14,8 @@ function draw() {
 export const chance = (share) => draw() < share;
 export const pick = (list) => list[Math.floor(draw() * list.length)];
 
-/// The whole answer, or in `problem` why there is none. unsized: without Content-Length and chunks.
+/// Sends a request; resolves to the whole answer, or to status 0 with the reason in `problem`. unsized: sends the body
+/// with neither Content-Length nor chunks.
 export function ask(base, method, { path, headers, body, unsized }) {
   const { hostname, port } = new URL(base);
   return new Promise((resolve) => {
@@ -31,13 +32,13 @@ export function ask(base, method, { path, headers, body, unsized }) {
     });
     request.on('timeout', () => request.destroy(new Error('no answer in 60 s')));
     request.on('error', (error) => resolve({ status: 0, headers: {}, body: Buffer.alloc(0), problem: error.message }));
-    // A length that is no lie of ours ends the request; one that is stays open for the answer.
+    // A request with a false Content-Length and no body is not ended, so that its connection stays open for the answer.
     if (headers['content-length'] && body === null) request.flushHeaders();
     else request.end(body ?? undefined);
   });
 }
 
-/// A head that never ends.
+/// Sends a request whose head never ends.
 export function askSlowly(base, method, path) {
   const { hostname, port } = new URL(base);
   return new Promise((resolve) => {

@@ -1,9 +1,10 @@
-// Asks what the description of the interface says can be asked, and more, and holds every answer against it: its status
-// is one that is described, its body is of the described type and schema. And each described status must come.
+// Sends random requests as the OpenAPI description allows, and others that it does not, and compares every answer with
+// the description: its status must be described, and its body must have the described type and schema. Every described
+// status must occur.
 //
 //   node api_test.mjs BASE_URL OPERATIONS_URL TOKEN_BASE_URL TOKEN_OPERATIONS_URL MESH NODE_MODULES
 //
-// The first service may write masters and asks for no token; of the second one the token is 0123456789abcdef.
+// The first service may write masters and needs no token; the second one's token is 0123456789abcdef.
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import { ask, askSlowly, chance, pick, seed } from './api_requests.mjs';
@@ -14,7 +15,7 @@ const { Validator } = load('@seriousme/openapi-schema-validator');
 const Ajv = load('ajv').default, addFormats = load('ajv-formats').default;
 const kToken = { authorization: 'Bearer 0123456789abcdef' };
 const kRounds = process.env.SGM_LONG ? 2000 : 150;
-/// Not to be had from a healthy service at will; other tests have them.
+/// Statuses that a test cannot provoke in a healthy service; other tests cover them.
 const kOutOfReach = new Set(['500', '503', '507']);
 
 let failures = 0;
@@ -25,7 +26,7 @@ const description = await (await fetch(`${base}/api/v1/openapi.json`)).json();
 const verdict = await new Validator().validate(structuredClone(description));
 if (!verdict.valid) fail(`the description is no OpenAPI: ${JSON.stringify(verdict.errors).slice(0, 500)}`);
 
-/// OpenAPI 3.0 says nullable where JSON Schema has a type more.
+/// Converts a schema of OpenAPI 3.0, which has `nullable`, to JSON Schema, which has the additional type null instead.
 function jsonSchema(value) {
   if (Array.isArray(value)) return value.map(jsonSchema);
   if (value === null || typeof value !== 'object') return value;
@@ -63,7 +64,7 @@ const bodies = {
   'text/plain': ['x'],
 };
 
-/// Every operation of the description, with what was answered so far.
+/// Every operation of the description, with the statuses that were answered so far.
 const all = [];
 for (const [path, item] of Object.entries(description.paths)) {
   for (const method of ['get', 'put', 'post']) {
@@ -95,7 +96,7 @@ function hold(one, answer, what) {
   if (type === 'application/problem+json' && value.status !== status) fail(`${where}: its problem says ${value.status}`);
 }
 
-/// A value for a parameter: mostly as its schema has it.
+/// A random value for a parameter: mostly one that fits its schema, sometimes one that does not.
 function valueFor(parameter) {
   if (parameter.in === 'path') return chance(0.8) ? pick(known[parameter.name]) : pick(['..', 'a b', 'ä', 'x'.repeat(300)]);
   if (parameter.schema.type === 'number' || parameter.schema.type === 'integer') return pick(['0.5', '1', '-1', 'x', '1e999']);
@@ -121,10 +122,10 @@ function drawRequest(one) {
   }
   return { path: query.length ? `${path}?${query.join('&')}` : path, headers, body };
 }
-/// What the path needs to be found.
+/// The simplest valid request of an operation, with ids and names that exist.
 const plain = (one) => ({ path: one.path.replace('{id}', known.id[1]).replace('{name}', known.name.at(-1)), headers: {}, body: null });
 
-// What is slow takes its time beside the rest.
+// Requests that time out run while the others are sent.
 const slow = all.map((one) => askSlowly(one.from, one.method, plain(one).path).then((answer) => hold(one, answer, 'slow')));
 for (const one of all) {
   for (let i = 0; i < kRounds / 10; ++i) hold(one, await ask(one.from, one.method, drawRequest(one)), 'drawn');

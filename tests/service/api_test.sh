@@ -1,4 +1,4 @@
-# The interface against its description.
+# Tests that the service's HTTP interface matches its OpenAPI description.
 #   api_test.sh SGM SOURCE NODE_MODULES
 modules=$3
 source "$(dirname "$0")/common.sh"

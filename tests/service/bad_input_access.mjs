@@ -1,4 +1,4 @@
-// Rows of the table that need a service which asks for a token, or one that keeps masters.
+// Rows of the table of bad input that need a service with a token, or one that stores masters.
 import { ask, jsonOf, must, requestBytes } from './http_probe.mjs';
 import { mustBeSafe, mustRefuse } from './bad_input_rows.mjs';
 

@@ -1,4 +1,4 @@
-// Meshes that are damaged and grammars that reach for what is not theirs, beside those of meshes.mjs.
+// Damaged meshes, in addition to those of meshes.mjs, and grammars that try to read files that they may not.
 import { ball, files, glb, obj, ply, stl } from './meshes.mjs';
 
 const small = ball(2);
@@ -10,10 +10,10 @@ const line = (bytes, number, text) => {
 const spoilt = (change, more = {}) => () => glb(small, { change, ...more });
 const grammar = (text) => () => Buffer.from(text);
 
-/** A ball whose triangles lie elsewhere. */
+/** A ball as .glb whose buffer is external, at `uri`. */
 export const elsewhere = (uri) => spoilt((json) => { json.buffers[0].uri = uri; }, { without_bin: true })();
 
-/** As `files` of meshes.mjs: pointer and line may be what they must be. */
+/** As `files` of meshes.mjs; pointer and line: what the problem's members of that name must be. */
 export const damaged = {
   'nan_position.glb': { pointer: /^\/accessors\/0/, bytes: spoilt((json, bin) => bin.writeFloatLE(NaN, 24)) },
   'infinite_position.glb': { pointer: /^\/accessors\/0/, bytes: spoilt((json, bin) => bin.writeFloatLE(Infinity, 24)) },
@@ -32,7 +32,7 @@ export const damaged = {
   'sparse_index_out_of_range.glb': {
     pointer: /^\/accessors\/0\/sparse/,
     bytes: spoilt((json, bin) => {
-      // The last index of the triangles is read as the point to replace.
+      // The sparse accessor reads the last index of the triangles as the number of the point to replace.
       bin.writeUInt32LE(small.points.length, bin.length - 4);
       json.accessors[1].count -= 3;
       json.accessors[0].sparse = { count: 1, values: { bufferView: 0, byteOffset: 0 },
@@ -61,7 +61,7 @@ export const damaged = {
   },
 };
 
-/** x.sgm is there, beside where the service runs and above. */
+/** Grammars that must be refused; x.sgm exists in the service's working folder and in its parent. */
 export const refusedGrammars = {
   'column.sgm': { line: 3, column: 13, bytes: grammar('sgm 1;\nstart Ball;\nrule Ball { spere(3m); }\n') },
   'empty.sgm': { bytes: grammar('') },
@@ -72,7 +72,9 @@ export const refusedGrammars = {
   'nested.sgm': { bytes: grammar(`sgm 1;\nstart B;\nrule B { sphere(${'('.repeat(50000)}1m); }\n`) },
 };
 
-/** Triangles thrown together, the same each time: they cross by the million, which takes long to find out. */
+/**
+ * Random overlapping triangles, the same for every call: they have millions of intersections, which take long to find.
+ */
 export function soup(count, size = 0.3) {
   let state = 1;
   const random = () => {

@@ -1,4 +1,4 @@
-// Rows of the table that HTTP itself decides: lines, headers, targets, lengths, names.
+// Rows of the table of bad input that the HTTP layer refuses: request lines, headers, targets, lengths, names.
 import { ask, must, requestBytes, talk } from './http_probe.mjs';
 import { mustBeSafe, mustBeWell, mustRefuse, problemIn } from './bad_input_rows.mjs';
 import { hugeLine, slowly, tooManyChunks } from './bad_input_sizes.mjs';
@@ -7,7 +7,7 @@ const bad = { status: 400, code: 'bad_request', closes: true };
 const missing = { status: 404, code: 'not_found', closes: false };
 const stl = { 'Content-Type': 'model/stl' };
 
-/** By name: what a client sends, and what it must be answered with. `host` is a Host field that is right. */
+/** By name: the bytes that a client sends, and the answer required. `host` is a valid Host field. */
 const refusals = (base, host) => {
   const get = (target, headers = {}) => requestBytes(base, { target, headers });
   const post = (headers, extra = {}) =>

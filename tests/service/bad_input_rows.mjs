@@ -1,15 +1,15 @@
-// A row of the table: bad bytes on a connection of their own, a good request behind them, and everything that the
-// answer must be.
+// Tests one row of the table of bad input: sends bad bytes on a new connection, followed by a valid request, and checks
+// all properties of the answer.
 import fs from 'node:fs';
 import { ask, jsonOf, must, requestBytes, talk } from './http_probe.mjs';
 
-/** What every answer of the service has. */
+/** Checks the headers that every answer of the service must have. */
 export function mustBeSafe({ headers }) {
   must(headers['x-content-type-options'] === 'nosniff', 'X-Content-Type-Options: nosniff is missing');
   must(headers['referrer-policy'] === 'no-referrer', 'Referrer-Policy: no-referrer is missing');
 }
 
-/** The problem object of an answer, which must be of that status and code. */
+/** Returns the problem object of an answer, which must have this status and code. */
 export function problemIn(answer, status, code) {
   must(answer, 'no answer came');
   const text = answer.body.toString('utf8');
@@ -32,8 +32,8 @@ export async function mustBeWell(operations) {
 }
 
 /**
- * bytes, then a good request: a connection that closes answers the first alone, one that is kept answers both.
- * wants: {status, code, closes, headers: {name: pattern}, problem(object)}
+ * Sends bytes, then a valid request: if the connection must close, only the bytes are answered; otherwise both are. The
+ * third argument is the answer required: {status, code, closes, headers: {name: pattern}, problem(object), head}.
  */
 export async function mustRefuse({ base, operations }, bytes, { status, code, closes, headers = {}, problem, head }) {
   const behind = requestBytes(base, { target: '/api/v1/reports' });
@@ -52,7 +52,7 @@ export async function mustRefuse({ base, operations }, bytes, { status, code, cl
   await mustBeWell(operations);
 }
 
-/** The processes that a process has started and not waited for: {pid, state, command}. */
+/** The child processes of a process that have not been waited for: {pid, state, command}. */
 export function childrenOf(pid) {
   const children = [];
   for (const name of fs.readdirSync('/proc').filter((entry) => /^\d+$/.test(entry))) {
@@ -63,7 +63,7 @@ export function childrenOf(pid) {
       const command = fs.readFileSync(`/proc/${name}/cmdline`, 'utf8').split('\0');
       children.push({ pid: Number(name), state, command });
     } catch {
-      // It has ended since the folder was listed.
+      // The process has ended since /proc was listed.
     }
   }
   return children;

@@ -1,11 +1,11 @@
-// What is too much, or comes too slowly: how much of it the service takes before it says so.
+// Tests input that is too large or too slow: how much of it the service accepts before it refuses it.
 import net from 'node:net';
 import { answersIn, must, place, requestBytes, sleep, talk } from './http_probe.mjs';
 import { mustBeWell, problemIn, residentMebibytes } from './bad_input_rows.mjs';
 
 const kMebibyte = 1 << 20;
 
-/** Chunk after chunk, each once there was time to refuse the one before: little more than the limit is taken. */
+/** Sends chunk after chunk, and waits after each for a refusal: the service accepts little more than its limit. */
 export async function tooManyChunks({ base, operations }) {
   const piece = Buffer.alloc(1 << 16, 'a');
   let sent = 0;
@@ -28,7 +28,7 @@ export async function tooManyChunks({ base, operations }) {
   await mustBeWell(operations);
 }
 
-/** A line that never ends: refused early, the connection closed, and none of it kept. */
+/** Sends a line that never ends: it is refused early, the connection is closed, and memory does not grow. */
 export async function hugeLine({ base, operations, pid }, beginning, status, code) {
   const { host, port } = place(base);
   const piece = Buffer.alloc(1 << 16, 'a'), before = residentMebibytes(pid);
@@ -59,7 +59,7 @@ export async function hugeLine({ base, operations, pid }, beginning, status, cod
   await mustBeWell(operations);
 }
 
-/** Starts clients that drip, beside whatever else is tested: [name, promise of the error or of nothing] for each. */
+/** Starts slow clients, which run while other tests do. Returns pairs [name, promise of the error, or of null]. */
 export function slowly({ base, operations }) {
   const drip = (beginning, bytes) => (socket, stopped) => {
     socket.write(beginning);

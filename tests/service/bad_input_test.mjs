@@ -1,4 +1,4 @@
-// Bad input, and what it is answered with.
+// Runs one group of tests with bad input, and checks the answers.
 //
 //   node bad_input_test.mjs GROUP BASE_URL OPERATIONS_URL PID WORK
 import { Checks } from './http_probe.mjs';

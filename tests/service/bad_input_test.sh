@@ -1,9 +1,10 @@
-# Every bad input of the interface's table, over real sockets: the answer it deserves, and a service that stays well.
-# (That no validator is configured cannot be reached by the command, which always names itself: unit tests cover it.)
+# Tests every bad input of the interface's table over real sockets: each gets the answer it should, and the service
+# keeps working. (The status for a service without a validator cannot be tested with the command, which always sets
+# itself as validator: unit tests cover it.)
 source "$(dirname "$0")/common.sh"
 need node nodejs
 
-# group NAME OPTIONS...: the checks of that name, against a service of its own.
+# group NAME OPTIONS...: starts a service with these options and runs this group of checks against it.
 group() {
   local name=$1
   shift
@@ -12,7 +13,7 @@ group() {
   stop_service
 }
 
-# A grammar that an upload could import, beside where the service runs and above it.
+# Grammars that an upload must not import: one in the service's working folder, one in its parent.
 ball >x.sgm
 mkdir inner && cd inner || exit 1
 cp ../x.sgm .

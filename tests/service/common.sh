@@ -1,4 +1,5 @@
-# Sourced by the tests of the metrics service: what tests/cli/common.sh has, and a service to test.
+# Sourced by the tests of the metrics service: adds functions that start and stop a service to those of
+# tests/cli/common.sh.
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$tests/../cli/common.sh"
 started=()
@@ -7,7 +8,7 @@ cleanup() {
   rm -rf "$work"
 }
 
-# need COMMAND PACKAGE: a skip where it is not there, an error where the machine was set up for it.
+# need COMMAND PACKAGE: if the command is missing, skips the test, or fails if SGM_REQUIRE_ALL is set.
 need() {
   command -v "$1" >/dev/null && return
   echo "$1 is not there: install the package $2"
@@ -27,7 +28,8 @@ url_in() {
   return 1
 }
 
-# start_service OPTIONS...: `sgm serve` on free ports; its addresses in `base` and `operations`, its process in `service`.
+# start_service OPTIONS...: starts `sgm serve` on free ports; sets `base` and `operations` to its addresses, and
+# `service` to its process.
 start_service() {
   rm -f service.out  # of an earlier one, whose addresses are not these
   "$SGM" serve --port 0 --operations-port 0 "$@" >service.out 2>service.err </dev/null &
@@ -36,7 +38,7 @@ start_service() {
   base=$(url_in service.out page) && operations=$(url_in service.out metrics) || { cat service.err >&2; exit 1; }
 }
 
-# start_flight GRAMMAR OPTIONS...: the same of `sgm fly`, whose report comes to flight.out.
+# start_flight GRAMMAR OPTIONS...: the same for `sgm fly --serve`, whose standard output goes to flight.out.
 start_flight() {
   rm -f flight.err
   "$SGM" fly "$@" --serve --port 0 --operations-port 0 >flight.out 2>flight.err </dev/null &
@@ -45,7 +47,7 @@ start_flight() {
   base=$(url_in flight.err page) && operations=$(url_in flight.err metrics) || exit 1
 }
 
-# stop_service: as an operator does; it must end well.
+# stop_service: ends the service with a signal, as an operator does; fails unless it exits normally.
 stop_service() {
   local status=0
   kill -TERM "$service"
@@ -53,7 +55,7 @@ stop_service() {
   [[ $status == 0 ]] || { failures=$((failures + 1)); echo "FAILED: the service ended with status $status" >&2; }
 }
 
-# checked NAME COMMAND...: its output is shown; counts as one test.
+# checked NAME COMMAND...: runs the command as one test, and shows its output.
 checked() {
   local name=$1
   shift

@@ -1,15 +1,15 @@
-// What the tests of samples/monitoring ask of its dashboard.
+// Checks and converts the dashboard of samples/monitoring for its tests.
 //
-//   node dashboard.mjs check METRICS DASHBOARD ALERTS   what is wrong, a line each; status 1 where there is something
-//   node dashboard.mjs rules DASHBOARD                  its expressions as recording rules, for promtool to parse
-//   node dashboard.mjs expressions DASHBOARD RANGE      those that a CPU world has answers to, one a line
+//   node dashboard.mjs check METRICS DASHBOARD ALERTS   prints errors, a line each; status 1 if there are any
+//   node dashboard.mjs rules DASHBOARD                  prints its expressions as recording rules, which promtool parses
+//   node dashboard.mjs expressions DASHBOARD RANGE      prints those that have a value for a CPU world, one a line
 import { readFileSync } from 'node:fs';
 
-// Worlds on the CPU have none of these.
+// Metrics that worlds on the CPU do not have.
 const ofDevices = { sgm_gpu_memory_bytes: ['world', 'heap'], sgm_device_lost_total: ['world'] };
-// Prometheus says these itself.
+// Metrics that Prometheus itself adds.
 const ofPrometheus = { up: [], ALERTS: ['alertname', 'alertstate', 'world'] };
-// The number of worlds is that of the lines.
+// Metrics that need no panel: the number of worlds is the number of lines in the other panels.
 const notShown = ['sgm_worlds'];
 
 const [mode, ...files] = process.argv.slice(2);
@@ -22,7 +22,8 @@ function plain(expr, range) {
   return expr.replaceAll('$__rate_interval', range).replaceAll('$instance', '.*').replaceAll('$world', '.*');
 }
 
-// The names of metrics with the labels that each has, and the values of these.
+// Parses /metrics: a map from each metric's name to its labels, and from each label to the set of its values (null: any
+// value).
 function metricsOf(text) {
   const metrics = new Map();
   for (const [, name, , labels] of text.matchAll(/^([a-z_]+)(\{(.*)\})? \S+$/gm)) {
@@ -43,7 +44,7 @@ function groupingsOf(expr) {
   return [...expr.matchAll(/\b(?:by|on) \(([^)]*)\)/g)].flatMap(([, labels]) => labels.split(/, */));
 }
 
-// What an expression names that is not there.
+// Reports the metrics, labels and values in a panel's expression that do not exist.
 function checkExpression(where, expr, metrics, used, say) {
   const selectors = [...expr.matchAll(/\b((?:sgm|process)_\w+|up|ALERTS)\b(?:\{([^}]*)\})?/g)];
   if (selectors.length === 0) say(where, `${expr} asks for nothing`);

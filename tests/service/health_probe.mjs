@@ -1,5 +1,5 @@
-// Asks /healthz every 20 ms until standard input ends, then prints every time in milliseconds: a process of its own, so
-// that what the other clients take of the machine's time in theirs does not count as the service's.
+// Requests /healthz every 20 ms until standard input ends, then prints all response times in milliseconds. It is a
+// separate process, so that the work of the test's other clients does not count as response time of the service.
 //
 //   node health_probe.mjs OPERATIONS_URL
 import http from 'node:http';

@@ -1,7 +1,10 @@
-// Speaks HTTP over a bare socket, as well or as badly as a test wants, and reads what comes back.
+// Speaks HTTP over a plain socket, correctly or with the errors that a test wants, and parses the answers.
 import net from 'node:net';
 
-/** The answers in what a server has sent. heads: which of them, by number, answer a HEAD. */
+/**
+ * Parses the answers in the bytes that a server sent. heads: the indices of those that answer HEAD requests and so have
+ * no body.
+ */
 export function answersIn(bytes, heads = []) {
   const answers = [];
   let at = 0;
@@ -35,7 +38,7 @@ export function place(base) {
   return { host: url.hostname.replace(/[[\]]/g, ''), port: Number(url.port), name: url.host };
 }
 
-/** The bytes of a request. body: undefined for none. With chunk, it goes in chunks of so many bytes. */
+/** The bytes of a request. body: undefined for none. chunk: the body is sent in chunks of this many bytes. */
 export function requestBytes(base, { method = 'GET', target = '/', headers = {}, body, chunk, version = '1.1' }) {
   const fields = { Host: place(base).name, ...headers };
   if (body !== undefined && chunk) fields['Transfer-Encoding'] = 'chunked';
@@ -56,9 +59,10 @@ export function requestBytes(base, { method = 'GET', target = '/', headers = {},
 }
 
 /**
- * Sends bytes, or what a function (socket, stop) does with the socket, and gathers what comes until the server closes,
- * `wanted` answers are there and `linger` ms have passed (to see whether it closes), or `patience` ms are over.
- * Resolves to {answers, informal, closed, reset, seconds, rest}; rejects only where no connection could be made.
+ * Sends bytes, or calls a function (socket, stop) that writes to the socket, and collects the answers until the server
+ * closes the connection, or `wanted` answers have come and `linger` ms have passed (to see whether it closes), or
+ * `patience` ms are over. Resolves to {answers, informal, closed, reset, seconds, rest}; rejects only if it cannot
+ * connect.
  */
 export function talk(base, bytes, { wanted = 1, linger = 0, patience = 20000, heads = [] } = {}) {
   const { host, port } = place(base);
@@ -114,7 +118,7 @@ export function talk(base, bytes, { wanted = 1, linger = 0, patience = 20000, he
   });
 }
 
-/** One request and its answer, on a connection of its own; null where none came. */
+/** Sends one request on a new connection; resolves to its answer, or to null if none came. */
 export async function ask(base, request, options = {}) {
   const heads = request.method === 'HEAD' ? [0] : [];
   const { answers } = await talk(base, requestBytes(base, request), { patience: 60000, heads, ...options });
@@ -124,7 +128,7 @@ export async function ask(base, request, options = {}) {
 export const jsonOf = (answer) => JSON.parse(answer.body.toString('utf8'));
 export const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
-/** Prints each check as it is made; finish() ends the process, with 1 where one failed. */
+/** Runs checks and prints each result; finish() ends the process, with status 1 if one failed. */
 export class Checks {
   #made = 0;
   #failed = [];

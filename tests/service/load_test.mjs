@@ -1,7 +1,7 @@
-// 1,000 clients at once: 590 good, 200 slow, 100 with too much, 100 malformed, 10 that upload. Every one must be answered
-// as it deserves, while the operations port answers as if nothing were.
+// Tests 1,000 clients at once: 590 valid, 200 slow, 100 with too much data, 100 malformed, 10 that upload. Each must
+// get the right answer, while the operations port answers as fast as usual.
 //
-//   node load_test.mjs BASE_URL OPERATIONS_URL PID MESH      the service takes 1 MiB an upload
+//   node load_test.mjs BASE_URL OPERATIONS_URL PID MESH      the service must accept uploads of up to 1 MiB
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import net from 'node:net';
@@ -11,7 +11,7 @@ const { hostname, port } = new URL(base);
 const mesh = fs.readFileSync(meshFile);
 const kMostMilliseconds = 50, kMostMebibytes = 256;
 
-/// Runs a client's part on a connection and gives the status that it is answered with; 0 where there is none.
+/// Runs a client's function on a new connection; resolves to the status of the answer, or 0 if there is none.
 function client(play) {
   return new Promise((resolve) => {
     const socket = net.connect(Number(port), hostname);
@@ -40,7 +40,7 @@ const good = (i) => client((socket) => {
   socket.write(`GET ${paths[i % paths.length]} HTTP/1.1\r\nHost: localhost\r\n\r\n`);
 });
 const postHead = 'POST /api/v1/validate HTTP/1.1\r\nHost: localhost\r\nContent-Type: model/stl\r\n';
-/// A byte a second: half of them within the head, half within the body.
+/// A client that sends one byte a second: every other one within the head, the others within the body.
 const slow = (i) => client((socket) => {
   socket.write(i % 2 === 0 ? 'GET / HTTP/1.1\r\nHost: localhost\r\nX-Slow: ' : `${postHead}Content-Length: 100000\r\n\r\n`);
   return setInterval(() => socket.write('a'), 1000);

@@ -1,4 +1,4 @@
-# 1,000 clients at once, most of them no friends.
+# Tests a service with 1,000 clients at once, most of them hostile.
 source "$(dirname "$0")/common.sh"
 need node nodejs
 

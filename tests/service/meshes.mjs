@@ -1,11 +1,13 @@
-// Meshes and grammars for the tests of the service: good ones, and one for each way to be bad.
+// Meshes and grammars for the tests of the service: valid ones, and one for each defect.
 //
-//   node meshes.mjs FOLDER     writes them all
+//   node meshes.mjs FOLDER     writes all of them to the folder
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-/** A closed ball: an octahedron whose triangles are divided in four `levels` times; 8 * 4^levels triangles. */
+/**
+ * A closed ball: an octahedron whose triangles are divided into four, `levels` times; it has 8 * 4^levels triangles.
+ */
 export function ball(levels, radius = 1) {
   const points = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
   let triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
@@ -29,8 +31,7 @@ export function ball(levels, radius = 1) {
 }
 
 /**
- * A .glb of a mesh. change(json, bin) may spoil what is written, text(json) how; without_bin leaves the binary part
- * out.
+ * A mesh as .glb. change(json, bin) may damage its contents, text(json) its text; without_bin omits the binary part.
  */
 export function glb({ points, triangles }, { change = () => {}, text = JSON.stringify, without_bin = false } = {}) {
   const bin = Buffer.alloc(points.length * 12 + triangles.length * 12);
@@ -101,7 +102,10 @@ export const types = {
 
 const small = ball(3);
 
-/** By file name: what to send, and whether it is a solid (true, false) or refused (null, a 422). */
+/**
+ * By file name: the bytes to upload, and the expected result: a solid (true), no solid (false), or refused with 422
+ * (null).
+ */
 export const files = {
   'sphere.glb': { valid: true, bytes: () => glb(small) },
   'sphere.obj': { valid: true, bytes: () => obj(small) },

@@ -1,4 +1,4 @@
-// A real browser for the test of the page, that notes whatever a page asks for and complains of.
+// A real browser for the test of the page, which records all requests of the page and all its errors.
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
@@ -20,7 +20,10 @@ export async function openBrowser(node_modules) {
   return chromium.launch({ executablePath: '/usr/bin/chromium', args: flags });
 }
 
-/** A page of its own context, at `base`, and what it has done: requests, console errors, violations of the policy. */
+/**
+ * Opens the page of `base` in a new browser context; records its requests, console errors, and violations of the
+ * content security policy.
+ */
 export async function openPage(browser, base, { before = async () => {}, at = '/', ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
   const page = await context.newPage();
@@ -28,7 +31,7 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   page.on('request', (request) => noted.requests.push(request.url()));
   page.on('pageerror', (error) => noted.errors.push(String(error.stack)));
   page.on('console', (message) => {
-    // The test itself reads what WebGL has drawn, which the driver finds slow.
+    // Drivers warn that reading WebGL pixels is slow; only the test does that.
     const ours = message.text().includes('GPU stall due to ReadPixels') || message.text().includes('too many errors');
     if (['error', 'warning'].includes(message.type()) && !ours) noted.errors.push(message.text());
   });
@@ -41,14 +44,14 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   await before(page);
   await page.goto(base + at);
   const close = async () => {
-    // An answer that is being changed when the page goes is nobody's any more.
+    // An answer that is still being replaced when the page closes is no error.
     await page.unrouteAll({ behavior: 'ignoreErrors' });
     await context.close();
   };
   return { page, noted, close };
 }
 
-/** Drops files on the page: [{name, bytes}]. told(): called while they hang over it. */
+/** Drops files on the page: [{name, bytes}]. told() is called while they are dragged over it. */
 export async function dropFiles(page, files, told = async () => {}) {
   const transfer = await page.evaluateHandle(
     (list) => {
@@ -65,7 +68,7 @@ export async function dropFiles(page, files, told = async () => {}) {
   await page.dispatchEvent('main', 'drop', { dataTransfer: transfer });
 }
 
-/** Runs send() and gives back the report of the upload that it causes, once the page shows that. */
+/** Calls send(), and resolves to the report of the upload that it causes, once the page shows that report. */
 export async function uploaded(page, send) {
   const [answer] = await Promise.all([
     page.waitForResponse((response) => response.url().includes('/api/v1/validate'), { timeout: 60000 }),
@@ -78,7 +81,7 @@ export async function uploaded(page, send) {
   return id;
 }
 
-/** How many colours the middle of an element's picture has, and a sum that tells two pictures apart. */
+/** The number of colours in the middle of an element's picture, and a checksum for comparing pictures. */
 export async function pictureOf(page, selector) {
   return page.evaluate((wanted) => {
     const canvas = document.querySelector(wanted),

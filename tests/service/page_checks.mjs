@@ -1,4 +1,4 @@
-// Checks that print what they have found, and count.
+// Runs checks, prints and counts their results; and other helpers of the test of the page.
 
 export const pause = (milliseconds) =>
   new Promise((resolve) => {
@@ -32,7 +32,7 @@ export class Checks {
   }
 }
 
-/** The first true answer of ask(), or its last one after so many seconds. */
+/** Calls ask() until its result is true, for `seconds` at most; resolves to the last result. */
 export async function until(ask, seconds = 20) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
@@ -42,7 +42,7 @@ export async function until(ask, seconds = 20) {
   }
 }
 
-/** Samples of Prometheus' text: [{name, labels, value}]. */
+/** Parses Prometheus' text format: [{name, labels, value}]. */
 export function readMetrics(text) {
   return text
     .split('\n')
@@ -56,7 +56,7 @@ export function readMetrics(text) {
     });
 }
 
-/** The sum over all series of a name that have these labels; null where there are none. */
+/** The sum of all series of this name with these labels; null if there are none. */
 export function sumOf(samples, name, labels) {
   const found = samples.filter(
     (one) => one.name === name && Object.entries(labels).every(([key, value]) => one.labels[key] === value),

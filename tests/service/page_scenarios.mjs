@@ -1,4 +1,5 @@
-// What the page shows of the service's worlds: charts beside /metrics, the map beside its interface, and hard times.
+// Tests what the page shows of worlds: charts compared with /metrics, the map compared with the HTTP interface, and
+// failures of the service.
 import { openPage, pictureOf } from './page_browser.mjs';
 import { pause, readMetrics, sumOf, until } from './page_checks.mjs';
 
@@ -6,7 +7,7 @@ export const isLive = (page) => page.waitForSelector('.connection[data-state="li
 const shown = (page, series) =>
   page.$eval(`[data-series="${series}"]`, (node) => (node.value === '' ? null : Number(node.value)));
 
-/** Scrapes what the page samples too, at more places in time. */
+/** Reads from /metrics the values that the page's charts show, every 120 ms, for some seconds. */
 async function scrape(operations, seconds, world) {
   const scrapes = [],
     end = Date.now() + 1000 * seconds;
@@ -36,7 +37,7 @@ async function scrape(operations, seconds, world) {
   return scrapes;
 }
 
-/** In milliseconds: between which bounds of the histogram a share of the updates ends. */
+/** The bounds, in milliseconds, of the histogram bucket in which this share of all updates is reached. */
 function bracket(buckets, share) {
   const wanted = share * (buckets.at(-1)?.count ?? 0),
     i = buckets.findIndex((bucket) => bucket.count >= wanted);
@@ -69,7 +70,7 @@ export async function chartsBesideMetrics(checks, page, operations) {
       `${values[key]} among ${seen.slice(-8).join(', ')}`,
     );
   }
-  // The page tells the rate over the last few seconds: it lies within the rates over all spans of 2 s to 6 s.
+  // The page shows the rate over the last few seconds: it must lie within the rates over all spans of 2 s to 6 s.
   const rates = scrapes.flatMap((a) =>
     scrapes.filter((b) => b.time - a.time > 2).map((b) => (b.built - a.built) / (b.time - a.time)),
   );
@@ -130,7 +131,7 @@ export async function mapBesideInterface(checks, page) {
   await page.check('#map-all');
 }
 
-/** What the page asks for, answered otherwise: change(json) may change it. */
+/** Replaces answers to the page's requests for `path` by change(json). */
 const changed = (page, path, change) =>
   page.route(path, async (route) => {
     const response = await route.fetch();

@@ -1,9 +1,9 @@
-// The metrics service's page in a real browser.
+// Tests the metrics service's page in a real browser.
 //
 //   node page_test.mjs BASE_URL OPERATIONS_URL VALID_MESH DEFECTIVE_MESH SCREENSHOT_DIR NODE_MODULES
 //
-// BASE_URL: of a service that watches a world that streams, with measures. VALID_MESH, DEFECTIVE_MESH: .glb files, the
-// second with holes. NODE_MODULES: a folder that has playwright-core. Exit status 0 where all checks hold.
+// BASE_URL: a service that watches a streaming world, with measures. VALID_MESH, DEFECTIVE_MESH: .glb files, the second
+// with holes. NODE_MODULES: a folder with playwright-core. Exit status 0 if all checks pass.
 import fs from 'node:fs';
 import path from 'node:path';
 import { openBrowser, openPage, pictureOf } from './page_browser.mjs';
@@ -46,7 +46,7 @@ const isQuiet = (noted) => {
   checks.equal('no error in the console', noted.errors, []);
 };
 
-/** What the focus passes on its way through the page: ids, or what stands for them. */
+/** Moves the focus through the page with the Tab key; returns the ids, or other names, of the focused elements. */
 async function tabThrough(page, most = 90) {
   const passed = [];
   for (let i = 0; i < most; ++i) {
@@ -62,7 +62,7 @@ async function tabThrough(page, most = 90) {
         node.tagName
       );
     });
-    if (at.includes('SG+M')) break; // the body: past the last
+    if (at.includes('SG+M')) break; // the focus is on the body, past the last element
     passed.push(at);
   }
   return passed;
@@ -117,7 +117,8 @@ async function keyboard(id) {
     chooser = opened;
   });
   await page.focus('#upload-input');
-  await page.waitForTimeout(500); // the browser is told of the listener meanwhile: a chooser of its own comes else
+  // Until the browser knows of the listener, it would open its own file chooser.
+  await page.waitForTimeout(500);
   await page.keyboard.press('Space');
   checks.check('space asks for files', await until(() => chooser?.isMultiple(), 10));
   await page.focus(`[data-report="${id}"].link`);

@@ -1,4 +1,5 @@
-// What the page does with files: verdicts beside the interface's reports, problems, hostile names, the mesh's view.
+// Tests uploads on the page: results compared with the reports of the HTTP interface, problems, hostile file names, the
+// view of the mesh.
 import fs from 'node:fs';
 import path from 'node:path';
 import { dropFiles, openPage, pictureOf, uploaded } from './page_browser.mjs';
@@ -14,7 +15,7 @@ const fileOf = (file, name = path.basename(file)) => ({
 export const choose = (page, ...files) => page.setInputFiles('#upload-input', files);
 const surface = '#mesh-view canvas:first-child';
 
-/** Each measure that the page shows, beside the report's. */
+/** Compares each measure that the page shows with that of the report. */
 async function measuresAgree(checks, page, report) {
   const rows = await page.$$eval('[data-measure]', (all) => all.map((node) => [node.dataset.measure, node.value]));
   // `flat` names triangles without an area, and edges without a bend.

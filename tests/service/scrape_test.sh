@@ -1,4 +1,4 @@
-# A real Prometheus with the configuration of samples/monitoring watches a real flight.
+# Tests a real Prometheus, with the configuration of samples/monitoring, that watches a real flight.
 source "$(dirname "$0")/common.sh"
 need prometheus prometheus
 need curl curl
@@ -6,14 +6,15 @@ need node nodejs
 samples=$SOURCE/samples/monitoring
 frames=900
 
-# ask EXPRESSION: its answer in .out, as {"status":"success","data":{"result":[{"metric":{},"value":[time,"1"]}]}}.
+# ask EXPRESSION: queries Prometheus; writes the answer to .out, as
+# {"status":"success","data":{"result":[{"metric":{},"value":[time,"1"]}]}}.
 ask() { run curl -sS --max-time 20 -G "$prometheus/api/v1/query" --data-urlencode "query=$1"; }
-# value EXPRESSION: the only number that it has, or nothing.
+# value EXPRESSION: prints the value if the result has exactly one series, otherwise an empty line.
 value() {
   ask "$1"
   node -pe 'const r = JSON.parse(require("fs").readFileSync(0)).data.result; r.length === 1 ? r[0].value[1] : ""' <.out
 }
-# wait_for EXPRESSION: until Prometheus finds it true, for two minutes.
+# wait_for EXPRESSION: waits up to two minutes until the expression has a value in Prometheus.
 wait_for() {
   for ((i = 0; i < 240; ++i)); do
     [[ -n $(value "$1") ]] && return
@@ -23,13 +24,13 @@ wait_for() {
   return 1
 }
 same() { [[ $2 == "$3" ]] || failed "$1: $2 is not $3"; }
-# now_in FILE EXPRESSION: of the JSON j in it.
+# now_in FILE EXPRESSION: prints the value of a JavaScript expression, where j is the JSON in the file.
 now_in() {
   node -pe 'const j = JSON.parse(require("fs").readFileSync(process.argv[1])); eval(process.argv[2])' "$1" "$2"
 }
 
 start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames "$frames" --speed 60 --keep-serving --json
-# Every second instead of every 5, and what is down is down after 2 s.
+# Scrapes every second instead of every 5, and alerts after 2 s without an answer.
 sed "s/127\.0\.0\.1:9464/${operations#http://}/; s/: 5s$/: 1s/" "$samples/prometheus.yml" >prometheus.yml
 sed '/up{job="sgm"}/,/for:/s/for: 1m/for: 2s/' "$samples/alerts.yml" >alerts.yml
 for file in prometheus.yml alerts.yml; do cmp -s $file "$samples/$file" && failed "$file was not adjusted"; done
@@ -43,14 +44,14 @@ for ((i = 0; i < 600; ++i)); do
 done
 [[ -s ready ]] || { cat prometheus.out >&2; exit 1; }
 
-# While it flies.
+# During the flight.
 wait_for 'up{job="sgm"} == 1'
 wait_for 'sum(rate(sgm_chunks_built_total{result="meshed"}[5s])) > 0'
 ball >ball.sgm
 run curl -sS --max-time 60 --data-binary @ball.sgm -H 'Content-Type: text/x-sgm' "$base/api/v1/validate?cell=0.25"
 json 'j.state === "done" && j.valid === true'
 
-# When it has landed, and nothing is made any more.
+# After the flight, when all chunks are made.
 wait_for "sgm_world_update_seconds_count{world=\"cave\"} >= $frames"
 wait_for 'sgm_world_idle == 1 and on (world) sum by (world) (sgm_queue_depth) == 0'
 run curl -sS --max-time 20 "$base/api/v1/summary"
@@ -75,13 +76,13 @@ of_world 'sum(sgm_chunk_build_seconds_count)' chunks.meshed
 same area "$(value 'round(sgm_surface_area_square_meters)')" \
   "$(now_in summary 'Math.round(j.worlds[0].measures.area_square_meters)')"
 wait_for 'sgm_validations_total{result="valid"} == 1 and on () sgm_validation_seconds_count == 1'
-# A machine that is busy may let a second pass; the service must not break a scrape off.
+# A busy machine may exceed a scrape's deadline of a second; no other error of a scrape is allowed.
 grep -a "Scrape failed" prometheus.out | grep -v "context deadline exceeded" >broken
 [[ ! -s broken ]] || failed "scrapes broke off: $(<broken)"
 [[ -n $(value 'avg_over_time(up{job="sgm"}[10m]) > 0.8') ]] || failed "more than one scrape in five came too late"
 [[ $(value 'max_over_time(sum(rate(sgm_chunks_built_total{result="meshed"}[5s]))[10m:1s])') != 0 ]] || failed "no rate"
 
-# What the dashboard asks for has answers.
+# All expressions of the dashboard have values.
 count=0
 while IFS= read -r expression; do
   ask "$expression"
@@ -90,12 +91,13 @@ while IFS= read -r expression; do
 done < <(node "$tests/dashboard.mjs" expressions "$samples/dashboard.json" 30s)
 ((count > 40)) || failed "only $count expressions were asked"
 
-# All alerts are there and healthy, and none of them fires.
+# All alerts are loaded without errors, and none of them fires.
 run curl -sS --max-time 20 "$prometheus/api/v1/rules?type=alert"
 json "j.data.groups.flatMap((g) => g.rules).length === $(grep -c -- '- alert:' "$samples/alerts.yml")"
 json 'j.data.groups.flatMap((g) => g.rules).every((r) => r.health === "ok" && r.state !== "firing")'
 
-# The flight's own report agrees, and that it is gone is told.
+# Prometheus' last values agree with the flight's own report; when the flight has ended, the alert for a missing service
+# fires.
 meshed=$(value 'sgm_chunks_built_total{result="meshed"}')
 updates=$(value sgm_world_update_seconds_count)
 stop_service

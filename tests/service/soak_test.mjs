@@ -1,4 +1,4 @@
-// Mixed load for a while: the service must be as small at its end as it was when warm.
+// Tests a mixed load for some time: at the end, the service must use as much memory as after its warm-up.
 //
 //   node soak_test.mjs BASE_URL OPERATIONS_URL PID MESH SECONDS FOLDER
 //
@@ -9,10 +9,11 @@ import path from 'node:path';
 
 const [base, operations, pid, meshFile, secondsText, folder] = process.argv.slice(2);
 const seconds = Number(secondsText), mesh = fs.readFileSync(meshFile);
-/// Of resident memory after the warm-up: what allocators keep varies by so much, whatever the time.
+/// Allowed growth of resident memory in MiB after the warm-up: allocators' use of memory varies by this much at any
+/// time.
 const kMostGrowth = 6;
 const kClients = 6;
-/// Milliseconds between a client's requests: the machine has other work.
+/// Milliseconds between a client's requests, so that other processes of the machine are not slowed down.
 const kPause = 30;
 const until = Date.now() + seconds * 1000;
 let failures = 0, asked = 0;
@@ -26,7 +27,7 @@ async function asks(url, wanted, options = {}) {
 }
 const post = (body, type, wanted) => asks(`${base}/api/v1/validate?name=soak`, wanted, { method: 'POST', body, headers: { 'content-type': type } });
 
-/// A client that leaves in the middle of what it says.
+/// A client that closes its connection in the middle of its request.
 function leaves(text) {
   const { hostname, port } = new URL(base);
   return new Promise((resolve) => {
@@ -67,7 +68,7 @@ sample();
 const timer = setInterval(sample, Math.max(1000, seconds * 5));
 await Promise.all(Array.from({ length: kClients }, (_, number) => client(number)));
 clearInterval(timer);
-// What was left behind by clients that went away must not stay: connections that are kept alive end after 15 s.
+// Connections of clients that have left must be closed: those kept alive end after 15 s.
 for (let i = 0; i < 25 && (i < 2 || samples.at(-1).files > samples[0].files + 2); ++i) {
   await new Promise((resolve) => setTimeout(resolve, 1000));
   sample();

@@ -1,4 +1,4 @@
-// Two kinds of charts as SVG: bars against what was asked, and curves on logarithmic axes.
+// Draws two kinds of charts as SVG: bars of a measured value relative to its target, and curves on logarithmic axes.
 
 const escaped = (s) => String(s).replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;');
 export const short = (x) => String(+x.toPrecision(3));
@@ -9,7 +9,8 @@ function page(width, height, body) {
     `font-size="12" fill="#111"><rect width="100%" height="100%" fill="#fff"/>${body}</svg>\n`;
 }
 
-/// rows: { name, reached, asked, unit, atMost }. A bar is how far beyond what was asked: 1 is the line.
+/// rows: { name, reached, asked, unit, atMost }. A bar's length is `reached` relative to the target `asked`, inverted
+/// where the target is an upper bound (atMost): at 1, the dashed line, the target is met.
 export function bars(title, rows) {
   const left = 500, unit = 150, height = 24, top = 44, most = 3.2;
   const drawn = rows.map((row, i) => {
@@ -27,7 +28,7 @@ export function bars(title, rows) {
     `<path d="M${left + unit} ${top - 8}V${end}" stroke="#111" stroke-dasharray="4 3"/>`);
 }
 
-/// panels: { title, x, y, lines: [{ name, points: [[x, y]], exponent }] }.
+/// Draws one chart of curves for each panel; panels: { title, x, y, lines: [{ name, points: [[x, y]], exponent }] }.
 export function curves(panels) {
   const wide = 330, tall = 280, left = 58, bottom = 44, top = 34, columns = 3;
   const drawn = panels.map((panel, number) => {
@@ -36,7 +37,7 @@ export function curves(panels) {
     const range = (k) => {
       const values = all.map((p) => Math.log10(p[k]));
       const lo = Math.min(...values), hi = Math.max(...values), pad = Math.max(0.08, 0.06 * (hi - lo));
-      // Above, room for what the lines are called.
+      // The y axis gets extra room at the top for the names of the curves.
       return [lo - pad, hi + pad + (k === 1 ? (0.14 + 0.09 * panel.lines.length) * Math.max(0.3, hi - lo) : 0)];
     };
     const [x0, x1] = range(0), [y0, y1] = range(1);
@@ -67,7 +68,7 @@ export function curves(panels) {
   return page(columns * (wide + 24), Math.ceil(panels.length / columns) * (tall + 24), drawn.join(''));
 }
 
-/// The slope of log y by log x, by least squares.
+/// The slope of log y over log x, by least squares: the exponent of a power law through the points.
 export function exponent(points) {
   const x = points.map((p) => Math.log(p[0])), y = points.map((p) => Math.log(p[1]));
   const mean = (v) => v.reduce((a, b) => a + b, 0) / v.length;

@@ -1,13 +1,15 @@
-// How fast we are beside what a user would pick instead, and how our time grows. Every side is a process of its own on the
-// same samples; a round runs all of them one after the other, and what is told is the median over rounds of the ratio
-// within a round. A time counts only if the meshes are the same surface. See ../README.md.
+// Measures how fast we are relative to what a user would choose instead, and how our time grows with the input. Each
+// competitor is a separate process on the same samples; a round runs all of them one after the other, and the result is
+// the median over the rounds of the ratio within a round. A time counts only if the meshes are the same surface. See
+// ../README.md.
 //
 //   node tests/bench/speed/speed.mjs BIN OUT [--cells 256] [--runs 7] [--rounds 3] [--threads 1,2] [--no-growth]
 //                      [--as-installed]
 //
 //   BIN   the folder of sgm_bench_ours and the other sides     OUT   where speed.csv, speed.json and the charts go
 //
-// Exit status 1 where a mesh of ours is wrong. A peer that is not there is named with its package, and left out.
+// Exit status 1 if a mesh of ours is wrong. A competitor that is not installed is reported with its package, and left
+// out.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -39,10 +41,10 @@ function fail(message) {
   process.exit(2);
 }
 
-const measured = [];  // every answer, as it was given
+const measured = []; // every parsed answer of a program, with its scene and side
 let wrong = 0;
 
-/// Runs a side; its answer as an object, numbers as numbers.
+/// Runs a competitor's program; returns the key=value words that it prints as an object, with numbers as numbers.
 function run(program, args, env = {}) {
   const done = spawnSync(program, args.map(String), { encoding: 'utf8', env: { ...process.env, ...env }, maxBuffer: 1 << 26 });
   if (done.status !== 0) fail(`${program} ${args.join(' ')}: ${done.error?.message ?? done.stderr.trim()}`);
@@ -58,15 +60,17 @@ const ours = (set, ...args) => {
   if (set && answer.set !== set) fail(`sgm_bench_ours was asked for ${set} and took ${answer.set}`);
   return answer;
 };
-// As our runtime keeps its blocks, so malloc keeps a peer's, and asks for large pages as we do: where fresh pages are
-// dear, they would be all that is timed. With --as-installed they are.
+// Our runtime keeps freed blocks and requests large pages, so malloc is set to do the same for competitors: on machines
+// where fresh pages are slow, otherwise only page faults would be timed. With --as-installed, malloc keeps its
+// defaults.
 const keeping = options.keep
   ? { GLIBC_TUNABLES: 'glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=4294967296:glibc.malloc.hugetlb=1' }
   : {};
 const rival = (program, args) => run(program, args, keeping);
 const machine = (...args) => rival(path.join(bin, 'sgm_bench_machine'), args);
 
-/// Those that this process may run on, in the order in which the sides pin themselves.
+/// The numbers of the processors that this process may run on, in the order in which the programs pin their threads to
+/// them.
 function allowedProcessors() {
   const list = /^Cpus_allowed_list:\s*(.*)$/m.exec(fs.readFileSync('/proc/self/status', 'utf8'))[1];
   return list.split(',').flatMap((part) => {
@@ -111,9 +115,9 @@ const note = (what, answer) => {
   return answer;
 };
 
-/// What must be true of our mesh before its time means anything. A genus may differ only as far as faces are ambiguous,
-/// whose diagonals each rule chooses its own way. Areas are compared where cells are small beside what they show: of
-/// fewer, OpenVDB's dual surface cuts corners off.
+/// Checks what must hold for our mesh before its time means anything. The Euler characteristic may differ only by the
+/// number of ambiguous faces, whose diagonals each method chooses in its own way. Areas are compared only where cells
+/// are small relative to the features: on coarse grids, OpenVDB's dual surface cuts corners off.
 function compare(scene, mine, peer, name) {
   if (options.cells >= 256 && Math.abs(mine.area - peer.area) > 0.01 * peer.area) tell(`${scene}: area ${mine.area} is not within 1 % of ${peer.area} of ${name}`);
   const handles = Math.abs(mine.euler - peer.euler);
@@ -122,7 +126,7 @@ function compare(scene, mine, peer, name) {
   return handles === 0 ? 'same genus' : `Euler ${mine.euler} and ${peer.euler}, ${mine.ambiguous} ambiguous faces`;
 }
 
-const asked = [];  // rows of the table of what is asked
+const asked = []; // rows of the table of targets
 const ask = (name, reached, what) => {
   asked.push({ name, reached, unit: '', ...what });
 };
@@ -213,8 +217,8 @@ ask('a surface chunk of cave.sgm, from cells to packed mesh',
 ask('10,000 spheres by 1,000 at equal filling',
   median(rounds(() => mesh('spheres:10000', options.cells, 1).median / mesh('spheres:1000', options.cells, 1).median)),
   { asked: 3, aim: 1.5, unit: '×', atMost: true });
-// Processors of a shared machine differ by as much as what others do beside them. What two threads can do is what each
-// of their processors does with one.
+// The speed of processors of a shared machine depends on the load of their neighbours. So two threads are compared with
+// the sum of what each of their two processors reaches with one thread.
 const processors = allowedProcessors();
 if (threadCounts.includes(1) && threadCounts.includes(2) && processors.length >= 2) {
   const scaling = (name, scene, stage) => ask(name, median(rounds(() => {
@@ -270,7 +274,7 @@ if (options.growth) {
   fs.writeFileSync(path.join(out, 'growth.svg'), curves(panels));
 }
 
-// ---- what is asked, and what was reached
+// ---- targets, and what was reached
 
 const met = (row) => (row.atMost ? row.reached <= row.asked : row.reached >= row.asked);
 console.log('\n| | reached | asked | aim | |\n|---|---|---|---|---|');
