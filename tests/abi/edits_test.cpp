@@ -153,7 +153,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
   CHECK(hit.inside == 0);
   CHECK(std::abs(hit.distance - 3) < 0.01);
   REQUIRE(sgm_field_ray_cast(field.get(), &ray, &hit, nullptr) == SGM_OK);
-  CHECK(hit.inside == 1);  // the field itself is as it was
+  CHECK(hit.inside == 1);  // the field itself is unchanged
 
   settle(world.get(), engine);
   CHECK(statsOf(world.get()).edits == 1);
@@ -243,7 +243,7 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
     sgm_world* second = nullptr;
     CHECK(sgm_world_create(field.get(), &desc, &second, &error) == SGM_ERR_LIMIT);  // the journal is in use
   }
-  // Another seed is another world.
+  // A journal belongs to one world: with another seed it is refused.
   const RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kRock);
   sgm_field_desc of = SGM_FIELD_DESC_INIT;

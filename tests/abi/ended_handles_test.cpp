@@ -230,7 +230,7 @@ TEST_CASE("each kind of handle ended twice: a code, a line in the log, and no mo
     const sgm_viewer viewer = SGM_VIEWER_INIT;
     REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
 
-    // What the world streams is kept by it alone when it begins to.
+    // After creation, the world alone owns everything that it needs for streaming.
     END_TWICE(sgm_diagnostics_destroy, diagnostics);
     END_TWICE(sgm_parameters_destroy, parameters);
     END_TWICE(sgm_grammar_destroy, grammar);
@@ -304,7 +304,7 @@ TEST_CASE("owners are counted, and a handle has ended once none is left, in any 
           }
         }
         std::erase_if(known, forgotten);
-        // The first that is remembered still.
+        // The oldest ended handle that the library still recognises as ended.
         for (Known& k : known)
           if (k.owners == 0 && ended - k.ended == kRemembered - 1) release(k);
       }

@@ -121,7 +121,7 @@ TEST_CASE("random grids of odd sizes are closed inside, and equal for any number
   for (unsigned round = 0; round < sgm::rounds(12); ++round) {
     const auto side = [&] { return static_cast<uint32_t>(2 + random() % 70); };
     Grid grid(side(), side(), side());
-    // A border in the open, so that the surface is closed.
+    // The grid's border is void, so that the surface is closed.
     grid.fill([&](double x, double y, double z) {
       const bool border =
           x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
@@ -153,7 +153,8 @@ TEST_CASE("a grid of many slabs is meshed alike however many there are, and howe
     const auto side = [&](unsigned least) { return static_cast<uint32_t>(least + random() % 100); };
     Grid grid(side(200), side(150), 40 + static_cast<uint32_t>(random() % 20));
     grid.fill([&](double x, double y, double z) {
-      // Rows as the mesher chooses them to find out how much there will be (api/grid_mesh.cpp).
+      // This chooses the same sample rows as the mesher does when it estimates the size of the result
+      // (api/grid_mesh.cpp).
       const double turn = z * 0.6180339887498949, row = std::floor((turn - std::floor(turn)) * (grid.size[1] - 2));
       const bool solid[] = {std::sin(x * 0.31) + std::sin(y * 0.37) + std::sin(z * 0.41) < 0,
                             x > 90 && x < 96 && y > 70 && y < 75 && (z < 3 || z > 30),
@@ -177,7 +178,7 @@ TEST_CASE("a grid of many slabs is meshed alike however many there are, and howe
       }
       CHECK(sgm_surface_hash(surface.get()) == first);
     }
-    // A value that is no number, wherever it is, ends all who work.
+    // A NaN at any sample makes the call fail, with any number of threads.
     grid.at(random() % grid.size[0], random() % grid.size[1], random() % grid.size[2]) = std::nanf("");
     for (const uint32_t threads : {1u, 5u}) {
       sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;

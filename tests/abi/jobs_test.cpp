@@ -184,7 +184,7 @@ TEST_CASE("a job system without threads, which runs its jobs in help alone", "[t
     RuntimeOwner runtime = makeRuntime(&desc);
     const uint64_t expected = expectedHash();
     CHECK(workOn(runtime.get()) == expected);
-    // Two calls at one time, each of which may run the other's shares.
+    // Two concurrent calls, each of which may run job shares of the other.
     const uint64_t grid = gridHash(runtime.get());
     CHECK(grid != 0);
     uint64_t other = 0;
@@ -194,7 +194,7 @@ TEST_CASE("a job system without threads, which runs its jobs in help alone", "[t
     CHECK(mine == grid);
     CHECK(other == grid);
   }
-  // What was left of finished calls has run before the runtime ended.
+  // Jobs left over from finished calls have run before the runtime was destroyed.
   CHECK(helped.waiting.empty());
   CHECK(helped.ran > 0);
 }

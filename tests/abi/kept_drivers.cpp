@@ -7,7 +7,7 @@
 namespace {
 
 [[maybe_unused]] const bool drivers_stay = [] {
-  // Drivers are loaded as long as there is an instance.
+  // Vulkan drivers stay loaded as long as an instance exists.
   const auto instance = sgm::vulkan::Instance::create();
   if (instance) sgm::vulkan::keepLibraries();
   return static_cast<bool>(instance);

@@ -130,7 +130,8 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::fre
 TEST_CASE("each allocation from the allocator fails in turn") {
   Failing failing;
   const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
-  // One after another at first, then in growing steps: thousands of allocations differ only in their container.
+  // Fails each of the first allocations, then every n-th in growing steps: later allocations repeat the same code paths
+  // for another container.
   int64_t tries = 0;
   for (int64_t n = 0;; n += 1 + n / 64) {
     failing.left = n;
@@ -185,7 +186,7 @@ TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
 }
 
 TEST_CASE("threads that mesh a grid together end together, whichever of them has no memory") {
-  // Planes so large that four are a slab, of which there are more than threads; a ball reaches into all.
+  // Planes so large that four make a slab; there are more slabs than threads, and a ball extends into all of them.
   constexpr size_t kX = 512, kY = 256, kZ = 18;
   constexpr size_t kCount = kX * kY * kZ;
   const std::unique_ptr<float, void (*)(void*)> values(static_cast<float*>(std::malloc(kCount * sizeof(float))),

@@ -93,7 +93,7 @@ TEST_CASE("copies are what the view shows, and say how much room they need") {
         SGM_INCOMPLETE);
   CHECK(too_few == index_count);
 
-  // Into larger elements, of which the rest stays as it is.
+  // Vertices are written into larger elements, whose other bytes stay unchanged.
   struct Wide {
     sgm_vertex vertex;
     uint32_t index, mine;
@@ -222,7 +222,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   desc.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; };
   CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_ERR_CANCELLED);
   CHECK(made == nullptr);
-  // When all is done, nothing is left to stop.
+  // Stopping in the last progress call has no effect, since the work is done.
   desc.progress = [](void*, uint64_t done, uint64_t total) -> int32_t { return done == total ? 1 : 0; };
   CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_OK);
   sgm_surface_destroy(made);
@@ -385,7 +385,7 @@ TEST_CASE("anchors: listed in order, in the chunk that holds them, once") {
     CHECK(wide[i].anchor.key == anchors[i].key);
     CHECK(wide[i].mine == 77);
   }
-  // A box that more cells reach into than anyone waits for is refused in words of its own.
+  // A box that overlaps too many cells is refused with its own message.
   const int32_t from[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, to[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
   sgm_error error = SGM_ERROR_INIT;
   CHECK(sgm_field_anchors(field.get(), from, to, nullptr, 0, &count, &error) == SGM_ERR_LIMIT);
@@ -442,7 +442,7 @@ TEST_CASE("parameters and seed reach the mesh") {
   sgm_field* field = nullptr;
   REQUIRE(sgm_field_create(runtime.get(), &desc, &field, nullptr) == SGM_OK);
   const FieldOwner field_owner(field);
-  // The field has its own copy.
+  // The field has its own copy of the parameters.
   REQUIRE(sgm_parameters_set(parameters, "radius", 3.5, nullptr) == SGM_OK);
   const std::vector<MeshOwner> meshes = meshChunks(field, {chunkAt({0, 0, 0, 0}, 0)});
   const sgm_mesh_view view = viewOf(meshes[0]);
@@ -467,7 +467,7 @@ TEST_CASE("regions and chunks have sharp features where they are asked for") {
       compile(runtime.get(),
               "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // How far the farthest vertex lies from the middle: a corner of the box.
+  // The distance of the farthest vertex from the middle: that of a corner of the box.
   const auto farthest = [&](uint32_t flags) {
     sgm_region_desc desc = SGM_REGION_DESC_INIT;
     for (int axis = 0; axis < 3; ++axis) desc.maximum[axis] = 8 * SGM_UNITS_PER_METRE;

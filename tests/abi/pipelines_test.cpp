@@ -42,7 +42,7 @@ std::vector<std::string> warningsOfABall(const fs::path& folder) {
                           },
                           &warnings};
   {
-    // The path is copied.
+    // The library must copy the path.
     std::string path = folder.string();
     sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
     desc.log = &sink;

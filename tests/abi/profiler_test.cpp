@@ -64,7 +64,8 @@ class ZoneRecord {
     ++counts[zone];
     ++within[{stack.empty() ? "" : stack.back().name, zone}];
     pointers[zone].insert(zone);
-    next_ = next_ * 6364136223846793005u + 1442695040888963407u;  // every bit comes back, too
+    // Every bit of the returned value must be passed back to end().
+    next_ = next_ * 6364136223846793005u + 1442695040888963407u;
     stack.push_back({zone, next_});
     return next_;
   }
@@ -197,7 +198,7 @@ TEST_CASE("zones nest on each thread, and all of them are there", "[threads]") {
   CHECK(record.counts["sgm.region"] == 1);
   CHECK(record.counts["sgm.update"] == updates);
   CHECK(record.within[{"", "sgm.region"}] == 1);
-  // A cell is derived while a chunk is compiled, and the layer below while that cell is.
+  // A layer's cell is derived while a chunk is compiled, and cells of the layer below while that cell is derived.
   CHECK(record.within[{"sgm.compile", "sgm.derive"}] > 0);
   CHECK(record.within[{"sgm.derive", "sgm.compile"}] > 0);
   for (const std::string& name : kPlots) CHECK(record.plots[name].size() == updates);
@@ -243,7 +244,7 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
   const sgm_profiler profiler = record.table();
   {
     const RuntimeOwner runtime = profiled(profiler);
-    // Deriving reaches a cap: too many shapes.
+    // Derivation exceeds its limit: too many shapes.
     const GrammarOwner endless = compile(runtime.get(),
                                          "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Many; }\n"
                                          "rule Many { for i in 0..4000000 { at(1m, 1m, 1m) sphere(0.1m); } }\n");
@@ -251,7 +252,7 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
     CHECK(meshRegion(capped.get(), 20'000, nullptr, nullptr) == SGM_ERR_LIMIT);
     CHECK(record.counts["sgm.derive"] > 0);
     CHECK(record.counts["sgm.mesh"] == 0);
-    // And compiling, in a world: too many cells for any chunk.
+    // Compilation exceeds its limit: too many cells for any chunk of the world.
     const GrammarOwner dense = compile(runtime.get(),
                                        "sgm 1; units m; domain infinite;\nlayer l cell 1m reach 0.5m { start Dot; }\n"
                                        "rule Dot { sphere(0.1m); }\n");
@@ -282,7 +283,7 @@ TEST_CASE("every zone ends where work is cancelled", "[threads]") {
         return done >= *static_cast<uint64_t*>(user) ? 1 : 0;
       };
       CHECK(meshRegion(field.get(), 90'000, stop, &last) == SGM_ERR_CANCELLED);
-      // A world that ends, or is told to stop, amid its work.
+      // A world that is destroyed, or stopped, during its work.
       const WorldOwner world = streamFrom(field.get());
       lookFrom(world.get(), 0);
       for (int i = 0; i < frames; ++i) {

@@ -48,7 +48,7 @@ TEST_CASE("a ray and the nearest point find the ball's surface, in units and met
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // 3 m around (4, 4, 4) m.
+  // The ball has a radius of 3 m around (4, 4, 4) m.
   const sgm_surface_point top = castDown(field.get(), 4096.5, 9 * 1024, 4096, 5);
   REQUIRE(top.found == 1);
   CHECK(top.inside == 0);
@@ -102,7 +102,7 @@ TEST_CASE(
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  // From one side of 3 m around (4, 4, 4) m to the other, in cells of 0.25 m.
+  // A path from one side of the ball (3 m around (4, 4, 4) m) to the other, in cells of 0.25 m.
   sgm_way_desc desc = SGM_WAY_DESC_INIT;
   for (int32_t& v : desc.maximum) v = 8 * 1024;
   desc.from[0] = 0.25 * 1024;
@@ -118,7 +118,7 @@ TEST_CASE(
   CHECK(way.length > 7.5);
   CHECK(way.length < 16);
   CHECK(way.from_clearance == Approx(0.75).margin(0.26));
-  CHECK(way.widest == way.from_clearance);  // round the corners there is more room than at the ends
+  CHECK(way.widest == way.from_clearance);  // along the path there is more room than at its ends
   CHECK(way.void_count == 1);
   CHECK(way.sealed_count == 0);
   CHECK(way.from_volume == way.largest_volume);
@@ -161,7 +161,7 @@ TEST_CASE("the radius that a way is widest for has none, and the number before i
   sgm_way_desc desc = SGM_WAY_DESC_INIT;
   for (int32_t& v : desc.maximum) v = 8 * 1024;
   desc.to[0] = 7.75 * 1024;
-  // Places about the ball, whose nearest samples lie at all kinds of distances.
+  // Places around the ball, with many different distances to the nearest samples.
   size_t odd = 0;
   for (int place = 0; place < 24; ++place) {
     CAPTURE(place);
@@ -212,7 +212,7 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
   const FieldOwner field = makeField(runtime.get(), grammar.get());
   for (const int flat : {0, 1, 2}) {
     CAPTURE(flat);
-    // 9 by 9 chunks of 8 m, and one.
+    // A volume of 9 by 9 chunks of 8 m, one chunk high.
     sgm_way_desc desc = SGM_WAY_DESC_INIT;
     for (int axis = 0; axis < 3; ++axis) {
       desc.maximum[axis] = (axis == flat ? 8 : 72) * 1024;
@@ -227,7 +227,7 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
     REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
     REQUIRE(way.verdict == SGM_WAY_FOUND);
     CHECK(told.steady);
-    // A look, the walk, and at most two looks more for the widest agent.
+    // Expected runs of progress: a look, the walk, and at most two more looks for the widest agent.
     REQUIRE((told.runs.size() >= 3 && told.runs.size() <= 4));
     for (size_t run = 0; run < told.runs.size(); ++run) {
       CAPTURE(run);
@@ -246,7 +246,7 @@ TEST_CASE("a way tells of each look at its region and of its walk, in a flat reg
       CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_ERR_CANCELLED);
       CHECK((stopped.calls == stop && stopped.steady && way.verdict == 77));
     }
-    // The last call of a run does not stop it.
+    // Stopping in the last progress call of a run has no effect.
     desc.flags = 0;
     Told last;
     last.stop_at = walk;

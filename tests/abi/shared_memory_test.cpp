@@ -30,7 +30,7 @@ class OneGpu {
     state_.fail_call.clear();
     state_.fail_nth = 0;
     state_.lasts = false;
-    // What a context that was lost had imported goes with it.
+    // Memory imported by a lost context is released with that context, so the count may be lower.
     if (!state_.unsure) CHECK(state_.imports + state_.mapped == before_);
     state_.unsure = false;
   }
@@ -82,7 +82,7 @@ TEST_CASE("what CUDA meshes lies on the Vulkan device that draws, wherever the v
     CHECK(info.chunks_on_cpu == 0);
     CHECK(gpu.imports() > 0);
   }
-  // What was submitted about the last meshes may not have ended yet.
+  // Device work that was submitted for the last meshes may still be running.
   for (int tries = 0; infoOf(runtime, backend).resident != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -189,7 +189,7 @@ TEST_CASE("an engine without a lock has both backends on its queue at once", "[s
     for (const WorldOwner& world : worlds) look(world.get(), x, 0);
     for (const WorldOwner& world : worlds) REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
     for (const WorldOwner& world : worlds) waitIdle(world.get());
-    // The engine uses its queue only now, when nobody else does.
+    // The engine uses its queue only now, when no world submits to it.
     for (const WorldOwner& world : worlds) {
       size_t triangles = 0;
       for (const MeshOwner& mesh : drawnOf(world.get())) triangles += checkMesh(lender, mesh);
@@ -211,11 +211,11 @@ TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right whe
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
   std::vector<MeshOwner> kept;
-  // Each time where nothing has been meshed yet.
+  // Each call fails once, in a runtime that has meshed nothing yet.
   double x = 0;
   for (const char* call : {"launchKernel", "memcpyDtoDAsync", "eventSynchronize", "importExternalMemory"}) {
     CAPTURE(call);
-    // An import comes only after a loss.
+    // An import happens only after a device loss, so one is caused first.
     const bool opening = std::strcmp(call, "importExternalMemory") == 0;
     gpu.state().fail_call = opening ? "launchKernel" : call;
     gpu.state().fail_nth = 1 + static_cast<unsigned>(random() % 3);

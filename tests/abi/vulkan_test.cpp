@@ -159,7 +159,7 @@ TEST_CASE("a device that cannot be lent is refused, for a reason, and changes no
   refused(SGM_ERR_UNSUPPORTED, "timelineSemaphore", [](auto& d) { d.timeline_semaphores = 0; });
   REQUIRE(sgm_runtime_lend_vulkan(runtime.get(), &good, nullptr) == SGM_OK);
   refused(SGM_ERR_BUSY, "already", [](auto&) {});
-  // Software is not chosen by itself.
+  // A software device is not chosen automatically.
   sgm_backend_info info = SGM_BACKEND_INFO_INIT;
   REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
   CHECK(info.usable == 1);

@@ -61,7 +61,7 @@ struct Session {
     do {
       count = 16;
       if (const sgm_result polled = sgm_world_poll(world, events, 0, &count, nullptr); !done(polled)) {
-        if (count != 0) wrong = SGM_ERR_INTERNAL;  // what fails has delivered nothing
+        if (count != 0) wrong = SGM_ERR_INTERNAL;  // a failed call must return no events
         break;
       }
       for (size_t i = 0; i < count; ++i) {
@@ -98,7 +98,7 @@ struct Session {
       add(chunk.seams);
       add(chunk.coarser);
       add(view.body.hash);
-      // A mesh may have more seams than are drawn.
+      // A mesh may have more seams than the drawn chunk uses.
       for (size_t face = 0; face < 6; ++face) add((chunk.seams >> face & 1) != 0 ? view.seams[face].hash : 0);
     }
     return hash;
@@ -164,7 +164,7 @@ Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubl
       CHECK(scene.log.scarce <= 1);
       outcome = {session.drawnHash(), sgm_world_edits_hash(session.world)};
     }
-    // What was dug is in the journal, whole.
+    // All edits are completely in the journal.
     sgm_world* again = nullptr;
     const sgm_world_desc world = troubledWorld(scene.folder, by_distance);
     REQUIRE(sgm_world_create(scene.field.get(), &world, &again, nullptr) == SGM_OK);
@@ -249,7 +249,7 @@ TEST_CASE("a world whose memory never suffices says so once, tries little, and a
   for (int i = 0; i < 50; ++i) session.frame();
   REQUIRE(sgm_world_get_stats(session.world, &stats, nullptr) == SGM_OK);
   CHECK(stats.plans <= plans + 100);
-  CHECK(failing.left > left - 50 * 100);  // allocations that were tried
+  CHECK(failing.left > left - 50 * 100);  // the number of allocations that were tried
   CHECK(scene.log.scarce == 1);
   CHECK(stats.idle == 0);
   const sgm_result waited = sgm_world_wait_idle(session.world, nullptr, nullptr, nullptr);

@@ -51,7 +51,7 @@ struct Drawn {
 class Engine {
  public:
   void poll(sgm_world* world) {
-    // Fewer at one time than there are: polling goes on where it stopped.
+    // Fewer events per call than are waiting: polling continues where the last call stopped.
     sgm_world_event events[7];
     for (size_t count = 7;; count = 7) {
       REQUIRE(sgm_world_poll(world, events, 0, &count, nullptr) == SGM_OK);
@@ -99,7 +99,7 @@ TEST_CASE("events lead to what the world says it draws", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());
-  field.reset();  // the world keeps it
+  field.reset();  // the world keeps the field alive
   Engine engine;
   for (const double x : {0.0, 30.0, 500.0, 0.0}) {
     look(world.get(), x);
@@ -381,7 +381,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
     uint64_t border = 0;
     for (const uint64_t edges : of_chunk.border_edges) border += edges;
     CHECK(of_chunk.sums.border_edges == border);
-    // Each triangle has three ends of edges, and an edge in the border one triangle.
+    // Each triangle has three directed edges; an inner edge belongs to two triangles, a border edge to one.
     CHECK(2 * of_chunk.edges == view.body.index_count + border);
     area += of_chunk.sums.area;
     flux += of_chunk.sums.flux;
@@ -393,7 +393,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
   CHECK(measures.drawn.triangles == triangles);
   CHECK(std::fabs(measures.drawn.area - area) < 1e-9 * area);
   CHECK(std::fabs(measures.drawn.flux - flux) < 1e-9 * flux);
-  // Balls of 7 m, at levels where these are rough: the area and the volume of whole ones.
+  // Balls of 7 m, drawn at coarse levels: area and volume are nearly those of whole balls.
   CHECK(measures.drawn.flux > 0);
   CHECK(measures.drawn.area / measures.drawn.flux > 3.0 / 7 * 0.9);
   CHECK(measures.drawn.area / measures.drawn.flux < 3.0 / 7 * 1.4);
@@ -406,7 +406,7 @@ TEST_CASE("a world that measures gives sums of what it draws, and each chunk's o
 
 TEST_CASE("another field takes a world's place, and only what it changes is meshed again", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
-  // Two layers of balls, of which one has a parameter.
+  // Two layers of balls, one of them with a parameter.
   const std::string text = std::string(kBalls) +
                            "param wide = 3m in 1m..4m animated;\n"
                            "layer rare cell 128m reach 8m detail 2m { start Rare; }\n"
@@ -445,7 +445,7 @@ TEST_CASE("another field takes a world's place, and only what it changes is mesh
   CHECK(after.chunks_outdated > 0);
   CHECK(4 * after.chunks_outdated < before.kept);
   CHECK(engine.drawn != small);
-  // The hash of the world is that of the new field.
+  // The world's hash is that of a world created with the new field.
   const int32_t low[3] = {0, 0, 0}, high[3] = {65536, 32768, 32768};
   uint64_t streamed = 0, alone = 0;
   REQUIRE(sgm_world_hash(world.get(), low, high, 0, &streamed, nullptr) == SGM_OK);
@@ -480,7 +480,8 @@ TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[t
   REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
   engine.poll(world.get());
   const std::map<Key, Drawn> balls = engine.drawn;
-  // Boxes in the balls' place, and a new layer, while the viewer moves on; the last of them counts.
+  // New fields (boxes instead of the balls, and a new layer) replace each other while the viewer moves on; the last one
+  // counts.
   for (const char* rule : {"rule Ball { at(8m, 8m, 8m) box(9m); }\n", "rule Ball { at(8m, 8m, 8m) box(11m); }\n"}) {
     const std::string text =
         "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n" + std::string(rule);

@@ -169,7 +169,7 @@ TEST_CASE("viewers come back as they were set") {
     REQUIRE(room == set.size());
     for (size_t i = 0; i < set.size(); ++i) {
       const sgm_viewer &a = set[i].viewer, &b = got[i].viewer;
-      // Places are units inside, of which there is a power of two in a metre: nothing is rounded.
+      // Positions are converted from units, whose number in a metre is a power of two, so nothing is rounded.
       CHECK(std::equal(a.position, a.position + 3, b.position));
       CHECK(std::equal(a.direction, a.direction + 3, b.direction));
       CHECK(std::equal(a.velocity, a.velocity + 3, b.velocity));
@@ -198,7 +198,7 @@ TEST_CASE("times are counted once a call and once a chunk", "[threads]") {
       polls += watched.pollAll();
     }
     watched.settle();
-    // One that does nothing, as events are left, took its time too.
+    // An update that does nothing because events are unread counts as an update, too.
     CHECK(sgm_world_update(watched.world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
     ++updates;
     polls += watched.pollAll();
@@ -215,14 +215,15 @@ TEST_CASE("times are counted once a call and once a chunk", "[threads]") {
     for (const sgm_time_histogram& level : times.mesh) checkSum(level);
     CHECK(times.update.sum > 0);
     CHECK(times.mesh[0].longest > 0);
-    // Never more at one time than jobs, and never fewer than one.
+    // While jobs run, between one and the number of workers run concurrently, so job_seconds lies between clock_seconds
+    // and a multiple of it.
     CHECK(times.clock_seconds > 0);
     CHECK(times.job_seconds >= times.clock_seconds * 0.999);
     double bodies = 0;
     for (const sgm_time_histogram& level : times.mesh) bodies += level.sum;
     CHECK(times.job_seconds >= bodies * 0.999);
   }
-  // Arguments that are wrong are no calls.
+  // Calls with invalid arguments are not counted.
   CHECK(sgm_world_update(watched.world.get(), 0, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(countOf(watched.times().update) == updates);
 }
@@ -257,7 +258,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
   sgm_world* const world = watched.world.get();
   std::atomic<bool> ends{false};
   std::atomic<unsigned> looks{0}, wrong{0};
-  // Catch2's own checks are of one thread.
+  // Catch2's checks may be used on one thread only.
   const auto watch = [&] {
     sgm_world_times before = SGM_WORLD_TIMES_INIT;
     while (!ends) {
@@ -276,7 +277,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
       for (size_t i = 0; fine && i < count; ++i) fine = viewers[i].position[1] == static_cast<double>(i);
       fine = fine && countOf(times.update) >= countOf(before.update) && times.update.sum >= before.update.sum;
       before = times;
-      // Never without room: NULL would only ask how many there are, which may be some by now.
+      // The array is never empty: with NULL, the call would only return the count, which may be positive by now.
       std::vector<sgm_drawn_chunk> chunks(++drawn);
       const sgm_result gathered = sgm_world_get_drawn(world, chunks.data(), 0, &drawn, nullptr);
       fine = fine && (gathered == SGM_OK || gathered == SGM_INCOMPLETE);
@@ -293,7 +294,7 @@ TEST_CASE("a world is watched by other threads while its engine updates it", "[t
   for (int i = 0; i < 2; ++i) watchers.emplace_back(watch);
   unsigned frames = 0;
   const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  // On a machine that is busy the first chunk takes its time.
+  // On a busy machine, the first chunk may take long.
   const auto more = [&] {
     return (looks < 20 || watched.stats().chunks_meshed == 0) && std::chrono::steady_clock::now() < latest;
   };

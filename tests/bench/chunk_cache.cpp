@@ -32,7 +32,7 @@ std::vector<ChunkRecord> caveChunks(const char* path) {
   const auto jobs = must(makeThreadPool(1));
   const auto backend = must(makeBackend({}, *jobs, heap));
   const std::vector<ChunkRequest> requests = bench::aroundViewer(world.settings().finest_cell);
-  must(meshChunks(world, *backend, *jobs, requests));  // cells are derived
+  must(meshChunks(world, *backend, *jobs, requests));  // derives the cells
   const double start = now();
   const auto chunks = must(meshChunks(world, *backend, *jobs, requests));
   const double took = now() - start;

@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
       makers.push_back(std::move(*maker));
     }
     for (uint64_t i = 0; i < models / classes.size(); ++i) {
-      // A few models take every grammar's turn, not those of the first grammar at its densities.
+      // A few models: taken from all grammars, not only from the first one.
       const masters::ModelMaker& maker = makers[i * 7 % makers.size()];
       const auto mesh = maker.make(hashCombine(seed, i), **backend, **jobs);
       if (!mesh) giveUp(mesh.error());

@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   work.sample();
   work.signs();
   const auto& piece = kWork.at(argv[2]);
-  piece(work);  // storage grows here, once
+  piece(work);  // the first, uncounted run lets buffers grow
   measured(piece, work);
   std::printf("%zu vertices, %zu triangles, %zu of a grid, %llu instructions kept\n", work.part.vertices.size(),
               work.part.indices.size() / 3, work.grid_triangles, static_cast<unsigned long long>(work.kept));

@@ -213,7 +213,7 @@ double leastWait(cuda::Device& device) {
 /// which manufacturers count as two.
 double floatRate(const cuda::DeviceInfo& info) {
   const int capability = 10 * info.capability_major + info.capability_minor;
-  const double lanes = capability < 86 ? 64 : 128;  // of a multiprocessor, in single precision
+  const double lanes = capability < 86 ? 64 : 128;  // single-precision lanes of a multiprocessor
   return lanes * info.processors * info.clock * 1e3;
 }
 

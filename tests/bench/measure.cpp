@@ -45,7 +45,7 @@ Shape measure(const Mesh& mesh, double extent) {
   std::sort(opposite.begin(), opposite.end());
   std::vector<bool> used(mesh.positions.size() / 3);
   for (const uint32_t i : mesh.indices) used[i] = true;
-  // An edge counts once, whichever way its triangles walk it.
+  // An edge counts once, independent of its direction in the triangles.
   std::vector<uint64_t> undirected;
   undirected.reserve(edges.size());
   for (const uint64_t e : edges) undirected.push_back(std::min(e, e << 32 | e >> 32));

@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   parts("torus", ring, **jobs);
-  // Some 10 triangles for each place of the lattice.
+  // The surface has about 10 triangles for each lattice point.
   std::mt19937 random(1);
   parts("random field", randomSurface(random, static_cast<uint32_t>(std::cbrt(triangles / 10)), 0.5), **jobs);
   return 0;

@@ -73,7 +73,7 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   if (!program) return fail(program.error().message);
   cost.instructions = (*program)->instrs.size();
 
-  // A brick of samples around each shape's middle, as meshing has them, so that none is left out by its box.
+  // A brick of samples around each shape's middle, as in meshing, so that no shape is pruned by its bounding box.
   std::vector<int32_t> x, y, z;
   for (const ProgramGroup& group : (*program)->groups) {
     const IntBox& box = group.influence;
@@ -87,7 +87,7 @@ bool costOf(const std::string& text, double t, int runs, Cost& cost) {
   const Points points{x.data(), y.data(), z.data(), x.size()};
   EvalScratch scratch;
   bench::takeOperationCount();
-  constexpr size_t kAtOnce = 64;  // the counter remembers every operation of a call
+  constexpr size_t kAtOnce = 64;  // the instruction counter stores every operation of a call
   for (size_t i = 0; i < x.size(); i += kAtOnce) {
     const Points some{x.data() + i, y.data() + i, z.data() + i, kAtOnce};
     bench::floatCountingKernels().samples((*program)->view(), some, scratch, counted.data() + i);
@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
   for (const Way& way : ways()) {
     const bool classic = way.name.find("classic") != std::string::npos;
     for (const double t : {0.5, 1.0}) {
-      if (classic && t == 1.0) continue;  // it has no t
+      if (classic && t == 1.0) continue;  // the classic evaluation has no parameter t
       Cost cost;
       if (!costOf(std::string(kHead) + way.body, t, runs, cost)) return 1;
       if (classic) united = cost.operations;

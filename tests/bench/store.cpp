@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
                   static_cast<double>(merged.world.measured.triangles),
               static_cast<unsigned long long>(merged.world.contents));
 
-  // Those that have a surface, with three of their seams, as a world asks most often.
+  // Requests for chunks that have a surface, with three of their seams, as a world most often requests them.
   std::vector<ChunkRequest> requests;
   const ChunkMesher derived{world, *backend, *jobs, memory};
   for (const store::TileKey& tile : store::tilesOf(region)) {
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     }
   }
   for (int round = 0; round < 3; ++round) {
-    // Nothing is derived yet, and nothing read: what a viewer meets who comes there first.
+    // Nothing is derived or loaded yet, as when a viewer arrives at a new place.
     const WorldField fresh(caveSettings(), memory), other(caveSettings(), memory);
     const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{place}, {}, memory));
     ChunkMesher stored{other, *backend, *jobs, memory};

@@ -135,7 +135,7 @@ TEST_CASE("sums alone are those over the meshes, in batches of their own and bes
 TEST_CASE("a prism of a thousand corners is meshed by the device, or by the CPU and counted") {
   if (!ready()) return;
   const OnDevice device;
-  std::vector<Int3> corners;  // a square with many steps along its sides
+  std::vector<Int3> corners;  // a square outline with many steps along its sides
   constexpr int32_t kSide = 250, kStep = 40;
   for (int32_t side = 0; side < 4; ++side) {
     for (int32_t i = 0; i < kSide; ++i) {
@@ -182,7 +182,7 @@ TEST_CASE(
         kernel = b.kernelWeight(shape, 0.6f * r);
         b.addSum(sum, kernel);
       }
-      // What has a reader beside the sum cannot become a part of it.
+      // A value that is also read elsewhere cannot be merged into the sum.
       if (reader == 1) b.addSum(sum, kernel);
       if (reader == 2) b.addSum(sum, b.binary(Op::multiply, kernel, kernel));
       if (reader == 3) b.addSum(sum, b.binary(Op::maximum, t, b.constant(0.01f)));
@@ -208,7 +208,7 @@ TEST_CASE("batches of any size give the same bytes, programs of nothing among th
   for (uint32_t i = 0; i < 200; ++i) {
     NamedJob& one = jobs.emplace_back(randomJob(seedOfAll() + 5000 + i % 20, 0));
     if (i % 4 != 0) continue;
-    // Solid or void throughout; with seams to what is not, in every second one.
+    // Chunks that are entirely solid or void; every second one has seams to chunks that are not.
     one.job.field = shared(ProgramBuilder(512, i % 8 == 0, makeLabel(3, 1)).finish());
     one.job.seams = static_cast<uint8_t>(one.job.coarse ? one.job.seams : 0);
     one.job.signs = true;
@@ -268,7 +268,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
     const auto expected = by(*machine().scalar);
     const OnDevice device;
     const auto found = by(machine().device());
-    // What is too much for a shader is none of the samples, whole or pruned to a chunk.
+    // No sample grammar exceeds the shader's limits, neither as a whole nor pruned to a chunk.
     CHECK(device.byCpu() < requests.size() / 2);
     size_t triangles = 0;
     for (size_t i = 0; i < requests.size(); ++i) {

@@ -50,7 +50,7 @@ Packed pack(const ProgramView& program, const PointSet& points) {
     for (int32_t c : {points.x[i], points.y[i], points.z[i]}) p.points.push_back(static_cast<uint32_t>(c));
   }
   p.results.resize(8 * points.x.size());
-  // A storage buffer is never empty.
+  // Vulkan does not allow empty storage buffers.
   for (std::vector<uint32_t>* words : {&p.instrs, &p.params, &p.groups})
     words->resize(std::max<size_t>(words->size(), 1));
   return p;
@@ -93,7 +93,7 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
   Result<std::optional<VulkanCompute>> device = VulkanCompute::create(required(), true);
   INFO((device ? "" : device.error().message));
   REQUIRE(device);
-  if (!*device) return;  // said on stderr
+  if (!*device) return;  // the reason has been printed to stderr
   const bool rte = (*device)->info().exact;
   std::cout << "device: " << (*device)->info().name << ", shader: "
             << (rte ? "field_rte.comp (RoundingModeRTE 32)" : "field.comp (no rounding can be demanded here)") << '\n';

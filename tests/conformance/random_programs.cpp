@@ -39,7 +39,7 @@ class Generator {
     };
     return {axis(centre_.x), axis(centre_.y), axis(centre_.z)};
   }
-  // As far as the world goes, on some axes or on all.
+  // A place near the limits of the coordinates, on some axes or on all.
   Int3 farPlace() {
     auto axis = [&](int32_t c) {
       const int where = pick(6);
@@ -53,11 +53,11 @@ class Generator {
   float size() { return between(0.05, 0.5) * static_cast<float>(extent_); }
 
   Frame frame(double spread = 1) {
-    // Rows of a random unit quaternion; now and then the identity.
+    // The rows of a random unit quaternion's matrix; sometimes the identity.
     Frame f;
     f.origin = place(spread);
     if (odd_.huge_and_tiny && pick(3) == 0) {
-      // As a turn of nearly nothing leaves it: squares of what it gives are denormals.
+      // One entry as after a rotation by nearly zero: its products are denormals.
       static constexpr float kNearlyNone[] = {1e-17f, -1e-20f, 1e-24f, 3e-39f};
       const int entry = 1 + 4 * pick(2) + pick(3);
       f.rows[static_cast<size_t>(entry)] = kNearlyNone[pick(4)];
@@ -80,7 +80,8 @@ class Generator {
   }
 
   std::vector<Int3> polygon() {
-    // Star-shaped, hence simple, counter-clockwise seen from +y: z falls as the angle from +x grows.
+    // A star-shaped, hence simple polygon, counter-clockwise seen from +y: z decreases while the angle from +x
+    // increases.
     const int n = 3 + pick(6);
     std::vector<Int3> corners;
     for (int i = 0; i < n; ++i) {
@@ -100,7 +101,7 @@ class Generator {
       const Value distance = primitive(Op::sphere, spread);
       return builder_.kernelWeight(distance, size());
     }
-    // Without a frame.
+    // Shapes without a frame.
     if (op == Op::sphere || op == Op::blob || op == Op::capsule) {
       const Int3 at = place(spread);
       const float a[4] = {size(), size(), size(), size()};
@@ -138,7 +139,7 @@ class Generator {
     }
   }
 
-  // Of whole 1024ths, some huge; as rough as no distance is, or with far values that count as such.
+  // A lattice of samples in whole 1024ths, some huge: steeper than any distance field, or with values that mean "far".
   Value lattice(Int3 near) {
     SampleLattice at;
     at.spacing = 1 + pick(extent_ / 2);
@@ -152,7 +153,7 @@ class Generator {
     const double largest = odd_.huge_and_tiny && pick(3) == 0 ? 1e12 : extent_;
     for (float& sample : samples) sample = std::floor(between(-largest, largest) * 1024.0f) / 1024.0f;
     const float limit = pick(3) == 0 ? size() : kFarSample;
-    // What is far away beside what is not, where nothing says how steep it is.
+    // One far value next to near ones, with no bound of the slope given.
     const int sentinel = pick(static_cast<int>(samples.size()));
     if (limit == kFarSample && pick(2) == 0) samples[static_cast<size_t>(sentinel)] = kLargestSample;
     return builder_.lattice(at, samples, limit, label());
@@ -163,11 +164,11 @@ class Generator {
                                   Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
                                   Op::power_morph, Op::halfspace, Op::prism,     Op::lattice};
     const Op op = kAll[pick(static_cast<int>(std::size(kAll)))];
-    // Some operands far outside, with large positive values, which a wrong pruning would let through.
+    // Some operands lie far outside and have large positive values, which wrong pruning would choose.
     return primitive(op, pick(5) == 0 ? 6.0 : 1.0);
   }
 
-  // Squares of squares: past 1e18 in metres, or under 1e-30 where the factor is small, with gradients to match.
+  // Nested squares: beyond 1e18 in metres, or below 1e-30 where the factor is small, with gradients to match.
   Value tower() {
     const Frame f = frame();
     Value v = builder_.coordinate(f.origin, f.rows[0], f.rows[1], f.rows[2]);
@@ -332,7 +333,7 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
     for (int i = 0; i < o.groups; ++i) {
       const Value root = g.shape(g.pick(o.depth + 1));
       const IntBox influence = o.whole_influence ? IntBox::everything() : g.influence();
-      // A group too deep for the registers is left out by the builder: its own error has a test.
+      // A group that needs too many registers is left out by the builder: another test checks its error.
       (void)g.builder().group(root, influence, static_cast<uint32_t>(layer), i >= adds);
     }
   }
@@ -347,7 +348,7 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
 }
 
 FieldProgram programOf(Op op, std::mt19937& random, Int3 centre, Oddities odd) {
-  // Never a solid domain: the minimum with it would hide the op.
+  // The domain is never solid: its minimum with the op would hide the op's value.
   const uint32_t domain = randomLabel(random);
   Generator g(random, centre, 16 * 1024, 512, false, domain, odd);
   ProgramBuilder& b = g.builder();

@@ -42,9 +42,9 @@ TEST_CASE("no shader reaches beyond its buffers, in batches that find room and i
   const auto log = std::make_shared<vulkan::MessageLog>();
   VulkanBackendOptions options;
   options.open = [log] { return vulkan::Device::open(VulkanMachine::watched(log, vulkan::Validation::gpu_assisted)); };
-  // What the layer knows of are whole VkBuffers: one for each of ours.
+  // The validation layer checks bounds only of whole VkBuffers, so each of our buffers gets its own.
   options.memory.first_block = options.memory.largest_block = 256;
-  // A batch has room for eight chunks at least: enough for four of these balls, and not for twenty.
+  // A batch has room for eight chunks at least: enough for four of these balls, but not for twenty.
   options.room = {900, 5400, 900};
   const VulkanMachine machine(options);
   if (!machine) return;

@@ -32,7 +32,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const auto bytes = std::as_bytes(std::span(data + 1, size - 1));
   (void)meshFileKind(bytes);
-  // A name's letter, so that first inputs can be made by hand: glb, obj, ply, stl.
+  // The input's first byte selects the format by a letter, so that first inputs can be written by hand: glb, obj, ply,
+  // stl.
   constexpr char kLetters[] = {'g', 'o', 'p', 's'};
   size_t kind = data[0] % 4;
   for (size_t i = 0; i < 4; ++i)

@@ -17,7 +17,7 @@ class SameText : public sgm::ImportResolver {
  public:
   explicit SameText(std::string_view text) : text_(text) {}
   sgm::Result<std::string> read(std::string_view path, size_t limit) override {
-    // The sandbox: whatever the text says, a path never leaves the folder.
+    // Checks the sandbox: no import path may leave the folder, whatever the text says.
     for (size_t from = 0; from <= path.size();) {
       const size_t end = std::min(path.find('/', from), path.size());
       const std::string_view part = path.substr(from, end - from);
@@ -70,7 +70,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SameText::require(*twice.text == *once.text, "printing is no fixed point");
   if (!result.program) return 0;
   const sgm::CompileResult again = sgm::compileGrammar(*once.text, "fuzz.sgm", options);
-  // An import reads the text itself, which the printed one would change; only programs without one compare.
+  // An import reads the original text of its file, which a printed one would replace; so only programs without imports
+  // are compared.
   if (result.files.size() == 1)
     SameText::require(again.program && again.program->hash == result.program->hash, "printing changed the meaning");
   return 0;

@@ -176,7 +176,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     default: {
       InMemory file;
       file.all = index;
-      // Mostly where the numbers are.
+      // Most changes hit the numbers at the end of the file.
       change(input, file.all, input.next(1) % 4 == 0 ? 0 : file.all.size() - 400);
       mendChecksums(file.all);
       readWorld(file);

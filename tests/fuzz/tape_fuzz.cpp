@@ -21,7 +21,7 @@ void require(bool held, const char* what) {
   std::abort();
 }
 
-/// Reads numbers from the input; zeros after its end.
+/// Reads numbers from the fuzzer's input; after its end, it returns zeros.
 class Bytes {
  public:
   Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}

@@ -41,7 +41,7 @@ bool meet(const Soup& soup, const Corners& a, const Corners& b) {
   if (common == 3) return false;
   if (common == 2) {
     const Corners *one = &a, *other = &b;
-    std::array<std::size_t, 4> v{};  // the two of a alone and of b alone last
+    std::array<std::size_t, 4> v{};  // indices of the shared vertices first, then that of a alone and that of b alone
     std::size_t shared = 0;
     for (const std::size_t w : *one) (has(*other, w) ? v[shared++] : v[2]) = w;
     for (const std::size_t w : *other)
@@ -98,14 +98,14 @@ void judge(Soup& soup, bool weld, bool count_soup) {
     closed = CGAL::is_closed(mesh);
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
     PMP::self_intersections(mesh, std::back_inserter(found));
-    // A face without area is reported as one that meets itself.
+    // CGAL reports a face without area as one that intersects itself; these are not counted.
     pairs = found.size() - flat;
     area = PMP::area(mesh);
     const auto part = mesh.add_property_map<Surface::Face_index, std::size_t>("part", 0).first;
     components = PMP::connected_components(mesh, part);
     if (closed) {
       volume = PMP::volume(mesh);
-      // Of meshes that cut themselves neither is defined.
+      // Orientation and volume are defined only for meshes without self-intersections.
       if (found.empty()) {
         outward = PMP::is_outward_oriented(mesh);
         bounds = PMP::does_bound_a_volume(mesh);

@@ -160,7 +160,7 @@ TEST_CASE("five shapes at five densities have CGAL's area and volume", "[cgal]")
     CHECK(ours.parts.shells.size() == theirs.components);
     CHECK(ours.self_intersections->pairs == theirs.pairs);
     CHECK(ours.flat_triangles == theirs.flat);
-    // Where a border was closed with cones the surface cuts itself.
+    // Closing a border with cones makes the surface intersect itself.
     CHECK(ours.valid() == theirs.valid());
   }
 }
@@ -223,25 +223,25 @@ TEST_CASE("CGAL counts as many pairs that meet in damaged surfaces", "[cgal]") {
     const double edge = length(mesh.points[mesh.triangles[0][0]] - mesh.points[mesh.triangles[0][1]]);
     switch (seed % 3) {
       case 0:
-        // Some points elsewhere.
+        // Moves some points to random places.
         for (uint32_t i = 0; i < 1 + any(random, 20); ++i) {
           Point& p = mesh.points[any(random, mesh.points.size())];
           p = p + (5 * edge) * Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
         }
         break;
       case 1:
-        // All points a little off: neighbours cut each other.
+        // Moves all points a little: neighbouring triangles intersect each other.
         for (Point& p : mesh.points)
           p = p + (0.5 * edge) * Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
         break;
       default:
-        // All on a coarse lattice: places fall together, triangles lie in each other, many have no area.
+        // Snaps all points to a coarse lattice: points coincide, triangles overlap in a plane, many have no area.
         mesh = mesh.moved([&](Point p) {
           return Point{edge * std::round(p.x / edge), edge * std::round(p.y / edge), edge * std::round(p.z / edge)};
         });
         break;
     }
-    // Numbers as they are, so that it stays a surface.
+    // The mesh is added with its numbers unchanged, so that its topology stays that of a surface.
     meshes.add(mesh, kSoup);
     ours.push_back(crossings(mesh));
     flat.push_back(measured(mesh).flat_triangles);
@@ -275,7 +275,7 @@ TEST_CASE("CGAL finds the same good meshes good, and the same damaged ones bad",
     const MeshMeasures ours = measured(mesh);
     cases.push_back({name, seed, ours.valid(), ours});
   };
-  // A hundred of each kind, and a thousand good ones, in the long run.
+  // In the long run, a hundred meshes with each kind of defect, and a thousand without.
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     add("good", seed, goodMesh(random));
@@ -316,7 +316,7 @@ TEST_CASE("CGAL finds the same nests of shells good and bad", "[cgal]") {
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     Mesh mesh;
-    // Two piles of up to four shells in each other, and more often than not each facing as it should.
+    // Two piles of up to four nested shells; more often than not, each shell is oriented as its nesting requires.
     for (uint32_t pile = 0; pile < 2; ++pile) {
       const uint32_t shells = 1 + any(random, 4);
       for (uint32_t i = 0; i < shells; ++i) {
@@ -362,7 +362,7 @@ TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
   JudgedMeshes meshes;
   std::vector<double> sizes;
   for (auto& [first, second] : pairs) {
-    // The same error is as large a part of each.
+    // The same error is expected relative to the size of each mesh.
     double size = 0;
     for (const Point p : first.points) size = std::max(size, length(p - first.points[0]));
     for (Mesh* mesh : {&first, &second}) {
@@ -394,7 +394,8 @@ TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
 
 TEST_CASE("where CGAL's count of pairs is another", "[cgal]") {
   Mesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
-  // A corner moved onto the line through the others: one of four has no area, and touches the rest along that line.
+  // A corner is moved onto the line through two others: one of four triangles has no area, and touches the others along
+  // that line.
   Mesh flat{{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
   JudgedMeshes meshes;
   meshes.add(pillow, kSoup);

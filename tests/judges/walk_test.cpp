@@ -106,7 +106,7 @@ class CrossSections {
     constexpr int kFar = 40;
     constexpr double kStep = 0.25;
     const double length = std::hypot(direction[0], direction[2]);
-    // Upright, across the way as it is seen from above.
+    // A vertical plane across the path's direction as seen from above.
     const Point aside{-direction[2] / length, 0, direction[0] / length};
     const double reach = kFar * kStep + 0.5;
     const Result<std::shared_ptr<const FieldProgram>> program =
@@ -234,7 +234,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
                                       << " m from " << placeText(origin));
         CHECK(is_reached);
         reached += is_reached;
-        // Of neighbours whose way leads through no other hall.
+        // Only neighbouring halls whose path leads through no other hall are compared.
         for (size_t k = 0; k < i; ++k) {
           if (distance(halls[i], halls[k]) > walk.far) continue;
           const std::vector<Point> way = walked(k, i);

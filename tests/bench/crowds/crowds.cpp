@@ -129,7 +129,7 @@ void fast(const Options& options) {
     const auto isDrawn = [&](const Mover& mover) {
       return engine.isDrawn(mover.at(seconds), kDrawnRadius, kDrawnCell);
     };
-    // The slowest of them.
+    // Frames are counted for the slowest mover.
     if (!isDrawn(movers[0])) return true;
     ++drawn_frames;
     if (first_drawn < 0) first_drawn = seconds;

@@ -80,8 +80,7 @@ Scene makeScene(const std::string& name, int cells, const std::string& cave_path
   if (!power && !(name == "world" && cells >= 32 && cells % 32 == 0))
     throw std::runtime_error("no cube of " + name + " has " + std::to_string(cells) +
                              " cells on an edge; give a power of two from 32 to 2048 (of world a multiple of 32)");
-  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a
-  // chamber.
+  // The cave has a fixed size of 128 m with a chamber: at 256 cells, a cell is half a metre.
   if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};
   if (name == "world") return {name, readText(cave_path), kUnits / 2, {kEdge, kEdge, kEdge}};
   std::string body;

@@ -67,7 +67,7 @@ TEST_CASE("a block that came back is given out again for nearly the same size") 
   CHECK(third != second);
   blocks.release(second, 990'000, 8);
   blocks.release(third, 990'000, 8);
-  // The next eighth is another size.
+  // Sizes are rounded up to eighths of a power of two: this one is in the next class.
   void* larger = blocks.allocate(1'060'000, 16);
   CHECK(larger != first);
   CHECK(larger != third);
@@ -94,7 +94,8 @@ TEST_CASE("threads may take and give blocks at one time", "[threads]") {
 
 TEST_CASE("what is kept stays below its bound") {
   KeptBlocks blocks;
-  // Twice as many bytes as may be kept, of two sizes; each touched, so that what is not given back would be seen.
+  // Allocates twice as many bytes as may be cached, in blocks of two sizes; each is written to, so that a missing
+  // release shows in the resident memory.
   std::vector<void*> held;
   constexpr size_t kSize = size_t{1} << 22;
   for (size_t bytes = 0; bytes < 2 * KeptBlocks::kMost; bytes += kSize) held.push_back(blocks.allocate(kSize, 64));
@@ -133,7 +134,7 @@ TEST_CASE("where the system has no memory left, all that is kept goes before any
     void* half = blocks.allocate(kHalf, 64);
     REQUIRE(half != nullptr);
     void* other = blocks.allocate(kHalf, 64);
-    CHECK(blocks.allocate(kMore, 64) == nullptr);  // both are held
+    CHECK(blocks.allocate(kMore, 64) == nullptr);  // both blocks are in use, so no cached one can be released
     blocks.release(half, kHalf, 64);
     CHECK(blocks.bytes() == kHalf);
     void* more = blocks.allocate(kMore, 64);
@@ -141,7 +142,7 @@ TEST_CASE("where the system has no memory left, all that is kept goes before any
     CHECK(blocks.bytes() == 0);
     blocks.release(other, kHalf, 64);
     blocks.release(more, kMore, 64);
-    // Of a size that is not kept itself.
+    // An allocation of a size that is never cached also releases cached blocks.
     CHECK(blocks.allocate(kUnkept * 2, 64) == nullptr);
     void* whole = blocks.allocate(10000, 64);
     CHECK(whole != nullptr);

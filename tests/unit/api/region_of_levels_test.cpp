@@ -55,7 +55,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     PictureView view;
     for (size_t axis = 0; axis < 3; ++axis)
       view.position[axis] = static_cast<double>(hall.lo[0] + static_cast<int32_t>(random() % (48 * 1024)));
-    view.half_angle = 3.2;  // all around
+    view.half_angle = 3.2;  // a view in all directions
     view.cell_angle = 0.012 + 0.003 * round;
     const Octree tree = viewTarget(view, hall, kTop, world.cellAt(0));
     const bool sharp = round % 2 == 1;
@@ -67,7 +67,7 @@ TEST_CASE("a region of several levels has no open edge inside, plain and sharp",
     INFO(describe(report));
     CHECK(report.manifold());
 
-    // Each vertex has the materials of its own level: those that the chunk alone would have.
+    // Each vertex has the materials of its own level, as if its chunk were unwrapped alone.
     std::vector<bool> levels(kTop + 1);
     const Result<TexturedRegion> textured = unwrapRegion(
         world, *jobs, region->mesh,

@@ -86,7 +86,7 @@ TEST_CASE("nothing inside a polyhedron is left out, and nothing outside taken in
   std::mt19937 random(3);
   checkCover(solidOf(windowedWall(3, 2)), random);
   checkCover(solidOf(archedBay(12)), random);
-  MeshMaker parts;  // that touch, overlap and cross
+  MeshMaker parts;  // parts that touch, overlap and cross each other
   parts.box({0, 0, 0}, {3, 1, 1});
   parts.box({3, 0, 0}, {4, 2, 1});
   parts.box({1, -1, 0.3}, {2, 3, 0.7});
@@ -110,7 +110,7 @@ TEST_CASE("fitted assets are covered in any size", "[asset][cover]") {
 }
 
 TEST_CASE("what runs through itself is refused", "[asset][cover]") {
-  // A box within a box whose faces look in is a hole; the other way round, beside it, it is nothing.
+  // An inner box whose faces look inwards is a hole; an inside-out box beside the outer one holds nothing.
   MeshMaker maker;
   maker.box({0, 0, 0}, {4, 4, 4});
   MeshMaker hole;

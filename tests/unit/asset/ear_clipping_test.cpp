@@ -116,7 +116,7 @@ TEST_CASE("corners on straight edges stay corners of triangles with area", "[ass
 }
 
 TEST_CASE("a hole that a bridge joins to the border stays a hole", "[asset][polygon]") {
-  // A square of 4 with a square hole of 2, along a bridge that is gone there and back.
+  // A square of 4 with a square hole of 2, joined by a bridge edge that is used in both directions.
   const Polygon frame = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                          {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
   checkedCut(frame, 12);
@@ -145,13 +145,13 @@ TEST_CASE("polygons that cross themselves, and those without area, are told", "[
   CHECK(outcome({{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 2, 0}}) == Clipped::crossed);
   CHECK(outcome({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}) == Clipped::crossed);
   CHECK(outcome({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}}) == Clipped::crossed);
-  // A star of five points, which goes round its middle twice.
+  // A five-pointed star, which winds twice around its middle.
   Polygon star;
   for (int i = 0; i < 5; ++i) star.push_back({std::cos(i * 2.5132741), std::sin(i * 2.5132741), 0});
   CHECK(outcome(star) == Clipped::crossed);
-  // Across a corner that lies on an edge.
+  // A corner lies on another edge, and the outline crosses there.
   CHECK(outcome({{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 0, 0}, {1, -2, 0}}) == Clipped::crossed);
-  // A band that goes round and across itself.
+  // A closed band that overlaps itself.
   CHECK(outcome({{0, 0, 0},
                  {6, 0, 0},
                  {6, 5, 0},
@@ -169,7 +169,8 @@ TEST_CASE("random polygons without crossings are cut into triangles that fill th
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
-    // About a middle, at angles in order; whole numbers in every other one, so that corners lie on lines.
+    // Corners around a middle in the order of their angles; every other polygon has whole numbers, so that corners lie
+    // on lines through others.
     const size_t corners = 4 + random() % 60;
     Polygon polygon;
     for (size_t i = 0; i < corners; ++i) {
@@ -181,7 +182,7 @@ TEST_CASE("random polygons without crossings are cut into triangles that fill th
     const double area = shoelace(polygon);
     checkedCut(polygon, area);
     checkedCut(tilted(polygon), area);
-    // Steps of a stair, which are whole numbers.
+    // The outline of a stair, in whole numbers.
     Polygon stairs{{0, 0, 0}};
     double x = 0;
     const size_t steps = 2 + random() % 20;
@@ -214,7 +215,7 @@ TEST_CASE("polygons of many corners take n log n steps, not n squared", "[asset]
   std::reverse(comb.begin(), comb.end());
   Polygon slanted = comb;
   for (Point& p : slanted) p.x += 3 * p.y;
-  // Out along one arm and back along another.
+  // The outline follows one spiral arm outwards and another one back.
   for (int i = 0; i < kCorners; ++i) {
     const int step = i < kCorners / 2 ? i : kCorners - 1 - i;
     const double angle = 0.01 * step, radius = 1 + 0.1 * angle + (i < kCorners / 2 ? 0 : 0.2);

@@ -69,7 +69,7 @@ TEST_CASE("zones stretch in proportion to their lengths, and nothing else does",
   const Polyhedron wall = solidOf(windowedWall(2, 1));  // windows at 1..2 and 3..4 of 5
   const auto body = fitInto(wall, {8, 3.5, 0.5}, std::vector<FitZone>{{0, false, 0.2, 0.6}, {0, false, 2.2, 3}});
   REQUIRE(body);
-  // Three metres more: a third of them in the first zone. What is beyond a zone moves on.
+  // The wall gets three metres longer: a third of them goes to the first zone. Parts beyond a zone are moved.
   checkLevels(*body, 0, {0, 2, 3, 6, 7, 8});
   checkBox(*body, {8, 3.5, 0.5});
 }
@@ -81,7 +81,7 @@ TEST_CASE("slanted faces keep their slope while what they join grows", "[asset][
     REQUIRE(body);
     checkBox(*body, {wide, 8, 10});
     checkAngles(*body, house);
-    // The ridge is a third of the width above the eaves, whatever the width.
+    // The ridge is a third of the width above the eaves at every width.
     checkLevels(*body, 1, {0, 8 - wide / 3, 8});
     checkLevels(*body, 0, {0, wide / 2, wide});
   }
@@ -101,20 +101,20 @@ TEST_CASE("an arch with stiff chords is moved, and one that may stretch keeps it
 TEST_CASE("zones are copied as often as comes nearest to the size", "[asset][fit]") {
   const Polyhedron wall = solidOf(windowedWall(1, 1));  // a window at 1..2 of 3
   const std::vector<FitZone> alone{{0, true, 0.5, 2.5}};
-  // Nothing else gives: the copies stretch for what is left.
+  // Without other zones, the copies stretch to fill the size.
   const auto three = fitInto(wall, {7.6, 3.5, 0.5}, alone);
   REQUIRE(three);
   checkLevels(*three, 0, {0, 0.5, 1.05, 2.15, 2.7, 3.25, 4.35, 4.9, 5.45, 6.55, 7.1, 7.6});
   CHECK(three->volume() == Approx(0.5 * (7.6 * 3.5 - 3 * 1.1 * 1.5)));
-  // Beside a zone that stretches they are stiff.
+  // Beside a zone that stretches, the copies keep their length.
   const auto stiff = fitInto(wall, {7.6, 3.5, 0.5}, std::vector<FitZone>{{0, true, 0.5, 2.5}, {0, false, 0.1, 0.4}});
   REQUIRE(stiff);
   CHECK(stiff->volume() == Approx(0.5 * (7.6 * 3.5 - 3 * 1.0 * 1.5)));
-  // And may go.
+  // The number of copies may be zero.
   const auto none = fitInto(wall, {1.5, 3.5, 0.5}, std::vector<FitZone>{{0, true, 0.5, 2.5}, {0, false, 0.1, 0.4}});
   REQUIRE(none);
   CHECK(none->volume() == Approx(0.5 * 1.5 * 3.5));
-  // Along two axes, each by itself.
+  // Zones along two axes are fitted independently.
   const auto both = fitInto(wall, {7, 12.5, 0.5}, std::vector<FitZone>{{0, true, 0.5, 2.5}, {1, true, 0.25, 3.25}});
   REQUIRE(both);
   CHECK(both->volume() == Approx(0.5 * (7 * 12.5 - 3 * 4 * 1.5)));
@@ -139,7 +139,7 @@ TEST_CASE("sizes that an asset cannot have are told with those that it could", "
       refusal(gabledHouse(), {6, 6, 1}, {{2, false, 2, 4}}) ==
       "impossible fit: with its angles kept, and stiff where it has no zone to stretch, this asset cannot be 6m x 6m x "
       "1m; it could be at least 6.021m along z");
-  // Its roof has no zone in which it could change its height.
+  // The roof has no zone in which its height could change.
   CHECK(
       refusal(gabledHouse(), {8, 9, 8}, {{0, false, 1, 5}, {1, false, 1, 2}}) ==
       "impossible fit: with its angles kept, and stiff where it has no zone to stretch, this asset cannot be 8m x 9m x "

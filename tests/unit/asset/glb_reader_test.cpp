@@ -90,15 +90,15 @@ TEST_CASE("nodes move, turn, scale and mirror what they show", "[asset][glb]") {
   CHECK(near(moved(R"("rotation":[0,0,0.7071067811865476,0.7071067811865476])")[1], {0, 1, 0}));
   CHECK(near(moved(R"("scale":[2,3,4])")[2], {0, 3, 0}));
   CHECK(near(moved(R"("matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,5,6,7,1])")[1], {5, 7, 7}));
-  // Mirrored, it still looks out to the same side.
+  // A mirrored triangle still faces the same side.
   const auto mirrored = moved(R"("scale":[-1,1,1])");
   CHECK(near(normalised(cross(mirrored[1] - mirrored[0], mirrored[2] - mirrored[0])), {0, 0, 1}));
-  // A child is moved by its parent, and last by itself.
+  // A child's transform is applied first, its parent's afterwards.
   const auto mesh = read(triangleFile(
       R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[1],"scale":[2,2,2]},{"mesh":0,"translation":[1,0,0]}])"));
   REQUIRE(mesh);
   CHECK(mesh->points[mesh->triangles[0][1]] == Point{4, 0, 0});
-  // Without a scene, all nodes are shown that are nobody's children.
+  // Without a scene, all root nodes are shown.
   CHECK(read(triangleFile(R"("scene":0,"scenes":[{"nodes":[0]}],)", "")));
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("what a file may ask for is capped", "[asset][glb]") {
 }
 
 TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset][glb]") {
-  // Two primitives of one triangle; the first alone has normals, and texture coordinates as shorts.
+  // Two primitives of one triangle each; only the first has normals, and texture coordinates as 16-bit numbers.
   const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[9] = {1, 1, 0, 0, 0, 2, 0, 0, 0};
   const uint16_t places[6] = {0, 65535, 65535, 0, 0, 0};
   std::string binary(reinterpret_cast<const char*>(points), sizeof points);
@@ -250,7 +250,8 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
   REQUIRE(mesh->coordinates.values.size() == 6);
   CHECK(mesh->normals.corners.empty());
   CHECK(mesh->normals.values[0] == Normal{});
-  // Across a surface that is stretched along x: less along x, and mirrored along z as the surface is.
+  // A surface that is stretched along x: its normals shrink along x; where the surface is mirrored along z, so are its
+  // normals.
   CHECK(near(mesh->normals.values[3], unitNormal(0.5, 1, 0)));
   CHECK(near(mesh->normals.values[4], {0, 0, -1}));
   CHECK(mesh->normals.values[5] == Normal{});
@@ -272,7 +273,7 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
   CHECK(wrongly(R"("byteOffset":36,"componentType":5126,"count":3)",
                 R"("byteOffset":36,"componentType":5126,"count":2)") ==
         "accessor 1 does not hold as many elements as there are positions, at /accessors/1/count of its JSON");
-  // Flattened to nothing, it has no normals.
+  // A surface scaled to zero has no normals.
   CHECK(read(file(R"(,"scale":[0,0,0])"))->normals.values[4] == Normal{});
   binary[36] = binary[37] = binary[38] = binary[39] = '\xFF';
   const std::string nan = file("");
@@ -280,7 +281,7 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
 }
 
 TEST_CASE("a small file that names much takes little time", "[asset][glb]") {
-  // An accessor of many members, shown by many primitives of many nodes.
+  // An accessor with many members, used by many primitives of many nodes.
   std::string members, primitives, nodes;
   for (int i = 0; i < 30000; ++i) members += "\"\":0,";
   for (int i = 0; i < 400; ++i) primitives += std::string(i > 0 ? "," : "") + R"({"attributes":{"POSITION":0}})";

@@ -50,7 +50,7 @@ std::vector<float> eight(std::initializer_list<float> values) {
 }  // namespace
 
 TEST_CASE("glTF: accessors are read by offset and stride, whatever lies between", "[asset][gltf]") {
-  // Normals and positions in turn, behind four bytes of something else.
+  // Normals and positions interleaved, after four bytes of other data.
   std::vector<float> woven{99};
   for (size_t i = 0; i < 8; ++i) {
     woven.insert(woven.end(), {0, 0, 2});
@@ -70,7 +70,7 @@ TEST_CASE("glTF: accessors are read by offset and stride, whatever lies between"
 }
 
 TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
-  // A tetrahedron of volume 1/6 as one strip, and as a fan with its ground.
+  // A tetrahedron of volume 1/6 as a triangle strip, and as a fan with an extra base triangle.
   const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const auto with = [&](int mode, const std::vector<uint16_t>& indices, const std::string& node = "") {
     GltfBuilder file;
@@ -84,10 +84,11 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   CHECK(strip.triangles == std::vector<std::array<uint32_t, 3>>{{1, 0, 2}, {0, 3, 2}, {2, 3, 1}, {3, 0, 1}});
   CHECK(volumeOf(strip) == Approx(1.0 / 6));
   CHECK(openEdgesOf(strip) == 0);
-  // Corners that stand twice lead on to the next strip and are no triangles.
+  // Repeated corners connect two strips and make no triangles.
   const TriangleMesh led = with(5, {0, 2, 1, 1, 0, 0, 1, 3});
   CHECK(led.triangles == std::vector<std::array<uint32_t, 3>>{{0, 2, 1}, {0, 3, 1}});
-  // Single triangles that are stitched together, each at an odd place: as they stand, with a note.
+  // Separate triangles joined into one strip, each at an odd position: their orientations are kept, and a note is
+  // given.
   const TriangleMesh unruly = with(5, {0, 0, 2, 1, 1, 1, 0, 0, 1, 3, 3, 3, 1, 1, 2, 3, 3, 3, 2, 2, 0, 3});
   CHECK(volumeOf(unruly) == Approx(1.0 / 6));
   CHECK(unruly.notes == Notes{"1 strip has triangles at odd places only, at /meshes/0/primitives/0 of its JSON: read "
@@ -95,10 +96,10 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   CHECK(led.notes.empty());
   const TriangleMesh fan = with(6, {3, 0, 1, 2, 0});
   CHECK(fan.triangles == std::vector<std::array<uint32_t, 3>>{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
-  // Mirrored, they still look out.
+  // In a mirrored node, the triangles still face outwards.
   const TriangleMesh mirrored = with(5, {1, 0, 2, 3, 1, 0}, R"(,"scale":[-1,1,1])");
   CHECK(volumeOf(mirrored) == Approx(1.0 / 6));
-  // Without indices the points follow each other.
+  // Without indices, the points are used in their order.
   GltfBuilder bare;
   bare.numbers("VEC3", std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
   bare.mesh(R"("attributes":{"POSITION":0},"mode":6)");
@@ -131,7 +132,8 @@ TEST_CASE("glTF: lines and points beside triangles are left out with a note", "[
 }
 
 TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]") {
-  // One corner goes up by 3: of the pyramids from the middle to the faces, three change. By hand: 8 + 4 = 12.
+  // One corner rises by 3, which changes three of the pyramids from the middle to the faces. Calculated by hand: 8 + 4
+  // = 12.
   const auto with = [](auto index, const std::string& of) {
     GltfBuilder file;
     const int base = file.view(kCubePoints), indices = file.view(std::vector{index, static_cast<decltype(index)>(7)});
@@ -145,17 +147,17 @@ TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]
     file.mesh(R"("attributes":{"POSITION":0},"indices":1)");
     return file.glb();
   };
-  // The roof's edge y = 1 rises from z = 1 to z = 2: a wedge of 2 x 2 x 1 / 2 more.
+  // The edge y = 1 of the top rises from z = 1 to z = 2: a wedge of 2 x 2 x 1 / 2 is added.
   CHECK(volumeOf(gltf(with(uint8_t{6}, ""))) == 10);
   CHECK(volumeOf(gltf(with(uint16_t{6}, ""))) == 10);
   CHECK(volumeOf(gltf(with(uint32_t{6}, ""))) == 10);
-  // Without a buffer view, all others are 0.
+  // Without a buffer view, all elements that are not in the sparse list are 0.
   const TriangleMesh zero = gltf(with(uint16_t{6}, " "));
   CHECK(zero.points[0] == Point{});
   CHECK(zero.points[6] == Point{1, 1, 2});
   CHECK(gltfRefusal(with(uint16_t{8}, "")) ==
         "accessor 0 replaces an element that it does not have, at /accessors/0/sparse/indices of its JSON");
-  // Indices may be sparse too: the last triangle is turned round.
+  // Indices may be sparse, too: here, the last triangle is reversed.
   GltfBuilder file;
   file.numbers("VEC3", kCubePoints);
   std::vector<uint16_t> turned = kCubeIndices;
@@ -171,7 +173,7 @@ TEST_CASE("glTF: sparse accessors replace some of their numbers", "[asset][gltf]
 }
 
 TEST_CASE("glTF: morph targets stand as their default weights say", "[asset][gltf]") {
-  // The first target lifts the top by 1: 2 x 2 x 1 more. The second moves all by 5 along x.
+  // The first target lifts the top by 1, adding 2 x 2 x 1. The second moves all points by 5 along x.
   const auto with = [](const std::string& of_mesh, const std::string& of_node) {
     GltfBuilder file = cube(R"(,"NORMAL":4,"TEXCOORD_0":5)",
                             R"(,"targets":[{"POSITION":2,"NORMAL":6},{"POSITION":3,"TEXCOORD_0":7}])", of_mesh);
@@ -197,7 +199,7 @@ TEST_CASE("glTF: morph targets stand as their default weights say", "[asset][glt
   CHECK(volumeOf(moved) == Approx(10));
   CHECK(isNear(middleOf(moved), {10, 0, 0.25}));
   CHECK(isNear(moved.coordinates.values[0], 1.25f, 0));
-  // Fewer weights than targets: the others' are 0.
+  // If there are fewer weights than targets, the missing ones are 0.
   CHECK(volumeOf(with("", R"(,"weights":[-1])")) == 4);
 }
 
@@ -212,7 +214,7 @@ TEST_CASE("glTF: morph targets may be sparse", "[asset][gltf]") {
 }
 
 TEST_CASE("glTF: skins hold points at the joints' places, whatever their node does", "[asset][gltf]") {
-  // The mesh's node is scaled by 10, which plays no part; the joint stands at x = 100 below a turned parent.
+  // The mesh node's scale of 10 is ignored for a skinned mesh; the joint is at x = 100 below a rotated parent.
   const auto with = [](const std::string& nodes, const std::string& skin, const std::vector<uint8_t>& joints,
                        const auto& weights, const std::vector<float>& inverse = {}) {
     GltfBuilder file = cube(R"(,"JOINTS_0":2,"WEIGHTS_0":3)");
@@ -230,12 +232,13 @@ TEST_CASE("glTF: skins hold points at the joints' places, whatever their node do
                                   whole, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1});
   CHECK(volumeOf(bound) == Approx(8));
   CHECK(isNear(middleOf(bound), {100, 0, 3}));
-  // Without matrices they are the identity; joints stand below others.
+  // Without inverse bind matrices, these are the identity; joints may be children of other joints.
   const TriangleMesh below =
       with(R"({"children":[2],"rotation":[0,0,0.7071067811865476,0.7071067811865476]},{"translation":[100,0,0]})",
            R"("joints":[2])", first, whole);
   CHECK(isNear(middleOf(below), {0, 100, 0}));
-  // Between two joints by weights, here of bytes: the upper half of the cube is bound to the second.
+  // Vertices are bound to two joints with weights, here of bytes: the upper half of the cube partly to the second
+  // joint.
   const std::string two = R"({"translation":[0,0,0]},{"translation":[0,0,10]})";
   std::vector<uint8_t> numbers(32, 0), weights(32, 0);
   for (size_t i = 0; i < 8; ++i) {
@@ -248,9 +251,9 @@ TEST_CASE("glTF: skins hold points at the joints' places, whatever their node do
   // The top, z = 1, goes up by 10 * 51 / 255 = 2.
   CHECK(isNear(bent.points[6], {1, 1, 3}));
   CHECK(volumeOf(bent) == Approx(16));
-  // A joint that mirrors turns the triangles round with it.
+  // A mirroring joint also reverses the triangles.
   CHECK(volumeOf(with(R"({"scale":[-1,1,1]})", R"("joints":[1])", first, whole)) == Approx(8));
-  // Weights of another sum are divided by it, with a note.
+  // Weights whose sum is not 1 are divided by it, with a note.
   const TriangleMesh doubled = with(R"({"translation":[4,0,0]})", R"("joints":[1])", first, eight({2, 0, 0, 0}));
   CHECK(isNear(middleOf(doubled), {4, 0, 0}));
   CHECK(doubled.notes ==
@@ -296,7 +299,7 @@ TEST_CASE("glTF: what is wrong with a skin is said", "[asset][gltf]") {
   CHECK(with("{}", R"({"joints":[1]})", 1) ==
         "accessor 2 binds point 0 to a joint that skin 0 does not have, at /accessors/2 of its JSON");
   CHECK(with(R"({"children":[1]})", R"({"joints":[1]})").ends_with("below itself, at /nodes/1 of its JSON"));
-  // A mesh that cannot be bound goes with its node.
+  // A mesh whose skin is unusable is moved by its node instead.
   GltfBuilder loose = cube();
   loose.members = R"("nodes":[{"mesh":0,"skin":0,"translation":[1,0,0]}],"skins":[{"joints":[0]}])";
   const TriangleMesh mesh = gltf(loose.glb());
@@ -321,7 +324,7 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   const auto laid = [&](const std::string& how, const std::string& set = "") {
     return base(set + R"(,"extensions":{"KHR_texture_transform":{)" + how + "}}");
   };
-  // Pictures grow downward there, upward here.
+  // In glTF, v grows downwards in a picture; here, it grows upwards.
   CHECK(isNear(with("").coordinates.values[1], 1, 1));
   CHECK(isNear(with(base(R"(,"texCoord":1)")).coordinates.values[1], 3, 1));
   CHECK(isNear(with(R"("emissiveTexture":{"index":0,"texCoord":1})").coordinates.values[1], 3, 1));
@@ -329,7 +332,7 @@ TEST_CASE("glTF: textures are laid as the material says", "[asset][gltf]") {
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[1], 4, 1));
   CHECK(isNear(with(laid(R"("scale":[4,2])")).coordinates.values[2], 0, -1));
   CHECK(isNear(with(laid(R"("offset":[0.5,0.25])")).coordinates.values[1], 1.5f, 0.75f));
-  // A quarter counter-clockwise as seen: what pointed right points up, where the second number is less.
+  // A rotation by a quarter, counter-clockwise as seen: the right becomes the top, where v is smaller in glTF.
   CHECK(
       isNear(with(laid(R"("rotation":1.5707963267948966,"offset":[0,1],"scale":[2,1])")).coordinates.values[1], 0, 2));
   CHECK(isNear(with(laid(R"("rotation":1.5707963267948966)")).coordinates.values[2], 1, 1));
@@ -352,7 +355,7 @@ TEST_CASE("glTF: whole numbers stand for positions, normals and coordinates", "[
     std::vector<T> points, normals;
     for (size_t i = 0; i < 8; ++i)
       for (size_t k = 0; k < 4; ++k) {
-        // The fourth is padding: attributes are aligned to four bytes.
+        // The fourth number is padding: vertex attributes are aligned to four bytes.
         const bool up = k < 3 && kCubePoints[3 * i + k] > 0;
         points.push_back(up ? one : static_cast<T>(std::is_signed_v<T> ? -one : 0));
         normals.push_back(k == 0 ? one : T{});
@@ -382,7 +385,7 @@ TEST_CASE("glTF: whole numbers stand for positions, normals and coordinates", "[
   const TriangleMesh mesh = gltf(with(int16_t{32767}, true, required, 1));
   CHECK(mesh.normals.values[0] == Normal{1, 0, 0});
   CHECK(isNear(mesh.coordinates.values[0], 1, 1));
-  // The least number is -1 too.
+  // The smallest number (-128) means -1, too.
   GltfBuilder least;
   least.numbers("VEC3", std::vector<int8_t>{-128, 0, 0, 127, 0, 0, 0, 127, 0}, R"(,"normalized":true)");
   least.mesh(R"("attributes":{"POSITION":0})");
@@ -404,7 +407,7 @@ TEST_CASE("glTF: instances stand where their attributes say, and hidden nodes no
   const TriangleMesh twice = gltf(file.glb());
   CHECK(volumeOf(twice) == Approx(16 + 128));
   CHECK(isNear(middleOf(twice), {5, 0, 0}));
-  // Half a turn about z: the first corner stands where the third was.
+  // The second instance is rotated by half a turn about z: its first corner is where the third one was.
   CHECK(isNear(twice.points[8], {12, 2, -4}));
   GltfBuilder uneven = cube();
   uneven.numbers("VEC3", std::vector<float>{0, 0, 0, 10, 0, 0});
@@ -460,7 +463,7 @@ TEST_CASE("glTF: extensions that change no triangles are accepted, others refuse
   CHECK(gltf(with("extensionsUsed", "EXT_meshopt_compression")).notes.empty());
   CHECK(gltf(with("extensionsUsed", "ACME_displacement")).notes ==
         Notes{"1 extension that it uses is left out, `ACME_displacement`"});
-  // What is packed and has no plain numbers beside is no mesh of zeros.
+  // Compressed data without an uncompressed fallback is an error, not a mesh of zeros.
   GltfBuilder packed;
   packed.accessor("VEC3", 5126, 8, "");
   packed.accessor("SCALAR", 5123, 36, "");
@@ -525,7 +528,7 @@ TEST_CASE("glTF: text with its numbers in itself is read; other files are not op
         "buffer 0 has a `data:` URI that is not base64, at /buffers/0 of its JSON");
   CHECK(gltfRefusal(file.json(uri("cube.bin"))) ==
         "buffer 0 lies in another file, `cube.bin`, at /buffers/0 of its JSON");
-  // Its JSON may be long, and yet not hold many values, which take memory.
+  // The JSON may be long, but not hold many values, which take memory.
   std::string many = file.json(uri("data:;base64," + coded));
   many.insert(1, R"("extras":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],)");
   CHECK(volumeOf(gltf(many)) == 8);

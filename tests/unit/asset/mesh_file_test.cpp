@@ -115,7 +115,7 @@ TEST_CASE("what is exported reads back as it was", "[asset][mesh_file]") {
 
 TEST_CASE("texture coordinates that are exported read back, with points that stay what they were",
           "[asset][mesh_file]") {
-  // Two triangles that share an edge, in two charts: six places of four points.
+  // Two triangles that share an edge, in two charts: four points with six different texture coordinates.
   WorldMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.attributes.resize(4);
@@ -134,7 +134,7 @@ TEST_CASE("texture coordinates that are exported read back, with points that sta
   CHECK(glb.points.size() == 6);
   for (size_t i = 0; i < 6; ++i) {
     CHECK(obj.coordinatesAt(i / 3, i % 3) == places[i]);
-    // glTF counts a picture's rows from its other end, which is the same place where the picture repeats.
+    // glTF counts a picture's rows from the other end; as the picture repeats, both numbers mean the same place.
     CHECK(glb.coordinatesAt(i / 3, i % 3) == TextureCoordinates{places[i][0], places[i][1] + 1});
   }
 }
@@ -257,7 +257,7 @@ TEST_CASE("text is read in every encoding", "[asset][mesh_file]") {
           CHECK(mesh.notes.empty());
         }
   }
-  // Letters beyond ASCII, and beyond the first 65,536.
+  // Letters beyond ASCII, one beyond the first 65,536 code points, and half a surrogate pair.
   std::string named = widened("usemtl ", 2, false, true);
   for (const char16_t c : std::u16string(u"B\u00E4ume \U0001F332\xD800")) {
     named += static_cast<char>(c & 0xFF);

@@ -111,7 +111,7 @@ TEST_CASE("glTF: accessors of another type, and sparse ones without whole number
 }
 
 TEST_CASE("glTF: numbers that are not finite are refused with their place", "[asset][gltf]") {
-  // What is wrong stands last in the file, but for its padding.
+  // The wrong value is the last one in the file, before the padding.
   const auto lastElement = [](const std::string& file, size_t bytes) { return std::to_string(file.size() - bytes); };
   std::vector<float> weights = fourEach(1);
   weights.back() = kInfinite;
@@ -125,7 +125,7 @@ TEST_CASE("glTF: numbers that are not finite are refused with their place", "[as
   inverse.numbers("MAT4", std::vector<float>(16, kInfinite));
   CHECK(glbRefusal(inverse.glb()) ==
         "accessor 4 has a number that is not finite, at byte " + lastElement(inverse.glb(), 64));
-  // Within a `data:` URI the bytes are those of the buffer: three points, the second one's x no number.
+  // Offsets inside a `data:` URI are those of the decoded buffer: it has three points, and x of the second is NaN.
   GltfBuilder text;
   text.numbers("VEC3", std::vector<float>(9, 0.0f));
   text.mesh(R"("attributes":{"POSITION":0})");
@@ -231,7 +231,7 @@ TEST_CASE("PLY and STL: one byte behind the end, and several faces that are none
 }
 
 TEST_CASE("polygons that take more steps than there are are refused with their place", "[asset][polygon]") {
-  // An L, whose fan from its first corner leaves it.
+  // An L-shaped face: a triangle fan around its first corner would leave it.
   TriangleMesh mesh;
   mesh.points = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
   for (uint32_t k = 2; k < 6; ++k) mesh.triangles.push_back({0, k - 1, k});

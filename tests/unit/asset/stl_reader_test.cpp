@@ -105,7 +105,7 @@ TEST_CASE("what stands behind an STL file's end is left out with a note", "[asse
   const TriangleMesh text = meshIn(kStlText + "\x1A", MeshFileKind::stl);
   CHECK(text.triangles.size() == 2);
   CHECK(text.notes == NoteTexts{"text after its last `endsolid` is left out, at line 17"});
-  // More than a program adds of its own is another file.
+  // A file with more trailing bytes than exporters append is refused.
   CHECK(stlRefusal(binaryStl() + std::string(5000, 'x')) ==
         "its header declares 2 triangles, which take 184 bytes, and the file has 5184 bytes, at byte 80");
 }

@@ -194,7 +194,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
 }
 
 TEST_CASE("no chord of a cube's loop of up to five edges is forbidden") {
-  // What cells.inl relies on (kForbids).
+  // cells.inl relies on this (kForbids).
   size_t short_loops = 0, forbidden = 0;
   for (size_t at = 0; at < kCubeLoopBytes; at += size_t{kCubeLoops[at]} + 1) {
     const size_t n = kCubeLoops[at];
@@ -243,7 +243,7 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
 TEST_CASE("nothing is read behind the rows of a grid") {
   constexpr size_t kSide = 4;
   GuardedRows rows(kSide * kSide);
-  // Every edge along x is crossed, until the last that has both its neighbours.
+  // The signs alternate along x, so that all edges along x are crossed, including the last one.
   for (size_t row = 0; row < kSide * kSide; ++row)
     for (size_t x = 0; x < GuardedRows::kRow; ++x)
       rows.row(row)[x] = (x % 2 == 0 ? 1.0f : -1.0f) + 0.1f * static_cast<float>(row);

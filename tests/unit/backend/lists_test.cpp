@@ -43,7 +43,7 @@ class ListMaker {
       case 3:
         return builder_.truncone(frame, a, b, c, label);
       default:
-        return builder_.torus(frame, 2 * a, b, label);  // has no path of its own
+        return builder_.torus(frame, 2 * a, b, label);  // an op without a specialised path
     }
   }
   /// Adds some primitives of one kind, then some of another, so that lists begin, end and follow each other.
@@ -80,7 +80,7 @@ class ListMaker {
   }
   FieldProgram finish() {
     FieldProgram program = builder_.finish();
-    // As pruning leaves most groups: every sample is known to lie inside.
+    // As for most groups after pruning, every sample is known to lie inside the group's bounds.
     for (ProgramGroup& g : program.groups) g.guarded = within(0, 3) == 0;
     return program;
   }
@@ -149,13 +149,13 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
     CAPTURE(round);
     LatticeBox box;
     for (int axis = 0; axis < 3; ++axis) {
-      // As bricks are, or anything that a block holds.
+      // Boxes like those of bricks, or of any size that a block can hold.
       box.size[static_cast<size_t>(axis)] = round % 3 == 0 ? 1 + random() % 16 : 8 + random() % 2;
       box.origin[axis] = static_cast<int32_t>(random() % 12000) - 9000;
     }
     box.step = 1 << random() % 12;
     const unsigned kind = round % 4;
-    if (kind > 1 && round % 5 == 0) {  // up to the world's end
+    if (kind > 1 && round % 5 == 0) {  // up to the limit of the coordinates
       for (int axis = 0; axis < 3; ++axis)
         box.origin[axis] = 2147483647 - static_cast<int32_t>(box.size[static_cast<size_t>(axis)]) * box.step;
     }
@@ -175,7 +175,7 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
     EvalScratch scratch;
     std::vector<int32_t> expected(points.x.size());
     oneByOneKernels().samples(program.view(), points.points(), scratch, expected.data());
-    // Between other samples, which must stay as they are.
+    // The samples are a part of a larger array, whose other samples must stay unchanged.
     constexpr int32_t kOther = 77;
     const size_t row = box.size[0] + random() % 3, plane = row * box.size[1] + random() % 5, first_bit = random() % 20;
     for (const InstructionSet& set : instructionSets()) {

@@ -109,7 +109,7 @@ TEST_CASE("what a sum adds is a part of the addition, unless others read it", "[
   CHECK(summed(0.25f, 1).count(Op::morph) == 1);
   CHECK(summed(0.25f, 2).count(Op::kernel) == 0);
   CHECK(summed(0.25f, 2).count(Op::morph) == 1);
-  // At either end pruning leaves out one of the two shapes, which only the morph's own node lets it.
+  // Beyond either end, pruning removes one of the two shapes, which is only allowed for an operand of the morph.
   for (const float end : {-0.5f, 0.0f, 1.0f, 2.0f}) {
     CAPTURE(end);
     CHECK(summed(end, 0).count(Op::morph) == 1);

@@ -80,7 +80,7 @@ Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJ
   CAPTURE(count, all, arrays, heap, lists);
   REQUIRE(arrays > 4 * count);
   REQUIRE(all >= arrays);
-  // What comes from the memory passes through the heap.
+  // The memory resource itself allocates from the heap, so its allocations are counted there as well.
   REQUIRE(heap >= all + lists);
   return {all - arrays, heap - all - lists};
 }
@@ -89,7 +89,7 @@ Taken takenBy(Backend& backend, const CountingMemory& memory, std::vector<ChunkJ
 
 TEST_CASE("once warm, a batch takes no memory for its chunks but for their meshes", "[vulkan]") {
   CountingMemory memory;
-  // Nobody watches: the validation layer takes much.
+  // Without the validation layer, which allocates much itself.
   VulkanBackendOptions options;
   options.open = [] {
     vulkan::OwnDevice device;

@@ -133,7 +133,8 @@ void stayWithoutMemory(Faulty& faulty) {
   for (ChunkJob& job : passing) job.resident = false;
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   checkSame(expected, meshesOf(*machine.vulkan, passing));
-  // The batch has its buffers; what asks for memory now is what stays. Of this error nothing smaller is tried.
+  // The batch already has its buffers, so only resident meshes allocate memory now. After this error, the backend does
+  // not retry with a smaller block.
   const auto staying = [&] {
     const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
     checkSame(expected, found);
@@ -162,11 +163,11 @@ void endAnywhere(Faulty& faulty) {
     REQUIRE(machine);
     for (uint32_t round = 0; round < rounds(8); ++round) {
       CAPTURE(round);
-      // Batches of any size: buffers grow while parts are copied out of them.
+      // Batches of varying sizes: buffers grow while parts are copied out of them.
       std::vector<ChunkJob> jobs = spheres(kSeed + round, 1 + static_cast<uint32_t>(random() % 12));
       for (ChunkJob& job : jobs) job.resident = true;
       std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
-      // Nobody has to wait for what a batch that has ended left there.
+      // When a batch has ended, its resident parts can be used without waiting.
       for (const ChunkMesh& mesh : found) {
         for (const auto& part : mesh.on_device) {
           if (!part) continue;
@@ -193,7 +194,7 @@ void endAnywhere(Faulty& faulty) {
       if (held.size() > 8) held.resize(8);
       other.join();
     }
-    // The device is lost under what is held.
+    // The device is lost while parts on it are still referenced.
     faulty.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
     const std::vector<ChunkJob> jobs = spheres(kSeed, 3);
     checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));

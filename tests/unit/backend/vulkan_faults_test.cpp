@@ -53,7 +53,7 @@ void loseDevices(Faulty& faulty) {
     faults.disarm();
     const BackendCounters after = machine.vulkan->counters();
     REQUIRE(after.chunks == before.chunks + jobs.size());
-    // Asked in vain how far it is, the backend waits, and so hears of it.
+    // If the query of the progress fails, the backend waits for the device, and so detects its loss.
     REQUIRE(after.device_lost == before.device_lost + struck);
     REQUIRE(after.on_cpu == before.on_cpu + (struck ? jobs.size() : 0));
     losses += struck;
@@ -83,7 +83,7 @@ void failCalls(Faulty& faulty) {
   uint64_t on_cpu = 0;
   for (const auto& [call, failure] : kFailures) {
     for (uint32_t round = 0; round < rounds(5); ++round) {
-      // A machine of its own: pipelines and buffers are made once.
+      // A new machine for each call, since pipelines and buffers are created only once.
       const VulkanMachine machine = faulty.machine();
       REQUIRE(machine);
       const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
@@ -132,13 +132,14 @@ void cancelBatches(Faulty& faulty) {
   REQUIRE(batch);
   (*batch)->cancel();
   CHECK(cancelled(**batch));
-  // By who is told of the chunks, the first of which is the CPU's: there is room for none.
+  // Cancelled by the progress callback; the first chunk is meshed by the CPU, since there is room for none on the
+  // device.
   std::atomic<int> told{0};
   batch = machine.vulkan->submit(jobs, [&] { return ++told < 3; });
   REQUIRE(batch);
   CHECK(cancelled(**batch));
   CHECK(told >= 3);
-  // Left alone while the device works on it.
+  // The batch is destroyed while the device works on it.
   batch = machine.vulkan->submit(jobs);
   REQUIRE(batch);
   batch->reset();
@@ -163,7 +164,7 @@ void cancelAnywhere(Faulty& faulty) {
     checkSame(expected, meshesOf(*machine->vulkan, jobs));
     const auto took = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - before).count();
     for (uint32_t round = 0; round < rounds(20); ++round) {
-      // Before all else, after all else, and anywhere between.
+      // The failure comes before everything else, after everything else, or anywhere between.
       const auto wait = round == 0 ? 0 : static_cast<int64_t>(random() % static_cast<uint64_t>(took + 1));
       const bool polls = random() % 2 == 0;
       CAPTURE(round, wait, polls);
@@ -216,7 +217,7 @@ void keepPipelines(Faulty& faulty) {
   const fs::path file = fs::directory_iterator(kept)->path();
   const std::string content = contentOf(file);
   CHECK(content.size() > 24);
-  // What was found, and is all that was needed, is not written again.
+  // If the pipelines in the file suffice, the file is not written again.
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
   fs::last_write_time(file, long_ago);
   CHECK(warningsWith(kept) == none);
@@ -240,7 +241,7 @@ void keepPipelines(Faulty& faulty) {
 void lackThreads(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(7, 3);
   for (ChunkJob& job : jobs) job.prompt = true;
-  // The driver would want threads too: on this device it has made the pipelines for the tests before.
+  // A driver may fail to start its threads, too; on this device it has compiled the pipelines in earlier tests.
   const VulkanMachine machine = faulty.machine();
   REQUIRE(machine);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
@@ -287,6 +288,6 @@ TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {
     CHECK(machine.vulkan->counters().device_lost == 1);
     CHECK(machine.vulkan->counters().on_cpu == jobs.size());
   }
-  // What the device's end leaves behind is told of, too.
+  // The device's destruction is also checked for leaks by the validation layer.
   CHECK(VulkanMachine::silent(log->texts()));
 }

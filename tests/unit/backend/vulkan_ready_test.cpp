@@ -113,7 +113,7 @@ void endEarly(vulkan::Engine& engine) {
     const std::vector<ChunkJob> jobs = inAHurry(13, 2);
     (void)meshesOf(*machine.vulkan, jobs);
     gate.awaitAsked(1);
-    // Late enough, as a rule, that the backend is at its end; if not the test only proves less.
+    // After this delay, the backend usually is in its destructor; if not, the test only proves less.
     opener = std::thread([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
       gate.open();
@@ -132,7 +132,7 @@ void meshUntilReady(vulkan::Engine& engine) {
   CHECK(usual > 1);
   const std::vector<ChunkJob> jobs = inAHurry(11, 6);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-  // With the gate shut this would not return if it waited.
+  // While the gate is shut, this would never return if it waited for the pipelines.
   for (int round = 1; round <= 3; ++round) {
     checkSame(expected, meshesOf(*machine.vulkan, jobs));
     CHECK(machine.vulkan->counters().on_cpu == jobs.size() * static_cast<size_t>(round));
@@ -184,7 +184,7 @@ void failToMake(vulkan::Engine& engine) {
 TEST_CASE("jobs in a hurry are meshed by the CPU until the device is ready for them", "[vulkan]") {
   if (!VulkanMachine()) return;
   vulkan::KeptEngine kept;
-  // First, while pipelines take long to make: none is kept yet.
+  // This test comes first, while compiling pipelines takes long, since none is cached yet.
   endEarly(kept.engine);
   meshUntilReady(kept.engine);
   shareWhatIsMade(kept.engine);

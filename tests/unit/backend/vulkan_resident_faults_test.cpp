@@ -90,7 +90,7 @@ constexpr Failure kRefusals[] = {
     {"vkResetCommandPool", VK_ERROR_OUT_OF_DEVICE_MEMORY},
     {"vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY},
     {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
-    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // of which nothing smaller is tried
+    {"vkAllocateMemory", VK_ERROR_UNKNOWN},  // after this error, no smaller block is tried
     {"vkMapMemory", VK_ERROR_MEMORY_MAP_FAILED},
 };
 
@@ -113,7 +113,7 @@ class Strikes {
 
   /// Runs a batch, or uploads its meshes, while one call may fail.
   void one(bool scarce) {
-    // Memory is asked for by those alone that have none yet.
+    // Memory is requested only by a backend that has no blocks yet, so a new one is created.
     if (scarce != (cap_ != UINT64_MAX) || random_() % 3 == 0)
       renew(scarce ? largest_ + random_() % (all_.bytes - largest_) : UINT64_MAX);
     const Failure failure = kRefusals[random_() % std::size(kRefusals)];
@@ -230,7 +230,7 @@ void loseForGood(Faulty& faulty) {
   for (ChunkJob& job : chunks) job.resident = true;
   const std::vector<ChunkMesh> expected = meshesOf(*scalar, chunks);
   const MeshPart* const body = &expected[0].body;
-  // Lost while it meshes, and while meshes are brought.
+  // The device is lost while it meshes, or while meshes are uploaded.
   for (const bool brings : {false, true}) {
     CAPTURE(brings);
     auto made = makeBackend(request, *jobs, std::pmr::get_default_resource());

@@ -70,7 +70,7 @@ void work(Backend& backend, const std::vector<ChunkJob>& jobs, const std::vector
     Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
     const auto how = random() % 3;
     if (how == 0) {
-      // Left while parts are still being copied, if it so happens.
+      // The batch may be destroyed while parts are still being copied.
       for (auto polls = random() % 1000; polls > 0 && !(*batch)->poll(); --polls) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));
       }
@@ -111,9 +111,9 @@ void work(Backend& backend, const std::vector<ChunkJob>& jobs, const std::vector
 
 TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][threads]") {
   if (!VulkanMachine()) return;
-  // Not watched: the validation layer has locks of its own, too.
+  // Without the validation layer, whose locks would hide data races.
   vulkan::KeptEngine kept(vulkan::Validation::none);
-  // After a loss two devices are borrowed for a while, and the engine's queue is one.
+  // After a loss, two borrowed devices exist for a while, and share the engine's queue.
   std::mutex queue;
   std::optional<vulkan::DeviceTable> replaced;
   VulkanBackendOptions options;
@@ -123,7 +123,7 @@ TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][t
     lent.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
     lent.user = &queue;
     lent.replace_calls = [&](vulkan::DeviceTable& table) {
-      // Once: threads may be calling what it stands for.
+      // Replaced only once: threads may be calling the replaced functions already.
       if (!replaced) {
         vulkan::KeptPipelines::wrap(table);
         LosingSubmit::wrap(table);

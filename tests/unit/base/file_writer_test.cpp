@@ -36,7 +36,7 @@ unsigned modeOf(const fs::path& path) {
   return there.st_mode & 07777;
 }
 
-constinit UnfinishedFiles unfinished;  // for a signal handler
+constinit UnfinishedFiles unfinished;  // used in a signal handler
 
 constexpr FileWriter::Naming kBoth[] = {FileWriter::Naming::nameless, FileWriter::Naming::named};
 
@@ -115,11 +115,11 @@ TEST_CASE("what cannot be written to is said at once", "[base][files]") {
   refused(folder.path, "folder");
   refused("/dev/null", "regular file");
   CHECK(folder.files().empty());
-  // A name as long as names may be leaves no room for an ending.
+  // A name of the greatest allowed length leaves no room for the temporary file's suffix.
   Result<FileWriter> file = FileWriter::create(folder.path / std::string(255, 'n'));
   REQUIRE(file);
   REQUIRE(file->commit());
-  if (geteuid() == 0) return;  // who may write everywhere
+  if (geteuid() == 0) return;  // the superuser may write everywhere
   std::ofstream(folder.path / "guarded") << "before";
   REQUIRE(chmod((folder.path / "guarded").c_str(), 0444) == 0);
   refused(folder.path / "guarded", "Permission denied");
@@ -129,7 +129,7 @@ TEST_CASE("what cannot be written to is said at once", "[base][files]") {
 }
 
 TEST_CASE("a disk that is full at any moment leaves what was there", "[base][files]") {
-  // A limit on file sizes fails the write as a full disk does.
+  // A limit on the file size makes the write fail as a full disk does.
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -212,7 +212,7 @@ TEST_CASE("a process that a signal ends leaves no unfinished file, and what a ki
     close(ready[1]);
     CHECK(folder.files() == Names{"file.sgm-part0"});
     {
-      // While its writer lives, it is its writer's.
+      // While the writer exists, no other writer can take its temporary file.
       Result<FileWriter> other = FileWriter::create(target, nullptr, FileWriter::Naming::named);
       REQUIRE(other);
       CHECK(folder.files() == Names{"file.sgm-part0", "file.sgm-part1"});

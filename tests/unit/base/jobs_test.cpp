@@ -29,7 +29,7 @@ class LateJobs final : public JobSystem {
   std::vector<std::pair<void (*)(void*), void*>> waiting_;
 };
 
-// Runs every job inside submit().
+// A job system that runs every job inside submit().
 class ImmediateJobs final : public JobSystem {
  public:
   unsigned concurrency() const override { return 3; }
@@ -63,7 +63,7 @@ TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
   bool in_time = false;
   const std::thread::id caller = std::this_thread::get_id();
   parallelFor(jobs, 2, [&](size_t) {
-    // Each thread takes one, and only the caller's ends before help was called.
+    // Each thread takes one share; only the caller's ends before help() is called.
     ++begun;
     while (begun < 2) std::this_thread::yield();
     if (std::this_thread::get_id() == caller) return;

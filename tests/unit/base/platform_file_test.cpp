@@ -115,7 +115,7 @@ TEST_CASE("names are replaced, exchanged, removed and given", "[base][files]") {
   CHECK_FALSE(fs::exists(b));
 
   const File nameless(openNamelessFile(folder.path));
-  if (!nameless) return;  // a file system without such files
+  if (!nameless) return;  // the file system does not support files without a name
   REQUIRE(writeNext(nameless.number(), "none", 4) == 4);
   CHECK(fs::is_empty(folder.path));
   REQUIRE(nameFile(nameless.number(), a) == 0);

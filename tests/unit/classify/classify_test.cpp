@@ -68,14 +68,14 @@ TEST_CASE("single bars have one error however far apart, and the earth mover see
 
 TEST_CASE("of curvature the error is that of the shares' roots, of the paper's modes that of the shares",
           "[classify]") {
-  // Both lack a tenth of what is flat; one of them has it elsewhere in one bin, the other in two.
+  // Both differ from `flat` by a tenth; one of them has that tenth in one other bin, the other in two.
   const std::vector<double> flat{0, 1, 0}, convex{0, 0.9, 0.1}, both{0.05, 0.9, 0.05};
   CHECK(classError(HistogramMode::printed, flat, convex) == meanSquaredError(flat, convex));
   CHECK(classError(HistogramMode::corrected, flat, both) == meanSquaredError(flat, both));
   const double off = 1 - std::sqrt(0.9);
   CHECK(classError(HistogramMode::curvature, flat, convex) == Approx((off * off + 0.1) / 3));
   CHECK(classError(HistogramMode::curvature, flat, both) == Approx((off * off + 2 * 0.05) / 3));
-  // Which of two rare bends a thing has says as much as how much of it is flat.
+  // A rare share in another bin counts as much as a larger change of the flat share.
   const std::vector<double> flatter{0, 0.99, 0.01}, concave{0.01, 0.99, 0}, less{0, 0.95, 0.05};
   CHECK(classError(HistogramMode::curvature, flatter, concave) > classError(HistogramMode::curvature, flatter, less));
   CHECK(meanSquaredError(flatter, concave) < meanSquaredError(flatter, less));
@@ -189,7 +189,7 @@ TEST_CASE("as many bins as the mode has", "[classify]") {
 
 TEST_CASE("edges that touch a border do not count", "[classify]") {
   const auto jobs = std::move(*makeThreadPool(1));
-  // Four by four quadrangles: of the points only the inner three by three have no border.
+  // Four by four quadrangles: only the inner three by three points are not on the border.
   Mesh mesh;
   for (int i = 0; i <= 4; ++i)
     for (int j = 0; j <= 4; ++j) mesh.points.push_back({i * 1.0, j * 1.0, i == 0 ? 5.0 : 0.0});
@@ -202,7 +202,7 @@ TEST_CASE("edges that touch a border do not count", "[classify]") {
   }
   const auto h = innerHistogram(mesh, {}, *jobs);
   REQUIRE(h);
-  // Of the 16 edges between inner points each counts in its two triangles.
+  // Each of the 16 edges between inner points counts in both of its triangles.
   CHECK(h->edges == 2 * (6 + 6 + 4));
   CHECK(h->left_out == 3 * mesh.triangles.size() - h->edges);
   const auto none = innerHistogram(Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {}, *jobs);

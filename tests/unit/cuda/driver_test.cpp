@@ -58,7 +58,7 @@ TEST_CASE("chunks are meshed through the driver, and nothing is left behind", "[
   std::vector<ChunkJob> jobs = spheres(21, 20);
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.cuda, jobs));
   CHECK(machine.cuda->counters().on_cpu == 0);
-  // Every kernel, but the one for chunks of which sums alone are asked for.
+  // Every kernel is launched, except the one for chunks of which only sums are requested.
   constexpr auto kAll = static_cast<uint64_t>(cuda::Kernel::count);
   CHECK(machine.driver.state().launches == kAll - 1);
   jobs[3].sums_only = true;
@@ -98,11 +98,11 @@ TEST_CASE("a driver or device that cannot be used is refused with the reason", "
       CHECK(device.error().code == Code::out_of_memory);
       CHECK(device.error().message.find("out of memory") != std::string::npos);
     }
-    // What is no lack of memory makes the device unusable, one of which nothing can be told too.
+    // Any error other than a lack of memory makes the device unusable, also an unknown one (46).
     state.fail_nth = 1, state.fail_result = 46;
     CHECK(refusal(driver).find("a failure") != std::string::npos);
   }
-  // A sick device keeps nobody from the next one.
+  // If one device is unusable, the next one is used.
   state.devices = 2;
   state.fail_call = "deviceGetName", state.fail_nth = 1, state.fail_result = 999;
   CHECK(open(driver));
@@ -129,7 +129,7 @@ TEST_CASE("whatever call of the driver fails, the meshes are right and the next 
     checkSame(expected, random() % 2 == 0 ? polled(*machine.cuda, jobs) : meshesOf(*machine.cuda, jobs));
     struck += machine.cuda->counters().on_cpu - before.on_cpu;
     state.fail_nth = 0;
-    // Where the device was lost a new one is opened; from then on all is as ever.
+    // A lost device is reopened; afterwards everything works as before.
     checkSame(expected, meshesOf(*machine.cuda, jobs));
     const uint64_t after = machine.cuda->counters().on_cpu;
     checkSame(expected, meshesOf(*machine.cuda, jobs));
@@ -143,7 +143,7 @@ TEST_CASE("a context that cannot be made current takes no call", "[cuda]") {
   const std::vector<ChunkJob> jobs = spheres(23, 3);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   FakeDriver::State& state = machine.driver.state();
-  // The end of such a context is the end of what is in it.
+  // Destroying such a context also releases everything in it.
   state.may_leave = true;
   for (unsigned nth = 1; nth < 40; ++nth) {
     CAPTURE(nth);

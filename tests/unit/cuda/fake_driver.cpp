@@ -17,7 +17,7 @@ FakeDriver::~FakeDriver() {
   }
   CHECK(fakeDepth() == 0);
   CHECK(left.calls_without == 0);
-  // What may be left goes here, or who looks for leaks would find it.
+  // Objects that the tests leave are released here, so that leak checkers do not report them.
   endFake();
 }
 

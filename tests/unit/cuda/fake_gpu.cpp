@@ -109,7 +109,7 @@ Handle thing(int number) {
 DriverTable makeTable() {
   DriverTable t;
   t.init = [](unsigned) {
-    // As a library: nobody else has begun.
+    // When this is loaded as a library, no test has called beginFake().
     if (!fake_host) beginFake();
     return before("init", false);
   };
@@ -206,7 +206,7 @@ DriverTable makeTable() {
     return kCuSuccess;
   };
   t.streamDestroy = [](CuStream stream) {
-    // The GPU goes on with what it was given.
+    // A GPU finishes the work that it was given, even if the stream is destroyed.
     of(stream).finish(of(stream).given);
     fake_streams.erase(&of(stream));
     delete &of(stream);
@@ -245,7 +245,7 @@ DriverTable makeTable() {
     return kCuSuccess;
   };
   t.eventSynchronize = [](CuEvent event) {
-    // Where it fails it has not waited.
+    // If the call fails, it has not waited.
     if (const int result = before("eventSynchronize")) return result;
     if (of(event).stream != nullptr) of(event).stream->finish(of(event).after);
     return kCuSuccess;
@@ -275,7 +275,8 @@ DriverTable makeTable() {
       fake_blocks.erase(hostOf(memory));
       std::free(hostOf(memory));
     });
-    // Where nothing is before it, it may happen at once: whatever another stream does with the memory came too late.
+    // If nothing is queued before it, the memory may be freed at once, so that a later use by another stream is a
+    // detectable error.
     if (of(stream).queued.size() == 1) of(stream).finish(of(stream).given);
     --fake_state.device_blocks;
     return before("memFreeAsync");
@@ -328,7 +329,7 @@ DriverTable makeTable() {
   };
   t.memcpyDtoHAsync = [](void* to, CuPointer from, size_t bytes, CuStream stream) {
     if (const int result = before("memcpyDtoHAsync")) return result;
-    // What is read before the end is nothing.
+    // Until the copy is executed, the destination has meaningless bytes.
     std::memset(to, 0xCD, bytes);
     of(stream).give([=] { std::memcpy(to, hostOf(from), bytes); });
     return kCuSuccess;

@@ -80,7 +80,7 @@ TEST_CASE("chunks after which the caller wants no more are not meshed", "[cuda]"
   REQUIRE(!meshes);
   CHECK(meshes.error().code == Code::cancelled);
   CHECK(told == 3);
-  // Left alone in the midst of its work.
+  // The batch is destroyed in the middle of its work.
   batch = machine.cuda->submit(jobs);
   batch = machine.cuda->submit(jobs);
   (*batch)->wait();

@@ -24,7 +24,7 @@ class Engine {
   explicit Engine(bool with_stream) : table_(driver.table()) {
     REQUIRE(table_.ctxCreate(&context_, 0, 0) == cuda::kCuSuccess);
     if (with_stream) REQUIRE(table_.streamCreate(&stream_, 0) == cuda::kCuSuccess);
-    // What is current before every call of the runtime's is current after it.
+    // The context that is current before a call of the runtime must also be current after it.
     cuda::CuContext popped = nullptr;
     table_.ctxPopCurrent(&popped);
   }
@@ -130,7 +130,7 @@ TEST_CASE("meshes stay in a lent context, with the host's bytes, and end with th
       CHECK(machine.cuda->counters().on_cpu == 0);
     }
     CHECK(machine.cuda->counters().resident == 0);
-    // Whoever does not ask for it has nothing there.
+    // Jobs that do not request resident meshes have no parts on the device.
     for (const ChunkMesh& mesh : meshesOf(*machine.cuda, spheres(41, 3))) CHECK(mesh.on_device == DeviceParts{});
     CHECK((engine.driver.state().launched_on == engine.lend().stream) == with_stream);
   }
@@ -195,7 +195,7 @@ TEST_CASE("what the engine gives its stream after a batch is not waited for", "[
   std::vector<ChunkMesh> meshes;
   {
     const LentMachine machine(engine);
-    // The first batch, whose results do not come with it, and meshes that are to stay.
+    // The first batch, whose results are not copied back, with meshes that stay on the device.
     auto batch = machine.cuda->submit(staying(44, 5));
     REQUIRE(batch);
     giveMore();

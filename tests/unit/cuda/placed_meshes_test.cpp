@@ -72,7 +72,7 @@ class BatchOf {
       for (std::byte& byte : bytes_[c]) byte = static_cast<std::byte>(random());
       memory_.emplace_back();
       REQUIRE(memory_.back().grow(stream, cuda::MemoryKind::device, of_vertices + of_indices));
-      // The GPU that pretends has its memory here.
+      // The simulated GPU's memory is in this process.
       std::memcpy(memory_.back().data(), bytes_[c].data(), bytes_[c].size());
       body.vertices = reinterpret_cast<const Vertex*>(memory_.back().data());
       body.indices = reinterpret_cast<const uint32_t*>(memory_.back().data() + of_vertices);
@@ -148,7 +148,7 @@ TEST_CASE("parts are where they were placed, and there once they are published",
     CHECK(gpu.store->bytes() > 0);
     placement.reset();
     CHECK(bytesAtRest(*gpu.store) == 0);
-    // The block stays, and what was imported with it.
+    // The block stays allocated, and its import stays valid.
     CHECK(gpu.driver.state().imports == 1);
   }
   gpu.store.reset();
@@ -265,7 +265,7 @@ TEST_CASE("a device opened after a loss imports the memory anew", "[cuda]") {
     CHECK(gpu.driver.state().imports == 1);
     before = std::move(placement);
   }
-  // Blocks live on with what lies in them; what was imported does not, nor the device that did.
+  // Blocks stay valid as long as parts in them are referenced; imports and the device that imported them do not.
   CHECK(there(before->chunks[0]));
   CHECK(gpu.driver.state().imports + gpu.driver.state().contexts == 0);
   before.reset();
@@ -282,7 +282,7 @@ TEST_CASE("two devices may write to one block, each to what was placed for it", 
     const auto before = take(cuda::PlacedMeshes::create(*old, gpu.store));
     const auto after = take(cuda::PlacedMeshes::create(*anew, gpu.store));
     const BatchOf one(*first, 3, random), other(*second, 3, random);
-    // Neither has ended when the other begins.
+    // The second transfer begins before the first has ended.
     std::unique_ptr<Placement> a = take(before->keep(*first, one.sources));
     std::unique_ptr<Placement> b = take(after->keep(*second, other.sources));
     std::unique_ptr<Placement> c = take(before->keep(*first, one.sources));
@@ -317,7 +317,7 @@ TEST_CASE("where a block cannot be imported its chunks have no room; at the begi
   CHECK(!cuda::PlacedMeshes::create(*device, gpu.store));
   gpu.faults.disarm();
   const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
-  // A second block, which is there when the first is full.
+  // A second block is allocated when the first is full.
   std::vector<cuda::PartSources> large(2);
   const BatchOf batch(*stream, 2, random);
   large[0] = batch.sources[0];

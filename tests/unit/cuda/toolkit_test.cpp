@@ -63,5 +63,5 @@ TEST_CASE("the library holds the kernels' image, with every kernel in it", "[cud
   REQUIRE(image.size() > 100'000);
   uint32_t magic = 0;
   std::memcpy(&magic, image.data(), sizeof magic);
-  CHECK(magic == 0xBA55ED50u);  // a fat binary's
+  CHECK(magic == 0xBA55ED50u);  // the magic number of a fat binary
 }

@@ -94,8 +94,8 @@ TEST_CASE("an automaton in a box is part of the one over the whole world") {
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t solid = 0, all = 0;
-  // As many in every build, for the shares below: a few large boxes, all rock or all air, make most of a dozen's
-  // voxels.
+  // At least 150 boxes in every build, since the shares checked below need many: of a dozen boxes, a few large ones,
+  // all rock or all air, would have most voxels.
   const unsigned boxes = std::max(rounds(150), 150u);
   for (unsigned round = 0; round < boxes; ++round) {
     const Automaton automaton = anyAutomaton(random);

@@ -21,7 +21,7 @@ int checkLevel(RandomChunk& random, uint32_t root, double a, const IntBox& box) 
     REQUIRE(box.contains(p));
   }
   if (box.empty() || !isBounded(box)) return inside;
-  for (int i = 0; i < 200; ++i) {  // just outside of a face
+  for (int i = 0; i < 200; ++i) {  // points just outside of a face
     Int3 p;
     for (int axis = 0; axis < 3; ++axis) p[axis] = random.whole(box.lo[axis] - 40, box.hi[axis] + 40);
     const int axis = random.whole(0, 2);
@@ -48,7 +48,7 @@ TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
     }
   }
   CHECK(inside > static_cast<int>(3 * rounds(3000)));
-  CHECK(seen.size() == 21);  // all but the half-space
+  CHECK(seen.size() == 21);  // all kinds but the half-space
 }
 
 TEST_CASE("bounds of leaves are tight") {
@@ -59,7 +59,8 @@ TEST_CASE("bounds of leaves are tight") {
     const Shape& s = random.chunk.shapes[root];
     if (s.kind == ShapeKind::morph_power) continue;
     const IntBox box = levelBounds(random.chunk, root, 0);
-    // A box that turns fits its own bound at corners only, a ball at the middles of faces: ask for the extent instead.
+    // A rotated box touches its bounds only with corners, a ball only with points of its faces, so that random points
+    // rarely do: compare the extent instead.
     for (int axis = 0; axis < 3; ++axis) {
       const double extent = static_cast<double>(box.hi[axis]) - box.lo[axis];
       double most = 0;
@@ -96,7 +97,7 @@ TEST_CASE("exact boxes: a sphere, an upright box, a half-space in a meet") {
   CHECK(isBounded(met));
   CHECK(met.hi.y <= 2);
 
-  chunk.shapes[1].detail = 100;  // levels that leave the half-space out leave the meet out
+  chunk.shapes[1].detail = 100;  // at levels without the half-space, the whole meet is left out
   CHECK(levelBounds(chunk, 2, 0) == met);
 }
 

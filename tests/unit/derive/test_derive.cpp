@@ -101,7 +101,8 @@ TEST_CASE("a passage ends where the other cell has its chamber") {
   for (const auto& [cell, hub] : hubs) {
     const std::vector<Int3> ends = corners(derived(*program, cell));
     for (size_t i = 0; i + 1 < ends.size(); ++i) {
-      // A new passage starts at this cell's hub; the one before ended at another cell's.
+      // Each passage starts at this cell's hub, so the corner before it is the end of the previous passage: another
+      // cell's hub.
       const bool first = ends[i] == hub;
       if (!first || i == 0) continue;
       bool found = false;
@@ -387,7 +388,7 @@ TEST_CASE("a finite grammar derives once, around the origin") {
 }
 
 TEST_CASE("a cell far out is the cell at the origin, moved") {
-  // The same draws need the same keys, so the far cell is compared in what does not draw.
+  // Random draws depend on the cell's key, so the two cells are compared with rules that draw nothing.
   const std::string_view rules =
       "rule Main { at(1.3m, 2.7m, 3.1m) rot((1, 2, 3), 33deg) displace 0.1m*q.x/1m amp 0.2m { box(2m); } }";
   const GrammarChunk far = derivedRules(rules, {30000, -30000, 20000});

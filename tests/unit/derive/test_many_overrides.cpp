@@ -35,7 +35,8 @@ TEST_CASE("overrides of one address have draws of their own", "[override]") {
       for (const Shape& shape : chunk.shapes) {
         if (shape.kind == ShapeKind::sphere) radii.insert(shape.size[0]);
       }
-      // Four copies of what was there, the lower block's own ball twice, and the upper one's.
+      // Seven spheres: four copies of the original, two of the lower override's own sphere, and one of the upper
+      // override's.
       CHECK(radii.size() == 7);
     }
   }
@@ -51,7 +52,7 @@ TEST_CASE("what a use costs does not depend on how many overrides there are", "[
     edits += "override \"Main/Room[" + std::to_string(i) + "]" + door + "\" { box(1m); }\n";
   }
   const auto program = compiled(rules + edits);
-  // A sphere of its own and the box in the place of a door, or a box in the place of a room.
+  // A room has its sphere and the box that replaces its door, or a box that replaces the whole room.
   CHECK(boxesAndBalls(derived(*program, {})) == std::array<size_t, 2>{2000, 1000});
 
   DeriveLimits limits;
@@ -64,7 +65,7 @@ TEST_CASE("what a use costs does not depend on how many overrides there are", "[
 TEST_CASE("of paths that hold for one use, the last is derived, every one by its own way", "[override]") {
   const std::string rules =
       kLayer + "rule Main { A; A; B; }\nrule A { C; C; }\nrule B { C; }\nrule C { torus(2m, 1m); }\n";
-  // To which of the five uses of C each leads, in the order of derivation.
+  // Each path, and which of the five uses of C, in the order of derivation, it selects.
   const std::vector<std::pair<std::string, std::set<size_t>>> paths = {
       {"Main/A/C", {0, 1, 2, 3}}, {"Main/A[1]/C", {2, 3}}, {"Main/A/C[1]", {1, 3}},
       {"Main/A[1]/C[1]", {3}},    {"Main/B/C", {4}},       {"Main/B/C[0]", {4}},

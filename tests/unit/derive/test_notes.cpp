@@ -108,7 +108,7 @@ const NoteCase kNotes[] = {
      "size(9m, 3m, 3m) wfc 3m { border left a, right a; a 1, left a, right b: box(scope); b 1, left b, right a: "
      "box(scope); }",
      ""},
-    // Of sides that every tile fits to it says nothing.
+    // No suggestion is made for sides that every tile fits to.
     {"these tiles cannot fill the (3, 1, 1) places of this scope, and it is left empty: place (2, 0, 0) would "
      "need a tile with `a` on its right and `a` on its left; add one, or join labels of a side with `or`",
      "wfc",
@@ -204,7 +204,7 @@ TEST_CASE("points that begin inside what they look for are noted, but in rock", 
         "after at(0m, -50m, 0m), and probe farther");
   CHECK(notesOf("infinite", 64 * 1024, "up") == "");
   CHECK(notesOf("infinite", 5 * 1024, "up") == "");
-  // Most of rock is rock: its points look for the caves in it.
+  // In a solid domain most of the ground is rock: there, points of a scatter look for caves.
   CHECK(notesOf("infinite solid", -64 * 1024, "up") == "");
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
   const auto large = compiled(
       "sgm 1; domain infinite; layer main cell 1024m reach 2100m { start Main; }\n"
       "rule Main { at(1900m, 0m, 0m) sphere(200m); at(-1900m, 0m, 0m) sphere(200m); }");
-  // Cells lie in -2048 to 2046.
+  // Without a note, cells go from -2048 to 2046; the note comes at the outermost ones.
   for (const Int3 cell : {Int3{2045, 0, 0}, Int3{-2045, 0, 0}}) CHECK(derived(*large, cell).notes.empty());
   for (const Int3 cell : {Int3{2046, 0, 0}, Int3{-2048, 0, 0}}) {
     const GrammarChunk outermost = derived(*large, cell);
@@ -257,7 +257,7 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
           "this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole");
   }
 
-  // The proof of reach refuses what has no bound; what it should ever let pass is left out here.
+  // The proof of reach refuses unbounded shapes; should it ever pass one by mistake, derivation leaves it out.
   const auto tame = compiled(
       "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
       "rule Main { Faulty; sphere(2m); }\nrule Faulty { displace 1m*p.x/1m amp 1m { sphere(1m); } }");
@@ -445,7 +445,7 @@ TEST_CASE("an override that finds nothing is counted where notes are full", "[no
 
 #ifdef NDEBUG
 TEST_CASE("a shape beyond the bound that was proven of its layer is noted, and ends there", "[notes]") {
-  // The proof is falsified; a build with assertions ends at such a shape.
+  // The proven bound is falsified here; a build with assertions would abort at such a shape.
   const auto program = compiled(
       "sgm 1; units m; domain infinite; layer main cell 64m reach 16m { start Main; } rule Main { sphere(4m); }");
   Program falsified = *program;

@@ -94,7 +94,7 @@ TEST_CASE("what is left out of one cell changes that cell alone", "[override]") 
       INFO("seed " << seed << "\n" << with);
       const CompileResult after = compileGrammar(with, "test.sgm");
       INFO(renderDiagnostics(after));
-      // What displaces a sum must be sure of the sum's largest shape, which may be the one that is left out.
+      // A displaced sum needs a largest shape for the proof of its bounds, and the override may have removed it.
       const bool unproven = text.find("fractal(2m) sum") != std::string::npos && !after.program;
       if (unproven) continue;
       REQUIRE(after.program);
@@ -117,7 +117,7 @@ TEST_CASE("only the shapes of what is named change", "[override]") {
   const GrammarChunk a = derived(*before), b = derived(*after);
   REQUIRE(a.groups.size() == 4);
   REQUIRE(b.groups.size() == 5);
-  // The ball that was there, 5 m higher, of the same size, and the box of the use's own parameter.
+  // The original ball, 5 m higher and of the same size, and a box with the use's own parameter as its size.
   CHECK(b.shapes[b.groups[2].root].size == a.shapes[a.groups[2].root].size);
   CHECK(b.shapes[b.groups[2].root].frame.origin ==
         saturatingAdd(a.shapes[a.groups[2].root].frame.origin, {0, 5 * kUnitsPerMetre, 0}));
@@ -265,7 +265,7 @@ TEST_CASE("an override by a room's name takes the place of what stands in the ro
   auto more = plain;
   ++more.first[ShapeKind::capsule];
   CHECK(shapesOf("override tag \"den\" { inner; capsule((0m, 0m, 0m), (1m, 0m, 0m), 1m); }") == more);
-  // The room is there still, and its block cuts from it as the one that it replaces did.
+  // The room remains, and the block's capsule is cut from it, as the sphere of the replaced block was.
   auto other = plain;
   --other.first[ShapeKind::sphere];
   --other.second;
@@ -275,7 +275,7 @@ TEST_CASE("an override by a room's name takes the place of what stands in the ro
   auto bare = plain;
   --bare.second;
   CHECK(shapesOf("override tag \"bath\" { }") == bare);
-  // The word that a room's block says stands in the place of its name.
+  // A tag in the block of the rule replaces the tag that is the rule's name.
   CHECK(compileGrammar(inLayer(rules) + "override tag \"bed\" { }", "test.sgm").program == nullptr);
 }
 
@@ -324,13 +324,14 @@ TEST_CASE("overrides do not hold in their own blocks, so that none is without en
       "rule Tree(n) else { box(1m); }");
   const ShapeKind s = ShapeKind::sphere, b = ShapeKind::box, t = ShapeKind::torus;
   CHECK(kinds(*compiled(text)) == Kinds{s, s, s, b});
-  // The same rule with another argument; its own uses below are others than the one that is named.
+  // The override calls the same rule with another argument; uses of the rule below it have other paths, so the override
+  // does not apply to them.
   CHECK(kinds(*compiled(withEdit(text, "Main/Tree", "{ Tree(n - 2); }"))) == Kinds{s, b});
   CHECK(kinds(*compiled(withEdit(text, "Main/Tree/Tree", "{ Tree(5); }"))) == Kinds{s, s, s, s, s, s, b});
   CHECK(kinds(*compiled(text + "override tag \"t\" { torus(3m, 1m); Tree(1); }\n")) == Kinds{t, s, b});
-  // What was there derives trees of its own, which have the override as well.
+  // The original derives further trees, to which the override applies as well.
   CHECK(kinds(*compiled(text + "override tag \"t\" { torus(3m, 1m); inner; }\n")) == Kinds{t, s, t, s, t, s, b});
-  // Two that call each other's rules.
+  // Two overrides whose blocks call each other's rules.
   const std::string two =
       inLayer("rule Main { A; }\nrule A { tag \"a\"; sphere(1m); }\nrule B { tag \"b\"; box(1m); }");
   CHECK(kinds(*compiled(two + "override tag \"a\" { B; }\noverride tag \"b\" { A; }\n")) == Kinds{s});
@@ -408,7 +409,7 @@ TEST_CASE("a cell that is named and lacks the path says so, and no other", "[ove
           (balls ? "this override finds nothing: there are only 2 `Ball` here in " + cell + "/Main" : none));
     CHECK(message(cell + "/Main/Ball[1]/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[1]" : none));
-    // Each of the balls has one, not all of them two.
+    // Each of the balls has one Fruit, none has two.
     CHECK(message(cell + "/Main/Ball/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[0]" : none));
     CHECK(message(cell + "/Main/Ball[2]", x + 1).empty());

@@ -95,7 +95,7 @@ TEST_CASE("edges of `size` are read in the scope as it was") {
   CHECK(tenths(swapped.groups[0].bounds.hi.x) == 3.0);
   CHECK(tenths(swapped.groups[0].bounds.hi.y) == 2.0);
   CHECK(tenths(swapped.groups[0].bounds.hi.z) == 1.0);
-  // What is left out keeps its edge; the next `size` stands in the scope of this one.
+  // An omitted axis keeps its size; the second `size` refers to the scope of the first one.
   const GrammarChunk moved =
       derivedRules("rule Main { size(2m, 4m, 6m) size(y scope.x, z scope.y) size(x scope.z) box(scope); }");
   REQUIRE(moved.groups.size() == 1);

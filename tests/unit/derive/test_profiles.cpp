@@ -99,7 +99,7 @@ TEST_CASE("merged plans hang together, and every piece is a draw of its own", "[
     REQUIRE(pieces.size() == static_cast<size_t>(count));
     REQUIRE(chunk.notes.empty());
     const std::vector<PlanCorner> first = outlineOf(chunk, pieces[0]);
-    // All corners: of two pieces one alone may come to lie in the same unit.
+    // All corners are compared: single corners of two pieces may be rounded to the same unit.
     std::set<std::vector<std::pair<double, double>>> outlines;
     for (const Shape& piece : pieces) {
       const std::vector<PlanCorner> corners = outlineOf(chunk, piece);
@@ -127,9 +127,9 @@ TEST_CASE("an extrusion is as high as it says, from y = 0 up", "[derive][profile
     const double half = double{solids[0].size[0]}, middle = solids[0].frame.origin.y;
     CHECK(std::fabs(2 * half - height * scale * kUnitsPerMetre) < 0.01 + 1e-6 * half);
     CHECK(std::fabs(middle - half) <= 0.51);
-    // The block's scope is the box of the piece.
+    // The scope of the block is the bounding box of the piece.
     REQUIRE(chunk.anchors.size() == 1);
-    // Its middle and what lies half as high above it are rounded apart, and `half` is a float.
+    // The middle and half of the height are rounded separately, and `half` is a float.
     CHECK(std::fabs(chunk.anchors[0].frame.origin.y - 2 * half) <= 1.01);
   }
 }
@@ -215,7 +215,7 @@ TEST_CASE("polygons whose edges cross are known, however they are turned", "[der
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(200); ++round) {
-    // A star about the origin crosses nowhere; on a circle, two corners in each other's place cross somewhere.
+    // A star-shaped polygon around the origin is simple; on a circle, swapping two corners always makes edges cross.
     const size_t count = 5 + random() % 12;
     std::vector<PlanCorner> corners;
     for (size_t i = 0; i < count; ++i) {
@@ -236,7 +236,7 @@ TEST_CASE("polygons whose edges cross are known, however they are turned", "[der
     std::swap(corners[first], corners[other]);
     CHECK(!isSimple(polygonPiece(corners)));
   }
-  // An edge that is a point, and one that touches another, cross nothing.
+  // An edge of length 0, and a corner that touches another edge, are not crossings.
   CHECK(isSimple(polygonPiece(std::vector<PlanCorner>{{0, 0}, {6, 0}, {6, 0}, {6, 2}, {0, 2}})));
   CHECK(isSimple(polygonPiece(std::vector<PlanCorner>{{0, 0}, {6, 0}, {6, 4}, {3, 0}, {0, 4}})));
   CHECK(!isSimple(polygonPiece(std::vector<PlanCorner>{{0, 0}, {2, 1}, {6, 3}})));
@@ -258,7 +258,7 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(60); ++round) {
-    // As they are written: which of two edges is the longer must not be a matter of digits that are not.
+    // The values are rounded as in the text: otherwise digits that the text lacks could decide which edge is longer.
     const auto edge = [&] { return std::stod(decimal(2 + 12 * random01(random))); };
     const double pitch = 5 + 75 * random01(random), x = edge(), z = edge();
     const int corners = 3 + static_cast<int>(random() % 9);
@@ -287,7 +287,7 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
         REQUIRE(std::fabs(n.y - std::cos(pitch * kPi / 180)) < 1e-5);
         sum = sum + n;
       }
-      // To all sides, and out.
+      // The slopes face all directions equally, and outwards.
       if (one.slopes != 3) CHECK(std::hypot(sum.x, sum.z) < 1e-5);
     }
     // The ridge runs along the longer side.
@@ -297,7 +297,7 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
     const double peak = 0.5 * std::min(x, z) * std::tan(pitch * kPi / 180);
     CHECK(std::fabs(gable.groups[0].bounds.hi.y * kUnit - peak) < 0.02);
   }
-  // On the floor of a box, wherever that is.
+  // A roof stands on the floor of a box, at any height.
   const GrammarChunk high = derivedRules("rule Main { at(0m, 10m, 0m) size(8m, 4m, 6m) roof flat(1m); }");
   CHECK(std::abs(high.groups[0].bounds.lo.y - 8 * 1024) <= 2);
   CHECK(std::abs(high.groups[0].bounds.hi.y - 9 * 1024) <= 2);

@@ -117,7 +117,8 @@ TEST_CASE("a ball proven to hold one thing holds nothing else, and away from the
       }
       CHECK(wrong == 0);
     }
-    // Pieces are a 32nd of the radius wide at last, so those of the ball end that far from it, and need as much again.
+    // The smallest pieces are a 32nd of the radius wide, so those of the ball may extend beyond it by that much, and
+    // the bounds need as much again.
     const double gap = std::abs(distance(ball.centre, middle) - radius) - ball.radius;
     if (gap > (1 + slack) * 0.06 * ball.radius + 2) {
       ++decided;
@@ -148,7 +149,7 @@ TEST_CASE("one position of something else is never missed") {
 }
 
 TEST_CASE("a proof costs no more than it may, and what costs more is not proven") {
-  // A position at a time: nothing is known of larger boxes.
+  // Content is known only of single positions, not of larger boxes.
   const auto single = [](const IntBox& box) { return box.lo == box.hi ? BoxContent::open : BoxContent::unknown; };
   const BallProof large = proveBall({{}, 5000}, BoxContent::open, single);
   CHECK_FALSE(large.holds);
@@ -227,7 +228,7 @@ TEST_CASE("in loops and point sets every place asks for itself") {
 }
 
 TEST_CASE("answers are conditions like others") {
-  // Below 32 m all is open.
+  // Below 32 m, everything is open.
   const Ceiling rock(32 * 1024);
   const auto holds = [&](const std::string& height, const std::string& condition) {
     return anchorsOf("rule D { at(1m, " + height + ", 1m) Ask; } rule Ask when " + condition + " { anchor spawn; }",

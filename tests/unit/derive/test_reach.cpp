@@ -41,7 +41,7 @@ int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
 /// reach.
 int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
   const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
-  if (!chunk) return 0;  // more than a cell may cost
+  if (!chunk) return 0;  // the cell exceeds the limits of a cell
   for (const DeriveNote& note : chunk->notes) {
     INFO(note.message << " in " << note.path << " at " << note.line << ":" << note.column);
     CHECK(note.message.find("may pass") == std::string::npos);
@@ -89,7 +89,7 @@ TEST_CASE("what is proven holds all that is derived", "[costly]") {
       INFO("seed " << seed << ", world " << world << "\n" << text);
       const bool whole = isWhole(program.layers[0]);
       Int3 cell = whole ? Int3{} : Int3{static_cast<int32_t>(world) - 2, 0, 1};
-      // Near the ends of the world, where floats have the fewest digits left.
+      // Near the ends of the world, where floats have the least precision.
       if (!whole && world == 4) cell = {8180, -8180, 8180};
       groups += checkCell(program, randomValues(program, seed * 8 + world), world, cell);
     }

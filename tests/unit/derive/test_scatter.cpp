@@ -40,7 +40,7 @@ TEST_CASE("poisson points keep their distance across cell borders") {
       REQUIRE(square >= static_cast<double>(radius) * radius);
     }
   }
-  // The rule's density for one candidate in each cube: (1 - exp(-4/3 pi)) / (4/3 pi) = 0.235.
+  // The rule's expected density with one candidate in each cube of the radius: (1 - exp(-4/3 pi)) / (4/3 pi) = 0.235.
   const double cubes = 4 * 6000.0 * 3 * 5000.0 * 3 * 7001.0 / std::pow(radius, 3.0);
   CHECK(static_cast<double>(points.size()) / cubes > 0.2);
   CHECK(static_cast<double>(points.size()) / cubes < 0.3);

@@ -69,7 +69,7 @@ int checkTree(const Skeleton& skeleton, const Turtle& turtle) {
     const double off = angleBetween(headingOf(*parent), headingOf(s));
     REQUIRE(off >= turtle.turn - kSlack);
     REQUIRE(off <= std::min(2 * turtle.turn, kPi / 2) + kSlack);
-    // There is one, since no side branch starts where its parent ends.
+    // The parent's branch has a next segment, since no side branch starts where its parent ends.
     const Segment& onward = *(parent + 1);
     REQUIRE(same(onward.from, s.from));
     REQUIRE(angleBetween(headingOf(onward), headingOf(s)) >= turtle.turn - kSlack);
@@ -129,7 +129,7 @@ TEST_CASE("a turtle turns evenly within its cone, to all sides") {
 }
 
 TEST_CASE("as many side branches as `fork` says") {
-  // At each step every branch goes on, and a share of them twice.
+  // At each step every branch continues, and a share (0.2) of them forks.
   const Turtle turtle{8, 1, 0.4, 0.2};
   const double expected = (std::pow(1.2, 8) - 1) / 0.2;
   double segments = 0;
@@ -139,7 +139,8 @@ TEST_CASE("as many side branches as `fork` says") {
   CHECK(segments / trees == Approx(expected).epsilon(0.03));
   CHECK(grownSkeleton(PathKey{1}, {9, 1, 0.4, 0}).segments.size() == 9);
   CHECK(grownSkeleton(PathKey{1}, {9, 1, 0.4, 1}).segments.size() == 511);
-  CHECK(grownSkeleton(PathKey{1}, {9, 1, 0, 1}).segments.size() == 9);  // they would lie on the stem
+  // Without an angle, side branches would lie on the stem, so there are none.
+  CHECK(grownSkeleton(PathKey{1}, {9, 1, 0, 1}).segments.size() == 9);
 }
 
 TEST_CASE("less fork leaves branches out, fewer steps cut them short; what is left stays") {
@@ -180,7 +181,7 @@ TEST_CASE("a tree that is too large lacks twigs, not its stem and boughs") {
   CHECK_FALSE(skeleton.whole);
   CHECK(skeleton.segments.size() <= kMostSegments);
   checkTree(skeleton, turtle);
-  // With a fork at every joint, the segments of depth d are 13 over d + 1.
+  // With a fork at every joint, there are binomial(13, d + 1) segments of depth d.
   std::map<uint32_t, int> of_depth;
   for (const Segment& s : skeleton.segments) ++of_depth[s.depth];
   const int expected[] = {13, 78, 286, 715, 1287, 1716};
@@ -201,16 +202,16 @@ TEST_CASE("the tree of a grammar is where its scope is, and what stands at a seg
     const auto all = capsules(derivedRules("rule Main { " + grown + " }", cell, world));
     CHECK(all == capsules(derivedRules("rule Main { " + grown + " }", cell, world)));
     CHECK(all != capsules(derivedRules("rule Main { " + grown + " }", cell, world + 1)));
-    // Moved with its scope, by whole units.
+    // Moving the scope moves the branches by whole units.
     const auto moved = capsules(derivedRules("rule Main { at(4m, -8m, 16m) " + grown + " }", cell, world),
                                 {4 * 1024, -8 * 1024, 16 * 1024});
     CHECK(all == moved);
-    // Its stem is that of a tree without side branches, and draws the same there.
+    // The stem is the same as that of a tree without side branches.
     const std::string bare = treeOf("7, step 3m, turn 30deg");
     const auto stem = capsules(derivedRules("rule Main { " + bare + " }", cell, world));
     REQUIRE(stem.size() == 7);
     CHECK(std::includes(all.begin(), all.end(), stem.begin(), stem.end()));
-    // Two in one rule draw apart.
+    // Two trees in one rule draw different random numbers.
     const auto two = capsules(derivedRules("rule Main { " + bare + " " + bare + " }", cell, world));
     REQUIRE(two.size() == 14);
     CHECK(std::adjacent_find(two.begin(), two.end()) == two.end());

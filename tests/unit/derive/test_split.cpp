@@ -72,7 +72,7 @@ TEST_CASE("parts of a split lie one after another, and fill it where one of them
     const SplitLayout layout = layOut(length, parts, 1'000'000);
     REQUIRE(!layout.too_many);
     CHECK(layout.cut_off == (rigid > length + 1e-9));
-    // As often as the formula says.
+    // The number of repetitions follows the documented formula.
     double count = 0;
     if (group_rigid + group_wanted > 0) {
       const double fits = (length - rigid - wanted) / (group_rigid + group_wanted);
@@ -110,7 +110,7 @@ TEST_CASE("a split fills its scope with boxes that overlap by their seams alone,
   const char* axes[] = {"x", "y", "z"};
   for (unsigned round = 0; round < rounds(60); ++round) {
     const auto metresOf = [&](double least, double most) {
-      // Whole numbers of units all the way down, so that nothing is rounded.
+      // All sizes are whole numbers of units at all depths, so that nothing is rounded.
       return std::to_string(least + std::floor((most - least) * static_cast<double>(random() % 16)) / 16) + "m";
     };
     const std::string a = axes[random() % 3], b = axes[random() % 3];
@@ -136,13 +136,13 @@ TEST_CASE("a split fills its scope with boxes that overlap by their seams alone,
     CHECK(volume < 1.15 * scope.volume());
     for (size_t i = 0; i < boxes.size(); ++i)
       for (size_t j = 0; j < i; ++j)
-        // Two units from either side, and half a unit of rounding each.
+        // Allowed overlap: two units at either side, and half a unit of rounding each.
         REQUIRE(overlap(boxes[i], boxes[j]) <= 5 / kOneUnit * std::min(boxes[i].volume(), boxes[j].volume()) / 0.02);
   }
 }
 
 TEST_CASE("faces of a box point outwards and cover it", "[split]") {
-  // Thin plates lifted off the faces by 1 m: where they come to stand tells which way is out.
+  // Thin plates are moved away from the faces by 1 m along z: their places show which direction is outwards.
   const auto plates = [](const std::string& part) {
     return boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { " + part +
                                 ": at(z 1m) size(z 0.5m) box(scope); } }"));
@@ -162,11 +162,11 @@ TEST_CASE("faces of a box point outwards and cover it", "[split]") {
   CHECK(is(plates("top").at(0), {0, 4, 0}, {8, 0.5, 4}));
   CHECK(is(plates("bottom").at(0), {0, -4, 0}, {8, 0.5, 4}));
   CHECK(plates("side").size() == 4);
-  // Named faces are no sides any more.
+  // A face that is named separately is no longer one of the sides.
   const GrammarChunk named = derivedRules(
       "rule Main { size(8m, 6m, 4m) comp { side: size(z 1m) box(scope); front: size(z 2m) box(scope); } }");
   CHECK(boxesOf(named).size() == 4);
-  // From outside x runs to the right and y up: a mark in the upper right corner.
+  // Seen from outside, x goes to the right and y up: each mark is in the upper right corner.
   const auto marks = boxesOf(derivedRules(
       "rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { side: at(0.5*scope.x, 0.5*scope.y, 0m) box(1m); } }"));
   REQUIRE(marks.size() == 4);
@@ -174,7 +174,7 @@ TEST_CASE("faces of a box point outwards and cover it", "[split]") {
   CHECK(is(marks[1], {4, 3, -2}, {1, 1, 1}));
   CHECK(is(marks[2], {-4, 3, -2}, {1, 1, 1}));
   CHECK(is(marks[3], {-4, 3, 2}, {1, 1, 1}));
-  // Edges stand there, and x and z lead out of the box.
+  // At the vertical edges, y goes up, and x and z lead out of the box.
   const auto edges = boxesOf(derivedRules(
       "rule Main { at(20m, 20m, 20m) size(8m, 6m, 4m) comp { edges: at(1m, 0m, 1m) size(x 1m, z 1m) box(scope); } }"));
   REQUIRE(edges.size() == 4);
@@ -201,7 +201,7 @@ TEST_CASE("each part draws for itself and has a path of its own", "[split]") {
   const std::vector<double> edited = sizes(boxesOf(derived(*compiled(text + "override \"Main/L[3]\" { box(3m); }\n"))));
   REQUIRE(edited.size() == 11);
   for (size_t i = 0; i < 11; ++i) CHECK((edited[i] == plain[i]) == (i != 3));
-  // Another number of copies leaves those behind them, and those that stay, as they are.
+  // Another number of copies changes neither the parts behind them nor the copies that remain.
   std::string longer = text;
   longer.replace(longer.find("20m, 6m"), 3, "24m");
   const std::vector<double> more = sizes(boxesOf(derived(*compiled(longer))));
@@ -239,7 +239,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  // Tops of the floors of wings that stand at their own heights, some turned or upside down.
+  // Returns the tops of the floors of wings at various heights, some of which are rotated or upside down.
   const auto tops = [](const std::string& snap, const std::string& wings) {
     const std::vector<Box> boxes =
         boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(10m, 20m, 10m) " + snap + " { " + wings +
@@ -249,8 +249,8 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
     return lines;
   };
   int snapped = 0, all = 0;
-  // As many in every build, for the shares below: a wing's few lines snap together or not at all, so that of twenty
-  // wings less than a fifth do in one run of thirty.
+  // At least 300 wings in every build, for the shares checked below: the few lines of one wing snap together or not at
+  // all, so with twenty wings, less than a fifth of them would snap in one run of thirty.
   const unsigned wings = std::max(rounds(300), 300u);
   for (unsigned round = 0; round < wings; ++round) {
     const std::string low = std::to_string(-4 + 3 * unit(random)), tall = std::to_string(8 + 4 * unit(random));
@@ -264,7 +264,7 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
       if (free[i] > top) continue;
       const double from = (free[i] - 0.7) / 3.2, nearest = (std::floor(from + 0.5) - from) * 3.2;
       ++all;
-      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // on the edge: roundings decide
+      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // at the snapping distance, rounding decides
       const bool near = std::fabs(nearest) < 0.6;
       snapped += near;
       CHECK(held[i] == Approx(free[i] + (near ? nearest : 0)).margin(0.006));
@@ -273,12 +273,12 @@ TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no f
   CAPTURE(all);
   CHECK(snapped > all / 5);
   CHECK(snapped < all * 4 / 5);
-  // Planes across another axis are none of theirs, and neither are those of a block beside it.
+  // Snap planes along another axis, or of a block beside the wing, have no effect on it.
   const std::string plain = "size(4m, 10m, 4m) Wing;";
   CHECK(tops("snap x 4.2m", plain) == tops("", plain));
   CHECK(tops("", "snap y 4.2m { } " + plain) == tops("", plain));
   CHECK(tops("snap y 4.2m", plain) != tops("", plain));
-  // Of planes within planes the nearest holds.
+  // If snap planes are nested, the innermost apply.
   CHECK(tops("snap y 4.2m snap y 4.2m", plain) == tops("snap y 4.2m", plain));
 }
 

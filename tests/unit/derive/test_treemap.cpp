@@ -61,13 +61,14 @@ std::vector<std::pair<PlanRect, size_t>> openOf(const FloorPlan& plan) {
 }  // namespace
 
 TEST_CASE("the example of the paper on squarified treemaps comes out as in its figure", "[treemap]") {
-  // Bruls et al. 2000, figure 4: 6 by 4, areas 6 6 4 3 2 2 1. In steps of 1/4200 everything is a whole number.
+  // Bruls et al. 2000, figure 4: a rectangle of 6 by 4, areas 6 6 4 3 2 2 1. In steps of 1/4200, all results are whole
+  // numbers.
   constexpr int32_t k = 4200;
   const std::vector<double> areas{6, 6, 4, 3, 2, 2, 1};
   const auto parts = squarifiedTreemap({0, 0, 6 * k, 4 * k}, areas, 1);
   CHECK(parts[0] == PlanRect{0, 0, 3 * k, 2 * k});
   CHECK(parts[1] == PlanRect{0, 2 * k, 3 * k, 4 * k});
-  // 4 and 3 in a row along the shorter side of what is left, 3 by 4.
+  // The areas 4 and 3 form a row along the shorter side of the remaining 3 by 4.
   CHECK(parts[2] == PlanRect{3 * k, 0, 3 * k + 12 * k / 7, 7 * k / 3});
   CHECK(parts[3] == PlanRect{3 * k + 12 * k / 7, 0, 6 * k, 7 * k / 3});
   for (size_t i = 4; i < 7; ++i) {
@@ -99,7 +100,7 @@ TEST_CASE("rooms share a floor in proportion, without gaps, and are nearer to sq
       REQUIRE(r.z1 <= whole.z1);
       REQUIRE((r.x0 - whole.x0) % 2 == 0);
       REQUIRE((r.z0 - whole.z0) % 2 == 0);
-      // To a line's rounding to two units on either side.
+      // The areas are exact up to the rounding of each line to two units.
       const double wanted = weights[i] / total * areaOf(whole);
       REQUIRE(std::fabs(areaOf(r) - wanted) <= 4.0 * (r.width() + r.depth()) + 16);
       covered += areaOf(r);
@@ -128,7 +129,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
     REQUIRE(plan.closed.empty());
     REQUIRE(!plan.doors.empty());
     REQUIRE(plan.doors[0].from == PlanDoor::kOutside);
-    // By what is open alone: from the hole of the entrance to whatever overlaps.
+    // Walks only through open space: from the hole of the entrance to all holes and rooms that touch.
     const auto open = openOf(plan);
     std::vector<bool> seen(open.size(), false), reached(plan.rooms.size(), false);
     std::vector<size_t> next;
@@ -146,7 +147,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
     }
     REQUIRE(std::count(seen.begin(), seen.end(), false) == 0);
     REQUIRE(std::count(reached.begin(), reached.end(), false) == 0);
-    // Between rooms, and between them and the corridor, there is a wall.
+    // There is a wall between any two rooms, and between rooms and the corridor.
     const PlanRect& entrance = plan.doors[0].hole;
     const int32_t x = drawn.sizes.x / 2, z = drawn.sizes.z / 2;
     CHECK((entrance.x0 < -x || entrance.x1 > x || entrance.z0 < -z || entrance.z1 > z));
@@ -167,7 +168,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
 }
 
 TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[treemap]") {
-  // Of the same floors every time and in every build: of others, or of fewer, a share may be worse by chance.
+  // The same floors in every run and build: with random ones, or fewer, a share could be out of its bounds by chance.
   std::mt19937 random(1);
   const int floors = static_cast<int>(std::max(rounds(1000), 1000u));
   int corridors = 0, through = 0, links = 0, lost = 0;
@@ -185,7 +186,7 @@ TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[
   }
   CAPTURE(corridors, through, links, lost);
   CHECK(corridors > floors / 4);
-  // Through another room, unasked, only where no corridor from the entrance fits.
+  // A room is reached through another one without a requested link only if no corridor from the entrance fits.
   CHECK(through <= floors / 8);
   CHECK(lost <= links / 6);
 }
@@ -196,7 +197,7 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   size_t links_seen = 0, plain_met = 0, met = 0;
-  // In every build enough for the share of links below.
+  // In every build, at least 100 floors, enough for the share of links checked below.
   for (unsigned round = 0; round < std::max(rounds(200), 100u); ++round) {
     const PlanRect whole{-4000, 200, -4000 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random)),
                          200 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random))};
@@ -214,7 +215,7 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
     const auto rooms = linkedRooms(whole, areas, links, 256, 2, work);
     double covered = 0;
     for (size_t i = 0; i < rooms.size(); ++i) {
-      // To the rounding of its lines.
+      // The sizes are equal up to the rounding of lines.
       REQUIRE(std::abs(rooms[i].width() - plain[i].width()) <= 4);
       REQUIRE(std::abs(rooms[i].depth() - plain[i].depth()) <= 4);
       REQUIRE(rooms[i].x0 >= whole.x0);
@@ -269,7 +270,7 @@ TEST_CASE("what a floor costs is known, and a search that may cost less ends in 
     const uint64_t most = random() % whole.work;
     const uint64_t cut = layOutFloor(sizes, areas, links, most).work;
     CHECK(cut > most);
-    // No further than what one step of it costs.
+    // The work exceeds the limit by the cost of one step at most.
     CHECK(cut <= most + 40000);
   }
 }
@@ -294,7 +295,7 @@ TEST_CASE("floors that are alike are laid out once, and others end with the cell
 }
 
 TEST_CASE("links are doors where rooms share a wall", "[treemap]") {
-  // Three in a row from left to right, so that only the second can lead to the third.
+  // Three rooms in a row from left to right, so that only the second can lead to the third.
   const std::vector<double> areas{4, 2, 2};
   const FloorPlanSizes sizes{8 * 1024, 4 * 1024, 256, 920, 1332};
   const auto doors = [&](const std::vector<RoomLink>& links) {
@@ -308,7 +309,7 @@ TEST_CASE("links are doors where rooms share a wall", "[treemap]") {
   using Doors = std::vector<std::pair<size_t, size_t>>;
   CHECK(doors({}) == Doors{{0, 1}, {1, 2}});
   CHECK(doors({{1, 2, 920}, {0, 1, 920}}) == Doors{{1, 2}, {0, 1}});
-  // One that is wider than the wall is none: the rooms are reached otherwise.
+  // A door wider than the wall is left out, and the rooms are connected in another way.
   CHECK(doors({{1, 2, 5 * 1024}}) == Doors{{0, 1}, {1, 2}});
   const std::vector<RoomLink> some{{1, 2, 5 * 1024}, {0, 1, 920}, {0, 2, 920}};
   CHECK(layOutFloor(sizes, areas, some).unmet == std::vector<size_t>{0, 2});
@@ -319,7 +320,7 @@ TEST_CASE("walls without windows, rooms without doors and floors without room ar
   const std::vector<double> two{1, 1}, many(30, 1);
   const FloorPlan plan = layOutFloor(sizes, two, {});
   REQUIRE(plan.fits);
-  // Six outer walls, of which the entrance parts one.
+  // There are six outer walls, and the entrance divides one of them.
   CHECK(plan.facades.size() == 7);
   for (const PlanFacade& f : plan.facades) CHECK(f.high > f.low);
   CHECK(!layOutFloor({500, 6 * 1024, 256, 920, 1332}, two, {}).fits);

@@ -136,7 +136,7 @@ TEST_CASE("large lattices of drawn tiles are filled so that every side fits, or 
   CAPTURE(seed);
   std::mt19937 random(seed);
   unsigned solved = 0;
-  // As many in every build: of twenty it happens that a quarter alone is solved.
+  // At least 100 lattices in every build: of twenty, it may happen that only a quarter is solved.
   const unsigned lattices = std::max(rounds(100), 100u);
   for (unsigned round = 0; round < lattices; ++round) {
     const DrawnWave wave = drawnWave(random, 24, 12);
@@ -180,7 +180,7 @@ TEST_CASE("tiles are drawn in proportion to their weights where everything fits"
 }
 
 TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") {
-  // 1 and 2 alternate along x: an odd number of places cannot begin with 1 and end with 2.
+  // Tiles 1 and 2 alternate along x: an odd number of places cannot begin with 1 and end with 2.
   std::vector<WaveTile> tiles(2);
   for (WaveTile& tile : tiles) tile.sides.fill(8);
   tiles[0].sides[3] = 1;
@@ -196,7 +196,7 @@ TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") 
   CHECK(odd.end == WaveEnd::impossible);
   CHECK((odd.wanted[1] & odd.wanted[3]) != 0);
   CHECK(odd.wanted[4] == 8);
-  // A border that no tile meets.
+  // A border label that no tile has.
   lattice.border[4] = 4;
   const WaveResult top = collapseWave(tiles, lattice, 1, kEnough);
   CHECK(top.end == WaveEnd::impossible);
@@ -205,7 +205,7 @@ TEST_CASE("what nothing fits is said with what it would have to meet", "[wfc]") 
 }
 
 TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
-  // A magic of parity that propagation does not see: pipes that must cross an odd cut an odd number of times.
+  // A parity problem that propagation does not detect: pipes would have to cross a cut an odd number of times.
   const std::vector<WaveTile> tiles = pipes();
   WaveLattice lattice;
   lattice.size = {12, 1, 12};
@@ -214,7 +214,7 @@ TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
   CHECK(result.end == WaveEnd::gave_up);
   CHECK(result.tiles.empty());
   CHECK(result.visits == 200);
-  // Not even each place once.
+  // The limit does not even allow one visit of each of the 144 places.
   const WaveResult none = collapseWave(tiles, lattice, 1, 143);
   CHECK(none.end == WaveEnd::gave_up);
   CHECK(none.place == kNoPlace);
@@ -222,8 +222,8 @@ TEST_CASE("a search that is too long is given up and counted", "[wfc]") {
 }
 
 TEST_CASE("a search is given up within one choice, however far that reaches", "[wfc]") {
-  // Each tile wants the next one to its left, but the last, which stands beside itself: all places lose tile after
-  // tile.
+  // Each tile requires the next one on its left, except the last, which fits only to itself: so the choice of one tile
+  // removes all others, one after the other, at all places.
   std::vector<WaveTile> tiles(60);
   for (size_t t = 0; t < tiles.size(); ++t) {
     tiles[t].sides.fill(1);

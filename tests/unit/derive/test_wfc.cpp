@@ -42,7 +42,7 @@ std::string markedTiles(std::mt19937& random, const std::string& size, bool bord
     out += " t" + std::to_string(t) + " " + std::to_string(1 + random() % 5) + (random() % 2 == 0 ? " turn" : "");
     std::string body;
     for (size_t side = 0; side < 6; ++side) {
-      // One that is not named meets anything.
+      // A side without a label fits to any side.
       if (random() % 12 == 0) continue;
       const std::string said = label();
       out += std::string(", ") + kSides[side] + " " + said;
@@ -98,7 +98,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
     CAPTURE(round, full);
     const CompileResult result = compileGrammar(full, "test.sgm");
     if (!result.program) {
-      // A side that nothing meets.
+      // The grammar is invalid if a side fits to nothing.
       REQUIRE(result.diagnostics[0].code == "unknown-name");
       continue;
     }
@@ -112,7 +112,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
     const auto marks = marksOf(*result.program, chunk);
     const size_t places = static_cast<size_t>(n[0] * n[1] * n[2]);
     REQUIRE(marks.size() <= 6 * places);
-    // Pairs of marks lie 0.2 m apart across a line between two places, to the seam.
+    // Marks on the two sides of a line between two places form pairs, 0.2 m apart.
     size_t met = 0;
     for (size_t a = 0; a < marks.size(); ++a) {
       for (size_t b = a + 1; b < marks.size(); ++b) {
@@ -125,7 +125,7 @@ TEST_CASE("sides that touch have a label in common, however tiles are turned and
       }
     }
     const int lines = (n[0] - 1) * n[1] * n[2] + n[0] * (n[1] - 1) * n[2] + n[0] * n[1] * (n[2] - 1);
-    // Each mark that is not there leaves one line at most without its pair.
+    // A missing mark leaves at most one line without its pair.
     REQUIRE(met <= static_cast<size_t>(lines));
     REQUIRE(met + (6 * places - marks.size()) >= static_cast<size_t>(lines));
     pairs += static_cast<unsigned>(met);
@@ -179,14 +179,14 @@ TEST_CASE("a lattice is the same wherever and whenever it is derived, and anothe
     seen.insert(tilesOf(*program, chunk));
   }
   CHECK(seen.size() > 10);
-  // Cells differ as well, and each is what it is in whatever order they come.
+  // Different cells have different tiles, and a cell's tiles do not depend on the order in which cells are derived.
   const GrammarChunk there = derived(*program, {5, 0, -3}, 3);
   CHECK(tilesOf(*program, there) != tilesOf(*program, first));
   CHECK(hashChunk(derived(*program, {5, 0, -3}, 3)) == hashChunk(there));
 }
 
 TEST_CASE("walls run on from tile to tile, and their ends meet", "[wfc]") {
-  // In a field of lawn walls are closed: as many corners as lines of walls need, never three.
+  // In a field of lawn, walls form closed loops: their corner tiles are even in number, and at least four.
   const auto program = ofTiles(kMeadow);
   unsigned walls = 0;
   for (uint64_t seed = 0; seed < 30; ++seed) {
@@ -237,7 +237,7 @@ TEST_CASE("an override by tag changes what stands in a tile, wherever that stand
 TEST_CASE("what is searched for in vain leaves the tiles beside it as they are", "[wfc]") {
   const std::string field =
       "rule Field { size(20m, 1m, 20m) wfc 1m { a 1: { box(0.5m); mat a; } b 1: { box(0.5m); mat b; } } }";
-  // No way is found, and none is proven not to be.
+  // The search finds no solution, and does not prove that there is none.
   const std::string vain =
       "rule Vain { size(9m, 1m, 9m) wfc 1m { border side edge; half 1 turn, front pair, side edge: box(scope); } }";
   const auto alone = ofTiles("rule Main { repeat 0 Vain; Field; }" + vain + field);
@@ -272,7 +272,7 @@ TEST_CASE("each tile draws for itself", "[wfc]") {
 }
 
 TEST_CASE("what meets others than its own kind stands beside those alone", "[wfc]") {
-  // Arrows, head to tail: all of a line point one way.
+  // Arrows that must be placed head to tail: all arrows of a line have one direction.
   const auto arrows = ofTiles(
       "rule Main { size(24m, 1m, 2m) wfc 2m { arrow 1 turn, left tail meets head, right head meets tail, front flank, "
       "back flank: at(x 0.5m) { box(0.5m); mat mark; } } }");
@@ -286,7 +286,7 @@ TEST_CASE("what meets others than its own kind stands beside those alone", "[wfc
     ways.insert(at[0] > -11);
   }
   CHECK(ways.size() == 2);
-  // Towers that meet walls, and walls that meet both: no two towers side by side.
+  // Towers fit only to walls, and walls fit to both: no two towers are side by side.
   const auto towers = ofTiles(
       "rule Main { size(16m, 2m, 16m) wfc 2m { tower 9, side post meets wall: { box(1m); mat tower; } wall 1, side "
       "wall "

@@ -65,7 +65,7 @@ Interval boundsAt(const ProgramView& program, Int3 p) {
       case Op::prism:
       case Op::blob:
         out = boundPosition(in.op, params, here, a);
-        // Read at a warped place, where rounding may choose the next unit on each axis.
+        // At a warped place, rounding may choose the next unit on each axis, so the bounds are wider.
         if (in.place != 0) {
           const double v = referenceOf(program, g, i + 1, in.dst, p);
           out = {v - 2 - 1e-5 * std::abs(v), v + 2 + 1e-5 * std::abs(v)};
@@ -129,13 +129,13 @@ TEST_CASE("every op is as close to the double-precision reference as its operand
         ++compared;
         tight += bounds.hi - bounds.lo <= 1e-4 + 1e-4 * std::abs(expected);
       }
-      // Along a polyline the nearest segment may differ on a tie.
+      // On a polyline, two segments may be equally near, and either may be chosen.
       CHECK(far <= (std::any_of(program.instrs.begin(), program.instrs.end(),
                                 [](const Instr& in) { return in.op == Op::sweep; })
                         ? 2u
                         : 0u));
     }
-    // Bounds that hold everything would compare nothing.
+    // The check would prove nothing if the bounds were too wide, so most of them must be tight.
     INFO(opName(op) << ": tight at " << tight << " of " << compared);
     const bool coarse = op == Op::warp || op == Op::displace || op == Op::superquadric || op == Op::power_morph;
     CHECK((coarse || tight * 4 > compared * 2));
@@ -215,7 +215,7 @@ FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
 TEST_CASE("no op's float error is more than the relative error that ops.def states", "[costly]") {
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
     const Op op = static_cast<Op>(o);
-    // A warp gives no value, and what begins and adds is measured where it ends.
+    // A warp has no value of its own; the ops of a round or a sum are measured at its last op.
     if (op == Op::warp || op == Op::round_begin || op == Op::round_add || op == Op::sum_begin || op == Op::sum_add)
       continue;
     std::mt19937 first(1);
@@ -223,13 +223,13 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
     const bool of_one = op == Op::noise || op == Op::sweep;
     double worst = 0;
     size_t compared = 0, ties = 0;
-    // One point each gives the 300 values that are asked for below.
+    // The value of these programs does not depend on the position, so each gives one value; 300 are required below.
     const uint32_t programs = reads_position ? rounds(30) : std::max(rounds(600), 350u);
     for (uint32_t seed = 1; seed <= programs; ++seed) {
       std::mt19937 random(seed);
       const Int3 centre = kTestCentres[seed % std::size(kTestCentres)];
       const FieldProgram program = lonely(op, random, centre);
-      // Near, where shapes are round, and 500 km away.
+      // Points near the shapes, where they are curved, and 500 km away.
       PointSet points = randomPoints(random, centre, 40'000, reads_position ? 400 : 1);
       if (reads_position) {
         const PointSet far = randomPoints(random, centre, 500'000'000, 200);
@@ -243,11 +243,12 @@ TEST_CASE("no op's float error is more than the relative error that ops.def stat
         const Interval bounds = boundsAt(program.view(), p);
         const double expected = referenceField(program.view(), p), off = std::abs(double{e.value[i]} - expected);
         ++compared;
-        // Half the width of the bounds at a point is the stated error times the magnitude that enters.
+        // Half the width of the bounds at a point is the stated relative error times the largest magnitude of the
+        // inputs.
         const double half = of_one ? statedError(op) : (bounds.hi - bounds.lo) / 2;
         const double relative = off == 0 ? 0 : half == 0 ? 1 : off / half * std::max(statedError(op), 1e-30);
         if (op == Op::sweep && relative > statedError(op)) {
-          ++ties;  // two segments as near as each other
+          ++ties;  // two segments are equally near
           continue;
         }
         worst = std::max(worst, relative);

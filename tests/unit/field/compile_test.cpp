@@ -36,7 +36,7 @@ GrammarChunk cellOf(std::mt19937& random, Int3 cell, uint32_t layers, uint32_t m
     group.root = i;
     group.cut = random() % 3 == 0;
     group.bounds = IntBox{centre, centre}.grown(radius);
-    // Few keys, so that equal ones are common: then the cell and the group's number decide.
+    // Few different keys, so that equal ones are common: then the cell and the group's number decide the order.
     group.key.value = random() % 8;
     chunk.groups.push_back(group);
   }
@@ -102,7 +102,7 @@ TEST_CASE("the index finds exactly the groups that a scan finds") {
   for (uint32_t seed = 1; seed <= 60; ++seed) {
     std::mt19937 random(seed);
     GrammarChunk chunk = cellOf(random, {}, 1, seed % 7 == 0 ? 9u : 400u, 60'000);
-    // Equal boxes, and one that holds the world.
+    // Some groups have equal boxes, and one has a box that holds the whole world.
     for (size_t i = 0; i < chunk.groups.size() && seed % 3 == 0; i += 2)
       chunk.groups[i].bounds = chunk.groups[0].bounds;
     if (!chunk.groups.empty() && seed % 4 == 0) chunk.groups.back().bounds = IntBox::everything();
@@ -110,7 +110,7 @@ TEST_CASE("the index finds exactly the groups that a scan finds") {
     for (int i = 0; i < 40; ++i) {
       const Int3 at{within(random, 80'000), within(random, 80'000), within(random, 80'000)};
       const IntBox box = i == 0 ? IntBox::everything() : IntBox{at, at}.grown(1 << random() % 16);
-      std::pmr::vector<uint32_t> expected, found{77};  // what is there already stays
+      std::pmr::vector<uint32_t> expected, found{77};  // existing elements must stay
       for (uint32_t g = 0; g < chunk.groups.size(); ++g) {
         if (chunk.groups[g].bounds.meets(box)) expected.push_back(g);
       }
@@ -147,7 +147,7 @@ TEST_CASE("cells may come in any order") {
       INFO("seed " << seed << ", round " << round << ", " << expected->groups.size() << " groups");
       CHECK(same(*expected, *shuffled));
     }
-    // Layer by layer, adds before cuts.
+    // Groups are ordered by layer, and within a layer, adds come before cuts.
     for (size_t i = 1; i < expected->groups.size(); ++i) {
       const ProgramGroup &before = expected->groups[i - 1], &after = expected->groups[i];
       INFO("seed " << seed);
@@ -174,7 +174,7 @@ TEST_CASE("balls of a sum that weigh nothing where a field is read change no bit
     REQUIRE(near);
     REQUIRE(whole);
     REQUIRE(near->instrs.size() <= whole->instrs.size());
-    // Places under a warp lie elsewhere.
+    // The op under a warp is evaluated elsewhere, so pruning for this box must not remove it.
     if (shift > 0) CHECK(near->instrs.size() == whole->instrs.size());
     left_out += whole->instrs.size() - near->instrs.size();
     const PointSet points = randomPoints(random, at, half, 500);

@@ -144,7 +144,7 @@ TEST_CASE("a place in the noise lattice is exact over every offset and period") 
     const auto offset = static_cast<int32_t>(random());
     const auto period = static_cast<int32_t>(1 + (random() >> (1 + random() % 31)));
     check(offset, period);
-    // At and beside the corners of the lattice.
+    // Positions at and beside the corners of the noise lattice.
     const int64_t corner = int64_t{offset} / period * period + static_cast<int64_t>(random() % 3) - 1;
     check(static_cast<int32_t>(std::min<int64_t>(std::max<int64_t>(corner, INT32_MIN), INT32_MAX)), period);
   }

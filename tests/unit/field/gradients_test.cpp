@@ -50,7 +50,7 @@ TEST_CASE("the slopes between a lattice's samples near the field's with the squa
     ProgramBuilder builder(spacing, false, 0);
     REQUIRE(builder.group(builder.lattice(at, samples, kFarSample, 0), IntBox::everything(), 0, false));
     const FieldProgram program = builder.finish();
-    // Where vertices are: on the edges of cells.
+    // Points on the edges of cells, as vertices are.
     std::mt19937 random(static_cast<uint32_t>(spacing));
     std::vector<int32_t> p[3];
     for (int i = 0; i < 4000; ++i) {
@@ -76,7 +76,8 @@ TEST_CASE("the slopes between a lattice's samples near the field's with the squa
 }
 
 TEST_CASE("analytic gradients follow the field") {
-  // Against central differences of the double-precision reference, where the field is smooth around the point.
+  // Compares gradients with central differences of the double-precision reference where the field is smooth around the
+  // point.
   size_t compared = 0, off = 0;
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
     const Op op = static_cast<Op>(o);
@@ -84,8 +85,8 @@ TEST_CASE("analytic gradients follow the field") {
     for (uint32_t seed = 1; seed <= 12; ++seed) {
       std::mt19937 random(seed * 77 + static_cast<uint32_t>(o));
       const FieldProgram program = programOf(op, random, {});
-      if (shortestPeriod(program) < 128) continue;  // finer than the differences' own step
-      if (reads(program, Op::lattice)) continue;    // smoother than its samples: it has a test of its own
+      if (shortestPeriod(program) < 128) continue;  // noise finer than the step of the differences
+      if (reads(program, Op::lattice)) continue;    // smoother than its samples; a separate test covers it
       const PointSet points = randomPoints(random, {}, 20'000, 60);
       const Evaluated e = evaluate(scalarKernels(), program.view(), points.points());
       for (size_t i = 0; i < points.x.size(); ++i) {
@@ -105,7 +106,7 @@ TEST_CASE("analytic gradients follow the field") {
           change += (d[a] - half[a]) * (d[a] - half[a]);
           error += (g[a] - half[a]) * (g[a] - half[a]);
         }
-        // Near a crease the two step widths disagree; there no gradient is the right one.
+        // Near a crease, differences with the two step widths disagree: no gradient is correct there.
         if (change > 1e-6 * (norm + 1e-6)) continue;
         ++compared;
         const bool wrong = error > 4e-4 * norm + 1e-6;

@@ -184,7 +184,7 @@ TEST_CASE("voxels are as smooth as is said, at every level") {
       Int3 p;
       for (int axis = 0; axis < 3; ++axis) p[axis] = world.anchor[axis] + between(random, 0, cell_edge);
       if (i % 3 == 0) {
-        // A voxel's own place.
+        // The exact position of a voxel.
         for (int axis = 0; axis < 3; ++axis) p[axis] = world.anchor[axis] + between(random, 0, 12) * world.edge;
       }
       places.push_back(p);
@@ -194,7 +194,7 @@ TEST_CASE("voxels are as smooth as is said, at every level") {
     for (size_t i = 0; i < places.size(); ++i) {
       const double wanted = expected.at(places[i]);
       CAPTURE(i, places[i].x, places[i].y, places[i].z);
-      // A sample is a whole number of units; and 7/8 or 1/4 of an edge may not be.
+      // A sample lies at whole units; 7/8 or 1/4 of a voxel's edge may not, so the value may differ by rounding.
       CHECK(std::abs(static_cast<double>(found.value[i]) - wanted) < 2.01);
       if (i % 3 == 0 && cell < 2 * world.edge) {
         const Int3 off = saturatingSub(places[i], world.anchor);
@@ -211,7 +211,7 @@ TEST_CASE("voxels in pieces are the same as in one, to the bit, at every level")
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(12); ++round) {
     const VoxelWorld world = anyWorld(random);
-    // Pieces of any size, whole voxels or not, two along each axis; and one that holds them all.
+    // Two pieces along each axis, of any size, whole numbers of voxels or not; and one piece that holds all of them.
     const int32_t small = between(random, 3 * world.edge, 9 * world.edge),
                   cell = world.edge * between(random, 1, 8) / 2;
     const Int3 home{between(random, -3, 3), 0, between(random, -3, 3)};
@@ -228,7 +228,7 @@ TEST_CASE("voxels in pieces are the same as in one, to the bit, at every level")
       Int3 p;
       for (int axis = 0; axis < 3; ++axis) {
         const int32_t low = world.anchor[axis] + 2 * small * home[axis];
-        // Half of them near the faces between the pieces.
+        // Half of the points lie near the faces between the pieces.
         p[axis] =
             low + (i % 2 == 0 ? between(random, 0, 2 * small - 1) : small + between(random, -world.edge, world.edge));
       }
@@ -278,7 +278,7 @@ TEST_CASE("a warp reads voxels wherever it leads") {
 TEST_CASE("below a warp, what few places read is what many do") {
   const VoxelWorld world{4, 1024, {}, false};
   GrammarChunk piece = pieceOf(world, {}, 24 * 1024);
-  // (1.7 n, -0.9 n, n * x) metres, with noise n: of -1 to 1, and some that depends on the place.
+  // A displacement of (1.7 n, -0.9 n, n * x) metres with noise n from -1 to 1, partly dependent on the position.
   Expr n, amount, less, x;
   n.op = ExprOp::noise, n.noise = 0;
   amount.value = 1.7f, less.value = -0.9f;

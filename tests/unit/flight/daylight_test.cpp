@@ -103,7 +103,7 @@ TEST_CASE("streets have daylight and closed rooms have none, whatever their size
 TEST_CASE("light comes through glass, windows and the mouth of a cave, and not to the end of a tunnel") {
   CHECK(look(worldOf(room(8, 4, 8, 1)), {0, 1.7, 0}, {1, 0, 0}).daylight > 0.5);
 
-  // A tunnel in a hill, open at one end: by daylight near its mouth, by a lamp deep in it, into it and out of it.
+  // A tunnel in a hill, open at one end: sunlight near its mouth, a lamp deep inside, looking inwards or outwards.
   std::vector<Box> tunnel{kGround,
                           {{-50, 4, 0}, {50, 50, 400}},
                           {{-50, 0, 0}, {-2, 50, 400}},
@@ -127,7 +127,7 @@ TEST_CASE("rock without an end has no sky, however far a ray goes") {
       CHECK((look(world, {0, 0, 0}, {1, 0, 0}).daylight == 0) == (solid && endless));
     }
   }
-  // Among islands that are stacked without an end the sky is what lies between them.
+  // In an endless void world of stacked islands, the distance after which a ray counts as reaching the sky is shorter.
   CHECK(LitWorld::of(false, true).sky_metres < LitWorld::of(false, false).sky_metres);
   LitWorld broken = LitWorld::of(false, false);
   broken.cast = [](const Metres3&, const Metres3&, double) -> Result<std::optional<RayEnd>> {
@@ -142,7 +142,7 @@ TEST_CASE("the light of a flight does not flicker") {
   cli::SteadyLight light;
   const double enough = cli::kEnoughDaylight;
   CHECK(light.next(2 * enough, false) == Light::sun);
-  // About the threshold nothing changes, nor by one look alone.
+  // Values around the threshold do not change the light, nor does a single look beyond it.
   for (int i = 0; i < 20; ++i) CHECK(light.next(enough * (i % 2 == 0 ? 0.7 : 1.3), false) == Light::sun);
   CHECK(light.next(0, false) == Light::sun);
   CHECK(light.next(enough, false) == Light::sun);
@@ -151,7 +151,7 @@ TEST_CASE("the light of a flight does not flicker") {
   for (int i = 0; i < 20; ++i) CHECK(light.next(enough * (i % 2 == 0 ? 0.7 : 1.3), false) == Light::lamp);
   CHECK(light.next(1, false) == Light::lamp);
   CHECK(light.next(1, false) == Light::sun);
-  // Where the camera has leapt to, what it sees there counts alone.
+  // After a teleport, only what the camera sees at the new place counts.
   CHECK(light.next(0, true) == Light::lamp);
   CHECK(light.next(enough, true) == Light::sun);
 

@@ -115,7 +115,7 @@ TEST_CASE("the same seed makes the same flight, another seed another one") {
   FlightPath first = world.fly(settings), second = again.fly(settings);
   settings.seed = 4;
   FlightPath other = world.fly(settings);
-  // In another order of asking, too.
+  // The order of the calls has no influence.
   const FlightPlace far = placeAt(second, 100);
   double apart = 0;
   for (double s = 0; s < 100; s += 5) {
@@ -210,7 +210,7 @@ TEST_CASE("a path of points goes through them, evenly") {
     CHECK(path.length().has_value() == !loop);
     double last = 0;
     for (const Metres3& point : points.points) {
-      // In order, and each of them.
+      // The path passes each point, in the given order.
       double nearest = 1e9, at = 0;
       for (double s = last; s < last + 60; s += 0.05) {
         const double distance = glm::length(placeAt(path, s).position - point);

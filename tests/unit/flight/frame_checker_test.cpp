@@ -52,7 +52,7 @@ TEST_CASE("what an octree draws is closed, and stays so as octrees follow each o
       std::mt19937 random(seed);
       const Drawing next = drawingOf(randomTree(random));
       world.want(next);
-      // Chunk by chunk, in any order: between two frames anything may be open.
+      // Chunks are changed one by one in random order; the surface need not be closed until the last.
       std::vector<ChunkKey> changes;
       for (const auto& [key, parts] : drawn)
         if (next.count(key) == 0) changes.push_back(key);
@@ -151,7 +151,8 @@ TEST_CASE("a chunk that is drawn inside another one is seen, whichever came firs
     agreed(checker);
     const auto& [leaf, parts] =
         *std::find_if(drawing.begin(), drawing.end(), [&](const auto& drawn) { return holds(node, drawn.first); });
-    REQUIRE(checker.draw(world.view(leaf), parts));  // once more: below the one that came later
+    // Drawn once more, now below the coarser node that was drawn after it.
+    REQUIRE(checker.draw(world.view(leaf), parts));
     CHECK(checker.check().overlaps == inside);
     REQUIRE(checker.erase(publicKey(node)));
     CHECK(checker.check().overlaps == 0);
@@ -186,8 +187,8 @@ TEST_CASE("wrong blocks around a chunk are seen, as open edges") {
 }
 
 TEST_CASE("wrong blocks that join two surfaces in a point are seen in that vertex") {
-  // A pebble around the corner of eight chunks that the finest level alone knows; two chunks across from each other are
-  // of that level, and each closes its eighth of the pebble for itself.
+  // A pebble around the common corner of eight chunks, visible only at the finest level; two diagonally opposite chunks
+  // are of that level, and each closes its eighth of the pebble by itself.
   MeshedWorld world(
       "sgm 1;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Pebble;\n"
       "rule Pebble { detail 0.3m { sphere(1m); } }\n");
@@ -201,8 +202,8 @@ TEST_CASE("wrong blocks that join two surfaces in a point are seen in that verte
   drawAll(checker, world, drawing);
   CHECK(checker.checkWhole().closed());
   CHECK(checker.check().triangles > 100);
-  // As if the chunks across its lower edges were the fine ones, and the one across the corner not: then its vertex in
-  // the corner has the other one's key.
+  // The flags claim that the chunks across the lower edges are fine and the one across the corner is not: then the
+  // vertex in the corner gets the key of another vertex.
   DrawnParts wrong = drawing.at(upper);
   wrong.coarser &= ~(neighbourBit(0, -1, -1) | neighbourBit(-1, 0, -1) | neighbourBit(-1, -1, 0));
   wrong.coarser |= neighbourBit(-1, -1, -1);
@@ -233,7 +234,8 @@ TEST_CASE("keys follow from packed vertices and the blocks around") {
       if (face >= 0 && (request.seams >> face & 1) == 0) continue;
       const sgm_mesh_range& range = face < 0 ? view.body : view.seams[face];
       const MeshPart& part = face < 0 ? chunks[i].mesh.body : chunks[i].mesh.seams[static_cast<size_t>(face)];
-      if (request.outermost && part.keys.size() != range.vertex_count) continue;  // asked of another neighbour
+      // This seam's mesh belongs to another set of neighbours.
+      if (request.outermost && part.keys.size() != range.vertex_count) continue;
       REQUIRE(part.keys.size() == range.vertex_count);
       cli::SeamOf seam;
       if (face >= 0) seam = {static_cast<Face>(face), seamFans(static_cast<Face>(face), request.coarser)};
@@ -285,7 +287,7 @@ TEST_CASE("a mesh that is not well formed is refused, and changes nothing") {
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_COARSER; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = 3; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].x = -1; }));
-  // Features: of the level above in a body, and of a cell outside the chunk.
+  // Feature vertices that a body may not have: of the next level, and of a cell outside the chunk.
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 13 | 0x15; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 14 | 0x15, v[0].x = -200; }));
   CHECK(refused([](auto& m, auto&, auto& i) { i[0] = m.body.vertex_count; }));
@@ -337,7 +339,8 @@ TEST_CASE("triangles with two corners in one place, flat, folded and cutting one
   REQUIRE(checker.draw(other, {}));
   const FrameReport plain = checker.check();
   CHECK(plain.degenerate_triangles + plain.flat_triangles + plain.folded_triangles + plain.self_intersections == 0);
-  // A triangle of feature vertices, which may lie anywhere about its cell, and one that shares an edge with it.
+  // A triangle of feature vertices, which may lie anywhere around their cell, and another one that shares an edge with
+  // it.
   const auto corner = [](int x, int y, int z, uint16_t fan) {
     sgm_vertex v{};
     v.x = static_cast<int16_t>(2048 + x), v.y = static_cast<int16_t>(2048 + y), v.z = static_cast<int16_t>(2048 + z);
@@ -347,7 +350,7 @@ TEST_CASE("triangles with two corners in one place, flat, folded and cutting one
   const auto with = [&](std::array<sgm_vertex, 6> more) {
     std::vector<sgm_vertex> vertices(view.vertices, view.vertices + view.vertex_count);
     std::vector<uint32_t> indices(view.indices, view.indices + view.body.index_count);
-    // Behind the body's; nothing is left of the seams.
+    // Appended after the body's vertices; those of the seams are removed.
     vertices.resize(view.body.first_vertex + view.body.vertex_count);
     for (const sgm_vertex& v : more) {
       indices.push_back(static_cast<uint32_t>(vertices.size()));
@@ -384,7 +387,7 @@ TEST_CASE("parts that go through each other are seen when all is checked") {
   FrameChecker checker;
   drawAll(checker, world, drawing);
   CHECK(checker.checkWhole().between_parts == 0);
-  // A chunk of another level in the same place.
+  // A chunk of another level at the same place.
   const auto coarse = std::find_if(drawing.begin(), drawing.end(), [&](const auto& chunk) {
     return chunk.first.level > 0 && world.view(chunk.first).body.index_count > 300;
   });

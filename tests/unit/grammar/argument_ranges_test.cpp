@@ -31,7 +31,7 @@ std::string wordsOfBody(const std::string& body) { return rangeWords(kHall + "ru
 TEST_CASE("an argument within its range is taken without a word", "[grammar][ranges]") {
   CHECK(wordsOfBody("Hall(1m); Hall(60m); Hall(2m, 0.02); Hall(thick 1, r 3m); Hall(r 3m, thick = 100%);").empty());
   CHECK(wordsOfBody("Hall(rand(1m, 60m)); for i in 1..61 { Hall(1m*i); }").empty());
-  // Ends that are computed lie beside those that are written by less than a number can tell.
+  // 0.1*8 in floating point may exceed 0.8 by a rounding error, which is no violation of a range.
   CHECK(rangeWords("rule B(t in 0.3..0.7) { sphere(1m*t); }\nrule A { for i in 3..8 { B(0.1*i); } } start A;").empty());
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("an argument outside of its range is told at its own place", "[grammar
         "to 1");
   CHECK(wordsOfBody("Hall(60.001m);").starts_with("3:15 argument-range: `Hall` is given `r` = 60.001m, which"));
   CHECK(wordsOfBody("Hall(-2m);").starts_with("3:15 argument-range: `Hall` is given `r` = -2m, which"));
-  // All of them at once.
+  // All violations are reported together.
   CHECK(brief(compileText("sgm 1;\n" + kHall + "rule A { Hall(0m, 2); } start A;").diagnostics) ==
         "3:15 argument-range; 3:19 argument-range");
 }
@@ -70,7 +70,7 @@ TEST_CASE("draws, loops and parameters are followed", "[grammar][ranges]") {
             .starts_with("4:15 argument-range: `Hall` is given `r` = 0.2m..0.5m, none of which"));
   CHECK(rangeWords("param wide = 1m in 0.2m..5m;\n" + kHall + "rule A { Hall(2*wide); } start A;")
             .starts_with("4:15 warning argument-range: `Hall` may be given `r` = 0.4m..10m, not all of which"));
-  // Where a guard has seen to it there is nothing to say.
+  // A rule that is guarded by a condition on the value needs no warning.
   CHECK(rangeWords("param wide = 1m in 0.2m..5m;\n" + kHall +
                    "rule A { B(wide); }\nrule B(w) when w >= 1m { Hall(w); }\nrule B(w) else { box(w); } start A;")
             .empty());
@@ -79,10 +79,10 @@ TEST_CASE("draws, loops and parameters are followed", "[grammar][ranges]") {
 TEST_CASE("what comes through other rules is told where it leaves the range", "[grammar][ranges]") {
   CHECK(rangeWords(kHall + "rule Two(r) { Hall(r); at(x 9m) Hall(2m); }\nrule A { Two(0.5m); } start A;")
             .starts_with("3:20 argument-range: `Hall` is given `r` = 0.5m, which"));
-  // One caller is right, and the other one not.
+  // One of two callers passes a valid value, the other one does not.
   CHECK(rangeWords(kHall + "rule Two(r) { Hall(r); }\nrule A { Two(5m); Two(0.5m); } start A;")
             .starts_with("3:20 argument-range: `Hall` is given `r` = 0.5m, which"));
-  // A start, what stands for a rule at its depth, and a block of an override are calls as well.
+  // Arguments of a start, of a rule after `depth ->`, and in a block of an override are checked as well.
   CHECK(rangeWords(kHall + "start Hall(0m);").starts_with("3:12 argument-range"));
   CHECK(rangeWords(kHall + "rule A(n) depth 3 -> Hall(70m) { scale(0.5) A(n); sphere(1m); } start A(1);")
             .starts_with("3:27 argument-range: `Hall` is given `r` = 70m, which"));
@@ -93,7 +93,7 @@ TEST_CASE("what comes through other rules is told where it leaves the range", "[
 TEST_CASE("what nothing derives is held to what is certain", "[grammar][ranges]") {
   const auto found = compileText("sgm 1;\n" + kHall + "rule A { sphere(1m); }\nrule B { Hall(0m); } start A;");
   CHECK(brief(found.diagnostics).find("4:15 argument-range") != std::string::npos);
-  // A file of rules alone has no start.
+  // A library has no start; its rules are checked without callers.
   const CheckResult library =
       checkFile("sgm 1;\n" + kHall + "rule B(s) { Hall(0m); Hall(s); Hall(rand(0m, 2m)); }", "test.sgm", {});
   CHECK(brief(library.compiled.diagnostics) == "3:18 argument-range; 3:37 argument-range");
@@ -109,22 +109,23 @@ TEST_CASE("what has no known bound is not judged", "[grammar][ranges]") {
 TEST_CASE("sizes of parts of scopes are known from above alone", "[grammar][ranges]") {
   const std::string head = kHall + "rule B { Hall(0.5*scope.x); }\nrule A { ";
   const std::string tail = "; } start A; domain finite box(40m);";
-  // A part that fits is 10 m to 20 m long, and may be any shorter for what is known of splits.
+  // A part that fits is 10 m to 20 m long, but the analysis of splits only knows that it is at most as long as the
+  // scope.
   CHECK(rangeWords(head + "split x { { ~10m: B; }* }" + tail).find("argument-range") == std::string::npos);
   CHECK(rangeWords(head + "cut treemap { hall 3: B; room 2: { } }" + tail).find("argument-range") == std::string::npos);
   CHECK(rangeWords(head + "wfc 10m { floor 1: B; }" + tail).find("argument-range") == std::string::npos);
-  // What is outside whatever the size is, and what has nothing to do with it, is told.
+  // Values that are out of range for every size of the scope are reported, and so are those that do not depend on it.
   CHECK(rangeWords(kHall + "rule B { Hall(-1m - scope.x); }\nrule A { split x { { ~10m: B; }* }" + tail)
             .starts_with("3:15 argument-range: `Hall` is given `r` = -"));
   CHECK(rangeWords(kHall + "rule A { split x { { ~10m: Hall(rand(0.5m, 2m)); }* }" + tail)
             .find("3:33 warning argument-range: `Hall` may be given `r` = 0.5m..2m, not all") != std::string::npos);
-  // A size that is known is held to it.
+  // A known size of the scope is used for the check.
   CHECK(rangeWords(kHall + "rule B { Hall(0.5*scope.x); }\nrule A { split x { 1m: B; ~5m: { } }" + tail)
             .starts_with("3:15 argument-range: `Hall` is given `r` = 0.5"));
 }
 
 TEST_CASE("what a rule gives itself is its own affair", "[grammar][ranges]") {
-  // Smaller and smaller, under a guard, a depth or a least size.
+  // Recursion with decreasing sizes, ended by a condition, a depth, or a minimum size.
   CHECK(rangeWords("rule Tree(h in 1m..20m) minsize 0.2m -> Leaf { cylinder(0.1*h, h); at(y h) Tree(0.6*h); }\n"
                    "rule Leaf { sphere(0.1m); }\nrule A { Tree(4m); } start A;")
             .empty());
@@ -152,7 +153,7 @@ TEST_CASE("lets and fields have ranges, too", "[grammar][ranges]") {
             .starts_with("2:71 warning argument-range: `rough` may be given `amp` = 1m..2m, not all of which"));
   CHECK(rangeWords("let twice(n in 1..8) = 2*n;\nrule A { for i in 0..3 { sphere(1m*twice(i)); } } start A;")
             .starts_with("3:42 warning argument-range: `twice` may be given `n` = 0..2, not all of which"));
-  // What varies from point to point has no bound that is known.
+  // A value that varies from point to point has no known bounds.
   CHECK(rangeWords("field shaded(t in 0..1) = t;\nrule A { morph(sphere(1m), box(1m), shaded(q.y/1m)); } start A;")
             .empty());
 }
@@ -177,7 +178,7 @@ TEST_CASE("values are written in the unit of the range", "[grammar][ranges]") {
   CHECK(given("1cm..2km", "0.5*10km") == "5000m");
   CHECK(given("1m..2m", "2.0000001m") == "2.0000001m");
   CHECK(given("1m..2m", "123456.78m") == "123457m");
-  // No unit of its own.
+  // A fourth power of metres has no unit in messages.
   CHECK(given("1m*1m*1m*1m..2m*1m*1m*1m", "3m*1m*1m*1m") == "3");
 }
 
@@ -207,7 +208,7 @@ TEST_CASE("a range has two ends of one dimension, made of numbers", "[grammar][r
             .starts_with("2:21 syntax: a default stands before the range | such as r = 2m in 1m..60m"));
   CHECK(rangeWords("rule B(r in 1m) { sphere(r); } rule A { B(1m); } start A;")
             .starts_with("2:15 syntax: expected `..`"));
-  // The literal 0 has any dimension.
+  // The literal 0 has any dimension, so a range from 0 to 60m is valid.
   CHECK(rangeWords("rule B(r in 0..60m) { sphere(r); } rule A { B(1m); } start A;").empty());
 }
 
@@ -225,7 +226,7 @@ TEST_CASE("a range says what dimension an argument has", "[grammar][ranges]") {
   CHECK(
       rangeWords("rule A { field f(t in 0..1) = 1m*t; displace f(2m) amp 1m { sphere(9m); } } start A;") ==
       "2:48 unit-mismatch: `t` of `f` is a ratio, and this is a length | divide it by a length to make a ratio of it");
-  // Also in the body of a rule that nothing calls.
+  // The body of a rule that nothing calls is checked, too.
   CHECK(rangeWords("rule A { box(1m); } start A;\nrule B(r in 1..9) { sphere(r); }").find("3:28 unit-mismatch") !=
         std::string::npos);
 }
@@ -257,7 +258,7 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
   files.files["caves.sgm"] = "sgm 1;\n" + kHall + "rule Two(r) { Hall(0.5*r); }\n";
   CHECK(rangeWords("import \"caves.sgm\" as caves;\nrule A { caves.Hall(0m); } start A;", &files)
             .starts_with("3:21 argument-range: `caves.Hall` is given `r` = 0m, which"));
-  // A file of one's own can be mended where it is wrong.
+  // In a file of the user's own, the error is reported at its place.
   const CompileResult inner =
       compileText("sgm 1;\nimport \"caves.sgm\" as caves;\nrule A { caves.Two(1m); } start A;", &files);
   REQUIRE(inner.diagnostics.size() == 1);
@@ -270,7 +271,7 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
         "to 60m");
   CHECK(rangeWords(karst + "karst.Canyon((0m, 0m, 0m), (70m, -4m, 20m), 2m, deep 900m); } start A;")
             .starts_with("3:63 argument-range: `karst.Canyon` is given `deep` = 900m, which is not within 0.5m..200m"));
-  // What the library makes of a scope.
+  // The standard library's facade rules with sizes of the scope that are too small.
   const std::string facade = "import \"std/facade.sgm\" as facade;\nrule A { ";
   CHECK(rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
         "3:30 argument-range: `facade.Shop` gives `Frame` `w` = 0m here, which is not within 0.1m..20m | give it other "
@@ -319,7 +320,7 @@ TEST_CASE("an axis is a letter, whatever numbers have its name", "[grammar][rang
   CHECK(rangeWords("rule A { Bar(2m, 1m, 30deg); } start A;\n"
                    "rule Bar(x, y, z) { at(y 1m) rot(x, z) mirror(y) at(x, y, 0m) box(x, y, 1m); }")
             .empty());
-  // A vector of that name is the axis that is meant.
+  // A vector named x is used as the axis.
   CHECK(rangeWords("rule A { let x = (0m, 1m, 0m); rot(x, 30deg) box(1m); } start A;").empty());
   const CompileResult turned = compileText("sgm 1; start A; rule A { let x = (0m, 1m, 0m); rot(x, 30deg) box(1m); }");
   REQUIRE(turned.program);

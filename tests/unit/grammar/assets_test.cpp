@@ -75,7 +75,7 @@ TEST_CASE("what an asset's file has beside its triangles is a warning at the imp
   std::string& bay = files.files["bay.glb"];
   bay += "behind";
   const std::string end = std::to_string(bay.size() - 6);
-  // A file is what its bytes are, and a grammar says so of what it imports.
+  // The contents of a file decide its format (here OBJ in a .glb), and a warning at the import reports that.
   files.files["cube.glb"] =
       "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
       "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
@@ -165,7 +165,7 @@ TEST_CASE("a `fit` is written in one way", "[grammar][assets]") {
       "t.sgm");
   REQUIRE(formatted.text);
   CHECK(formatted.text->find("fit bay stretch x (1m)..2*3m repeat y 0m..1m;") != std::string::npos);
-  // What is too long for a line has a line for each zone.
+  // A statement that is too long for one line gets a line for each zone.
   const FormatResult lines = formatGrammar(
       "sgm 1; start A; rule A { size(8m, 9m, 4m) fit bay stretch x 1.25m..2.25m stretch x 3.75m..4.25m repeat y "
       "1.125m..2.125m stretch z 0.125m..0.375m; }",

@@ -61,7 +61,7 @@ TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
   const std::string head =
       "sgm 1; domain infinite; layer a cell 8m reach 8m { start A; }\nrule A { B; }\nrule B { tag \"b\"; sphere(1m); "
       "}\n";
-  // Those of other cells are never on top of each other, so that no shape is moved by more than one.
+  // Overrides of different cells never nest, so that each shape is moved by at most one of them.
   const CompileResult apart = compileText(head + cells);
   INFO(renderDiagnostics(apart));
   CHECK(apart.program);
@@ -156,7 +156,7 @@ double secondsToCompile(const std::string& text) {
 TEST_CASE("compiling takes no longer than in step with the text", "[grammar][performance]") {
   const double of_one = secondsToCompile(treeOfRules(100)), of_four = secondsToCompile(treeOfRules(400));
   INFO(of_one << " s for 800 lines, " << of_four << " s for 3,200");
-  CHECK(of_four < 10 * of_one);  // with the square of the length it would be 16
+  CHECK(of_four < 10 * of_one);  // if the cost grew with the square of the length, it would be 16 times as high
 }
 
 TEST_CASE("lets within lets and rules within rules stay on a small stack", "[grammar][caps]") {

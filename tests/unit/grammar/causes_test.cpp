@@ -82,7 +82,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
   const std::string length = "start A;\nrule A { B(rand(-1m, 1m)); }\nrule B(w) { sphere(1m*(1m/w)); }";
   CHECK(grammar(mended(length, "/w", "/" + between(grammar(length).diagnostics[0].hint, '`'))).program);
 
-  // Where a unit is wanting, the hint says how.
+  // If a unit is missing, the hint explains how to add it.
   CHECK(told("start A;\nrule A { B(rand(-1m, 1m)); }\nrule B(w) { sphere(1m2*1m2*1m/(w*w*w*w)); }") ==
         "4:32 reach: cannot prove reach: `sphere` may extend without bound: `w*w*w*w`, the divisor, may be 0 | keep it "
         "away from 0: a parameter's range, or max()");
@@ -96,7 +96,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
         "4:10 reach: cannot prove reach: `sphere` may extend without bound: the parameter `a` has no range | give it "
         "one: `param a = -3m in LOW..HIGH`");
 
-  // Wherever the quotient stands: in a place, a scale, a copy's step, an amplitude, a blend.
+  // A quotient may occur anywhere: in a position, a scale, a copy's step, an amplitude, or a blend.
   for (const char* rule :
        {"rule A { at(y 2m/(n - 1)) sphere(1m); }", "rule A { at(2m/(n - 1), 0m, 0m) { sphere(1m); } }",
         "rule A { let gap = 2m/(n - 1); at(gap, 0m, 0m) sphere(1m); }", "rule A { scale(1/(n - 1)) sphere(1m); }",
@@ -111,7 +111,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
     CHECK(placed.diagnostics[0].hint == "keep it away from 0: `max(n - 1, 0.1)`");
   }
 
-  // Of the library, its caller is told.
+  // For an error in a library's rule, the calling line is reported.
   const CompileResult cloudy = grammar("start A;\nrule A { cloud.Cumulus(rand(0m, 500m)); }");
   CHECK(
       inWords(cloudy) ==
@@ -136,7 +136,8 @@ TEST_CASE("all shapes that pass the reach are told at once, and one declaration 
   for (const Diagnostic& d : result.diagnostics) CHECK(d.hint == "raise reach to 15 m or make the shape smaller");
   CHECK(grammar(layer(8, 15) + rules).program);
 
-  // A reach takes few cells: then the cell has to grow as well, and what follows it with it.
+  // If the required reach would span too many cells, the cell must grow as well, and with it everything that depends on
+  // cell.size.
   const std::string far = "rule A { sphere(100m);\n at(3*cell.size) sphere(1m); }";
   const CompileResult wide = grammar(layer(8, 4) + far);
   INFO(renderDiagnostics(wide));
@@ -144,7 +145,7 @@ TEST_CASE("all shapes that pass the reach are told at once, and one declaration 
   CHECK(wide.diagnostics[0].hint == "raise cell to 25 m and reach to 100 m, or make the shape smaller");
   CHECK(grammar(layer(25, 100) + far).program);
 
-  // No cell has room for what grows with it.
+  // A shape whose place grows with the cell never fits, whatever the cell size.
   const CompileResult endless = grammar(layer(8, 4) + "rule A { at(9*cell.size) sphere(1m); }");
   REQUIRE(endless.diagnostics.size() == 1);
   CHECK(endless.diagnostics[0].hint == "make the shape smaller");
@@ -174,7 +175,7 @@ TEST_CASE("a value that is used twice is the same both times", "[grammar][reach]
     CHECK(good);
     return good ? result.program->layers[0].bound.hi[0] / 1024.0 : 0.0;
   };
-  // Arguments, lets, parameters, functions, loops.
+  // The bound follows values through arguments, lets, parameters, functions and loops.
   CHECK(proven("rule A { cloud.Cumulus(rand(250m, 500m)); }") < 1600);
   CHECK(proven("rule A { cloud.Cumulus(rand(1m, 500m)); }") < 1600);
   CHECK(proven("rule A { let r = rand(50m, 500m); displace 0.1*r*fractal(9m) { sum { blob(r); } } }") < 900);
@@ -186,7 +187,8 @@ TEST_CASE("a value that is used twice is the same both times", "[grammar][reach]
 }
 
 TEST_CASE("what is proven in pieces holds for every value", "[grammar][reach]") {
-  // Random expressions of one value, on both sides of a quotient: the bound against the values themselves.
+  // Random expressions of one value, in both numerator and denominator of a quotient: compares the bound with the
+  // actual values.
   uint64_t state = 7;
   const auto draw = [&](uint64_t below) {
     state = state * 6364136223846793005u + 1442695040888963407u;

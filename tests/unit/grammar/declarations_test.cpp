@@ -75,7 +75,7 @@ TEST_CASE("names of the samples are declared where the compiler finds them", "[g
       if (!kinds || n.span.file != 0 || n.qualifier != kNoId || n.name == kNoId) continue;
       const auto word = wordAt(text, n.span.begin);
       REQUIRE(word);
-      // A method stands behind what it is asked of.
+      // The name of a method follows the value that it is called on.
       if (word->word != compiled.program->text(n.name)) continue;
       INFO(text.substr(n.span.begin, n.span.end - n.span.begin) << " in line " << n.span.line);
       const auto found = declarations.find(word->word, n.span.begin);

@@ -17,7 +17,7 @@ std::string places(const std::string& text, ImportResolver* files = nullptr) {
 }  // namespace
 
 TEST_CASE("errors of meaning are told beside errors of syntax", "[grammar][together]") {
-  // Of a statement, of a head, of a declaration, and of the text itself.
+  // One error each in a statement, a rule's head, a declaration, and the text itself.
   CHECK(places("sgm 1; start A;\nrule A { sphere(1); at(1m 0m, 0m) box(1m); }\nrule B { bxo(1m); }") ==
         "2:17 unit-mismatch; 2:27 syntax; 3:10 unknown-name");
   CHECK(places("sgm 1; start A;\nrule A { sphere(1); B; }\nrule B weight { box(1m); }") ==
@@ -33,7 +33,7 @@ TEST_CASE("errors of meaning are told beside errors of syntax", "[grammar][toget
 
 TEST_CASE("what is missing makes no errors of its own", "[grammar][together]") {
   const char* texts[] = {
-      // A let, a field, a rule, an import, a parameter, a layer, a start and a domain that could not be parsed.
+      // A let, a field, a rule, an import, a parameter, a layer, a start and a domain, each with a syntax error.
       "sgm 1; start A;\nlet a = 2m *;\nrule A { sphere(a); }",
       "sgm 1; start A;\nfield f = 1m*;\nrule A { displace f { sphere(1m); } }",
       "sgm 1; start A;\nrule B(r { sphere(r); }\nrule A { B(1m); }",
@@ -45,7 +45,7 @@ TEST_CASE("what is missing makes no errors of its own", "[grammar][together]") {
       "start D; }\nrule A { sphere(1m); } rule D { scatter poisson(1m) probe up 1m of net { sphere(1m); } }",
       "sgm 1;\nstart A\nrule A { sphere(1m); }",
       "sgm 1;\ndomain infinit; layer a cell 8m reach 4m { start A; }\nrule A { sphere(1m); }",
-      // What a part that is lost bounds.
+      // Parts that could not be parsed: names and bounds that they would have defined cause no further errors.
       "sgm 1; start A;\nrule A { meet { box(1m; halfspace(below 0m); } }",
       "sgm 1; start A;\nrule A { let r = 1m +; sphere(r); }",
       "sgm 1; start A;\nrule A { footprint rect(1m 2m) as plan; extrude 2m of plan; }",
@@ -86,10 +86,11 @@ TEST_CASE("a file for others to import is checked by itself", "[grammar][library
   CHECK(good.compiled.diagnostics.empty());
   CHECK(good.library);
   REQUIRE(good.compiled.program);
-  // Its faults are found without a caller.
+  // Errors in a library are found without a caller.
   CHECK(checked("rule Beam { bxo(1m); sphere(1); }") == "4:13 unknown-name; 4:29 unit-mismatch");
   CHECK(checked("rule Tree(r) { Tree(r); }") == "4:16 unbounded-recursion");
-  // What only a root has makes it one; and who wants to derive it is told that it has no start.
+  // A statement that only the root file may contain makes the file a root, which needs a start; so does compiling it
+  // for derivation.
   CHECK(checked("param a = 1m;") == "1:1 no-start");
   CHECK(checked("domain infinite;") == "1:1 no-start");
   CHECK(brief(compileGrammar(library, "lib.sgm", options).diagnostics) == "1:1 no-start");

@@ -22,7 +22,7 @@ struct Literal {
 std::vector<Literal> literalsOf(std::string_view source) {
   std::vector<Literal> out;
   int line = 1;
-  bool adjacent = false;  // nothing but blanks behind the literal before
+  bool adjacent = false;  // only blanks separate it from the previous literal
   for (size_t i = 0; i < source.size(); ++i) {
     const std::string_view rest = source.substr(i);
     std::string text;
@@ -106,7 +106,7 @@ TEST_CASE("every message stands word for word in a test", "[grammar][messages]")
   int sources = 0;
   for (const char* folder : {"runtime/grammar", "runtime/derive", "runtime/asset"})
     for (const auto& path : filesIn(folder, {".cpp", ".h"})) {
-      // Descriptions of words, which say nothing about a text.
+      // word_help.cpp has descriptions of words, not messages.
       if (path.filename() == "word_help.cpp") continue;
       ++sources;
       for (const Literal& literal : untested(textOf(path), tests))

@@ -32,7 +32,7 @@ TEST_CASE("parameters have dimension, range and doc", "[grammar][program]") {
 }
 
 TEST_CASE("a call keeps its name while its arguments bring many new ones", "[grammar][program]") {
-  // Only who knows the callee reads `above -2m` as an argument with a name.
+  // The parser cannot know that `above -2m` is a named argument, only the checker, which knows the callee.
   std::string sum = "1m";
   for (int i = 100; i < 160; ++i) {
     const CompileResult result = compileText("sgm 1; start A; rule A {\nhalfspace(below " + sum + ", above -2m);\n}");
@@ -69,7 +69,7 @@ TEST_CASE("a layer shows where cells are not larger than every detail around its
     REQUIRE(result.program);
     return result.program->layers[0];
   };
-  // A unit more, for what the interval's rounding may hide.
+  // One unit more than 256, since the interval arithmetic rounds outwards.
   CHECK(contents("rule A { detail 25cm { sphere(1m); } }").coarsest_cell == 257);
   CHECK(contents("rule A { detail 25cm { B(); } } rule B { sphere(1m); }").coarsest_cell == 257);
   CHECK(contents("rule A { detail 25cm { B(); } B(); } rule B { sphere(1m); }").coarsest_cell == kEvery);
@@ -194,7 +194,8 @@ TEST_CASE("the hash is of the meaning, not of the layout", "[grammar][program]")
   const uint64_t hash = hashOf("sgm 1; start A; rule A { sphere(0.25m + 1m*2); }");
   CHECK(hash == hashOf("sgm 1;\n// a comment\nstart A;\n\nrule A {\n  sphere((25cm) + (1m*2));  // another\n}\n"));
   CHECK(hash != hashOf("sgm 1; start A; rule A { sphere((0.25m + 1m)*2); }"));
-  // Nor of what a world does not depend on: worlds with edits outlive it.
+  // The hash leaves out everything that the world does not depend on, such as `animated`, since edits are stored with
+  // this hash.
   const uint64_t of_param = hashOf("sgm 1; param r = 1m in 1m..2m; start A; rule A { sphere(r); }");
   CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m animated; start A; rule A { sphere(r); }"));
   CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m \"wide\"; start A; rule A { sphere(r); }"));

@@ -110,7 +110,7 @@ TEST_CASE("a turned shape grows by its displacement and not by its corners", "[g
   const double half = 2 * std::sqrt(2.0) + 5;
   checkBound("displace 5m*fractal(20m) { rot(y, 45deg) box(4m); }", {-half, -7, -half}, {half, 7, half});
   checkBound("rot(y, 45deg) displace 5m*fractal(20m) { box(4m); }", {-half, -7, -half}, {half, 7, half});
-  // A warp moves points along the scope's axes, which turn with it.
+  // A warp displaces points along the scope's axes, so a rotation of the scope rotates the displacement.
   const double turned = (1 + 2) * std::sqrt(0.5) + 2 * std::sqrt(0.5);
   checkBound("rot(y, 45deg) warp (1m*fractal(2m), 0m, 0m) { box(4m); }", {-turned, -2, -turned}, {turned, 2, turned});
   checkBound("scale(2) displace 1m*fractal(3m) { sphere(1m); }", {-4, -4, -4}, {4, 4, 4});
@@ -121,14 +121,14 @@ TEST_CASE("what is no distance grows faster when it is displaced", "[grammar][re
   checkBound("B(10m);", {-15, -11, -15}, {15, 11, 15},
              "rule B(r) { displace 3m*fractal(9m) { ellipsoid(r, 0.6*r, r); } }");
   CHECK(boundOf("displace 1m*fractal(3m) { ellipsoid(rand(0m, 4m), 2m, 2m); }").brief == "4:19 reach");
-  // Far from its leaves, a sum's field is 0.26 of the largest.
+  // Far from its leaves, the gradient of a sum's field is 0.26 of the largest.
   checkBound("displace 0.5m*fractal(3m) { sum { blob(2m); } }", {-3.2, -3.2, -3.2}, {3.2, 3.2, 3.2});
   const Bound bound = boundOf("displace 0.6m*fractal(3m) { sum { blob(2m); } }");
   CHECK(bound.brief == "4:19 reach");
-  // What the hint says is so.
+  // The value in the hint is indeed accepted.
   CHECK(boundOf("displace 0.5099m*fractal(3m) { sum { blob(2m); } }").proven);
   CHECK(bound.messages.find("than 0.51 m") != std::string::npos);
-  // The largest leaf counts, where it is there for sure.
+  // The bound uses the largest leaf, if that is always present.
   CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(2m); blob(0.1m); } }").proven);
   CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(0.1m); scatter 3 on disc(1m) when chance(50%) blob(2m); } }")
             .brief == "4:19 reach");
@@ -198,7 +198,7 @@ TEST_CASE("a branch reaches as far as all its steps in a line", "[grammar][reach
              "rule Limb(s) { at(s.from) sphere(1m); }");
   checkBound("at(cell.center) rot(z, 90deg) " + tree + "{ at(s.to) sphere(1m); }", {-5, -5, -5}, {13, 13, 13});
   checkBound("for s in branch(0, step 2m, turn 30deg) { at(s.to) sphere(1m); }", {-1, -1, -1}, {1, 1, 1});
-  // A count without a range is not more than a branch may have.
+  // A count of branches without a range is bounded by the largest number of segments that a branch may have.
   const std::string any = "for s in branch(n, step 5mm, turn 0deg) { at(s.to) sphere(1m); }";
   CHECK(boundOf(any, "param n = 3;", "22m").proven);
   CHECK(boundOf(any, "param n = 3;", "21m").brief == "4:61 reach-maybe");

@@ -54,7 +54,7 @@ TEST_CASE("recursion that may not end is refused", "[grammar][recursion]") {
 }
 
 TEST_CASE("a rule that is checked again finds its size anew", "[grammar][recursion]") {
-  // The first call leaves the dimension of x open; with the second it is the first length.
+  // The first call, with the literal 0, leaves the dimension of x open; the second one makes x a length.
   const CompileResult result = compileText(
       "sgm 1; start S; rule S { A(0, 2m); A(1m, 2m); }\n"
       "rule A(x, r) minsize 1m -> sphere(1m) { box(max(x, 1m)); sphere(r); }");

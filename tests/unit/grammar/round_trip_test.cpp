@@ -40,7 +40,7 @@ TEST_CASE("every sample is canonical and compiles without a word", "[grammar][ro
     INFO(entry.path().string());
     const std::string text = fileText(entry.path());
     CHECK(formatted(text) == text);
-    // A sample is read at a glance; a row of the paper's table has to show all that the row claims.
+    // Samples must be short; a row of the paper's Table 4 has to show everything that the row claims.
     const bool row = entry.path().parent_path().filename() == "table4";
     CHECK(std::count(text.begin(), text.end(), '\n') <= (row ? 60 : 40));
     FolderResolver files(entry.path().parent_path());

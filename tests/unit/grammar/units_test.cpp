@@ -80,7 +80,7 @@ TEST_CASE("an error names both dimensions", "[grammar][units]") {
 TEST_CASE("a rule's parameters have one dimension each, from the first call", "[grammar][units]") {
   const CompileResult result = compileText("sgm 1; start A;\nrule A { B(2m); B(30deg); }\nrule B(r) { sphere(r); }");
   CHECK(brief(result.diagnostics) == "2:19 unit-mismatch");
-  // The literal 0 leaves it open.
+  // The literal 0 leaves the dimension open.
   CHECK(compileText("sgm 1; start A;\nrule A { B(0); B(2m); }\nrule B(r) { at(r, 0, 0) sphere(1m); }").program);
   CHECK(brief(compileText("sgm 1; start A;\nrule A { B(0); B(2deg); }\nrule B(r) { at(r, 0, 0) sphere(1m); }")
                   .diagnostics) == "3:16 unit-mismatch");
@@ -116,7 +116,7 @@ TEST_CASE("stages are kept apart", "[grammar][units]") {
 }
 
 TEST_CASE("what a rule that nothing calls makes of its parameters fits every dimension", "[grammar][units]") {
-  // As a library's rules do where a grammar imports it for others.
+  // Rules of a library that the grammar does not call look like this.
   for (const char* statement : {"ellipsoid((r, 0.35*r, r*(1 - 0.2)));", "at((r, r, 2*r) + (r, 0, 0)) sphere(1m);",
                                 "at(-(r, r, r)) box((r, r, r));", "superq((r, r, r), r);"}) {
     INFO(statement);
@@ -125,6 +125,6 @@ TEST_CASE("what a rule that nothing calls makes of its parameters fits every dim
     CHECK(result.program != nullptr);
     CHECK(brief(result.diagnostics).find("mismatch") == std::string::npos);
   }
-  // What is known of a part still counts.
+  // The known dimension of a component (the literal 2) is still checked.
   CHECK(!compileText("sgm 1; start A; rule A { sphere(1m); } rule Spare(r) { ellipsoid((r, 2, r)); }").program);
 }

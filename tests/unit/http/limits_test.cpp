@@ -160,7 +160,7 @@ TEST_CASE("A server without a file descriptor for another client closes it, and 
   {
     const FileLimit scarce(static_cast<rlim_t>(lowest) + 1);
     for (int i = 0; i < 20; ++i) {
-      Client more(served.server->port());  // takes the last one
+      Client more(served.server->port());  // takes the last free connection
       CHECK(more.ended());
     }
     Client more(served.server->port());
@@ -284,7 +284,7 @@ TEST_CASE("Answers that are not taken are held up to a limit, and small ones alw
     small.say("HEAD /big HTTP/1.1\r\nHost: h\r\n\r\n");
     CHECK(small.hear(true).value().fields.at("Content-Length") == std::to_string(kAnswer));
   }
-  // One that is taken, and one whose client goes, make room again.
+  // A client that reads its answer, or one that disconnects, frees room for others.
   const bool taken = GENERATE(true, false);
   if (taken) CHECK(clients.back()->hear().value().body.size() == kAnswer);
   const uint64_t before = served.server->counts().connections;

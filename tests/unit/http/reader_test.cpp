@@ -368,7 +368,7 @@ TEST_CASE("Each bad request has its status, and what looks like one but is not i
                    "chunked\r\n",
                    "0\r\n\r\n")},
       {501, posted("Transfer-Encoding:\r\n", "")},
-      // What the client expects, and how it encodes.
+      // Expect, and transfer encodings.
       {417, posted("Content-Length: 1\r\nExpect: 200-ok\r\n", "a")},
       {417, posted("Content-Length: 1\r\nExpect: 100-continue\r\nExpect: 100-continue\r\n", "a")},
       {200, posted("Content-Length: 1\r\nExpect: 100-CONTINUE\r\n", "a")},
@@ -420,7 +420,7 @@ TEST_CASE("The limits of a head are met to the byte") {
   CHECK(statusOf(line + "A: " + std::string(31, 'a') + "\r\nB: " + std::string(32, 'b') + "\r\n\r\n") == 0);
   CHECK(statusOf("GET /" + std::string(26, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n") == 0);
   CHECK(statusOf("GET /" + std::string(27, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n") == 414);
-  // Nothing that goes on for ever is kept for ever.
+  // Input that never ends is limited.
   CHECK(statusOf(std::string(101, 'a')) == 414);
   std::string parameters;
   for (size_t i = 0; i < kMostParameters; ++i) parameters += "&a";

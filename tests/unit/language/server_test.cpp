@@ -132,7 +132,7 @@ TEST_CASE("a change with a range takes its place, and leaves the rest as it is")
        {"params",
         {{"textDocument",
           {{"uri", uri}, {"text", "sgm 1;\nstart A; // \xF0\x9F\x98\x80 here\nrule A { sphere(1m); }\n"}}}}}});
-  // One after the other, each in the text that those before have made; characters are UTF-16 units.
+  // Changes apply one after the other, each to the text that the previous ones produced; positions count UTF-16 units.
   CHECK(errors(sent("textDocument/didChange",
                     {{"contentChanges", Json::array({change(place(2, 9), place(2, 15), "box"),
                                                      change(place(2, 13), place(2, 15), "1")})}})) == 1);
@@ -143,12 +143,12 @@ TEST_CASE("a change with a range takes its place, and leaves the rest as it is")
                                                      change(place(0, 0), place(0, 0), "// first\n")})}})) == 0);
   const auto formatted = server.handle(request(9, "textDocument/hover"));
   REQUIRE(formatted.size() == 1);
-  // One that is not as the protocol says changes nothing, nor do those before it.
+  // A change that violates the protocol is ignored, together with all other changes of the same message.
   CHECK(
       sent("textDocument/didChange",
            {{"contentChanges", Json::array({change(place(0, 0), place(9, 0), ""), Json{{"range", 3}, {"text", "x"}}})}})
           .empty());
-  // The whole text replaces it.
+  // A change without a range replaces the whole text.
   CHECK(errors(sent("textDocument/didChange", {{"contentChanges", Json::array({change(place(0, 0), place(0, 2), ""),
                                                                                Json{{"text", "sgm 1;"}}})}})) == 0);
 }
@@ -219,7 +219,8 @@ TEST_CASE("lines end with either of their ends, or with both") {
   CHECK(text.offset({0, 9}) == 1);
   CHECK(text.offset({1, 9}) == 4);
   CHECK(text.offset({4, 1}) == 10);
-  // The compiler's lines end with \n alone.
+  // The compiler counts only
+  //  as the end of a line.
   CHECK(text.offsetOf(1, 4) == 3);
   CHECK(text.offsetOf(2, 1) == 6);
   CHECK(text.offsetOf(3, 2) == 9);

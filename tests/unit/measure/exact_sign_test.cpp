@@ -43,13 +43,14 @@ TEST_CASE("the side of a plane is exact", "[exact_sign]") {
   for (unsigned seed = 0; seed < std::max(rounds(20000), 20000u); ++seed) {
     std::mt19937 random(seed);
     CAPTURE(seed);
-    // Coordinates of up to 37 bits: determinants of more than 100, far beyond a double's 53.
+    // Coordinates of up to 37 bits: determinants have more than 100 bits, far beyond a double's 53.
     const int64_t reach = int64_t{1} << (3 + random() % 34);
     const auto along = [&] { return static_cast<int64_t>(random() * uint64_t{4294967296} + random()) % reach; };
     const auto whole = [&] { return Whole{along(), along(), along()}; };
     const Whole a = whole(), b = whole(), c = whole();
     const Whole d = random() % 4 == 0 ? whole() : nearPlane(random, a, b, c);
-    const double scale = std::ldexp(1, static_cast<int>(random() % 520) - 232);  // 1e-70 to 1e86, times up to 1e11
+    // 1e-70 to 1e86; coordinates are up to 1e11 times this.
+    const double scale = std::ldexp(1, static_cast<int>(random() % 520) - 232);
     const int expected = exactly(a, b, c, d);
     CHECK(orientation(a.scaled(scale), b.scaled(scale), c.scaled(scale), d.scaled(scale)) == expected);
     CHECK(orientation(b.scaled(scale), a.scaled(scale), c.scaled(scale), d.scaled(scale)) == -expected);
@@ -68,7 +69,8 @@ TEST_CASE("the side of a plane does not depend on the order of its points", "[ex
     CAPTURE(seed);
     const auto place = [&] { return Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)}; };
     const Point a = place(), b = place(), c = place();
-    const Point d = a + between(random, -2, 2) * (b - a) + between(random, -2, 2) * (c - a);  // rounded
+    // In the plane of the others, up to rounding.
+    const Point d = a + between(random, -2, 2) * (b - a) + between(random, -2, 2) * (c - a);
     const int side = orientation(a, b, c, d);
     CHECK(orientation(b, c, a, d) == side);
     CHECK(orientation(c, b, a, d) == -side);

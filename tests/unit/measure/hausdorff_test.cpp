@@ -76,7 +76,7 @@ TEST_CASE("the nearest place of a triangle is the nearest of all its places") {
     for (Point& p : t) {
       p = {between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
     }
-    // Slivers, and triangles that are a segment or a point.
+    // Slivers, and triangles that degenerate to a segment or a point.
     if (round % 4 == 1) t[2] = t[0] + between(random, 0, 1) * (t[1] - t[0]) + 1e-9 * t[2];
     if (round % 16 == 2) t[2] = 0.5 * (t[0] + t[1]);
     if (round % 16 == 6) t[1] = t[2] = t[0];
@@ -94,7 +94,7 @@ TEST_CASE("the tree finds what a look at every triangle finds") {
   const auto jobs = threadsFor(1);
   for (unsigned round = 0; round < rounds(60); ++round) {
     Mesh mesh = scattered(random, 1 + random() % 40);
-    // Far off, the boxes in single precision are coarse.
+    // Far from the origin, the single-precision boxes are coarse.
     if (round % 3 == 0) mesh = mesh.at({1e6, -1e6, 1e5});
     const Bvh tree(mesh, *jobs);
     for (int i = 0; i < 20; ++i) {
@@ -120,7 +120,7 @@ TEST_CASE("a surface is at no distance from itself, and at its own from a copy t
     CHECK(same.atMost() < 1e-12);
     CHECK(same.there.mean < 1e-12);
   }
-  // A plate lies above itself; of a box one side is left behind.
+  // A plate and its copy above it; a box and its copy, shifted along one axis.
   const Mesh plate{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   const Hausdorff above = apartOf(plate, plate.at({0, 0, 0.25}));
   CHECK(above.atLeast() == 0.25);
@@ -132,7 +132,7 @@ TEST_CASE("a surface is at no distance from itself, and at its own from a copy t
   CHECK(beside.atLeast() == Approx(0.2).margin(1e-12));
   CHECK(beside.atMost() == Approx(0.2).margin(1e-12));
   CHECK(beside.there.mean == Approx(beside.back.mean).margin(1e-12));
-  // Two of its six sides, and edges of the others: nearer than 0.2.
+  // Two of its six sides are 0.2 away; of the other four, only points near edges are, and less than 0.2.
   CHECK(beside.there.mean > 0.2 * 2 / 6);
   CHECK(beside.there.mean < 0.2 * 3 / 6);
 }
@@ -142,7 +142,7 @@ TEST_CASE("concentric balls are apart by the difference of their radii, as far a
   for (int cuts = 2; cuts <= 4; ++cuts) {
     const Mesh inner = ball(cuts), outer = ball(cuts).moved([](Point p) { return 1.5 * p; });
     const Hausdorff apart = apartOf(inner, outer, {2, 1e-3, 100'000});
-    // How deep the middle of the largest triangle lies.
+    // The distance of the middle of the largest triangle from the ball.
     double sagitta = 0;
     for (const Triangle& t : inner.triangles) {
       const Point middle = (1.0 / 3) * (inner.points[t[0]] + inner.points[t[1]] + inner.points[t[2]]);
@@ -160,7 +160,7 @@ TEST_CASE("concentric balls are apart by the difference of their radii, as far a
 }
 
 TEST_CASE("both sides count, each for itself") {
-  // All of the small plate is near the large one, not the other way round.
+  // All of the small plate is near the large one, but not all of the large one is near the small plate.
   const Mesh large{{{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   const Mesh small{{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}};
   const Hausdorff apart = apartOf(small, large);

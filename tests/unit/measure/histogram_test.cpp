@@ -64,7 +64,7 @@ TEST_CASE("as printed, half of the bins have numbers of 0 and less", "[histogram
     const LargeVector<Point> normals = smoothNormals(mesh);
     const uint32_t bins = 1 + static_cast<uint32_t>(random() % 64);
     const Histogram h = of(mesh, {HistogramMode::printed, bins});
-    // Word by word from equations 9 to 14, in more digits.
+    // Equations 9 to 14 of the paper, evaluated literally with higher precision.
     std::map<long, uint64_t> counts;
     uint64_t below = 0, edges = 0;
     constexpr long double kPi = std::numbers::pi_v<long double>;
@@ -95,7 +95,7 @@ TEST_CASE("as printed, half of the bins have numbers of 0 and less", "[histogram
       const double share = h.shares[static_cast<size_t>(bin - h.first_bin)] * static_cast<double>(edges);
       differ += static_cast<uint64_t>(std::fabs(share - static_cast<double>(count)) + 0.5);
     }
-    // An edge that lies on a bin's wall to the last digit may fall on either side of it.
+    // An edge whose value equals a bin's boundary up to rounding may be counted on either side.
     CHECK(differ <= edges / 1000);
     if (edges > 0)
       CHECK(std::fabs(static_cast<double>(h.below_first) - static_cast<double>(below)) <=
@@ -118,7 +118,7 @@ TEST_CASE("a ball is convex all over, its inside concave", "[histogram]") {
 TEST_CASE("curvature stays as a mesh becomes finer, angles do not", "[histogram]") {
   for (int cuts = 2; cuts <= 5; ++cuts) {
     CAPTURE(cuts);
-    // A ball of radius 1 is at 3/4: bin 75 of 99.
+    // The curvature of a ball of radius 1 is at 3/4 of the range: bin 75 of 99.
     const Histogram h = of(ball(cuts), {HistogramMode::curvature, 99});
     double near = 0;
     for (size_t i = 72; i < 76; ++i) near += h.shares[i];

@@ -99,7 +99,7 @@ TEST_CASE("open edges in the faces of the box that a mesh was cut from are no ho
   for (unsigned seed = 0; seed < rounds(100); ++seed) {
     std::mt19937 random(seed);
     Mesh mesh = box({4, 4, 4}, 4);
-    // Its top is cut away: what is left is open at y = 4 alone.
+    // The box's top is removed: it is open only at y = 4.
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
       return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.points[v].y == 4; });
     });
@@ -112,7 +112,7 @@ TEST_CASE("open edges in the faces of the box that a mesh was cut from are no ho
     CHECK_FALSE(found.valid());
     CHECK(found.places.empty());
     CHECK_FALSE(measured(mesh).validButForCut());
-    // A hole elsewhere is one.
+    // A hole elsewhere is counted as a hole.
     const Triangle lost = mesh.triangles[random() % mesh.triangles.size()];
     std::erase(mesh.triangles, lost);
     const uint64_t at_top = static_cast<uint64_t>(
@@ -149,7 +149,7 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     const int axis = static_cast<int>(random() % 3);
     const double face = random() % 2 == 0 ? 0 : 4;
     CAPTURE(seed, axis, face);
-    // A box that is open where the cut went through it.
+    // A box that is open at the cutting plane.
     Mesh cut_box = box({4, 4, 4}, 4);
     std::erase_if(cut_box.triangles, [&](const Triangle& t) {
       return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return cut_box.points[v][axis] == face; });
@@ -177,7 +177,7 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     CHECK(nestingWith(outside, false) == std::array<uint64_t, 3>{0, 0, 0});
     CHECK(nestingWith(outside, true) == std::array<uint64_t, 3>{0, 1, 0});
 
-    // A ball in a cavity in that solid stands in the open; a hollow in a ball there, in a solid.
+    // In a cavity of the solid, a ball is an outer surface again; a hollow in that ball is a cavity.
     Mesh nested = cut_box, cavity = small.at(within), core = small.moved([](Point p) { return 0.5 * p; }).at(within);
     cavity.invert();
     nested.add(cavity);
@@ -187,12 +187,13 @@ TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "
     nested.add(core.moved([&](Point p) { return within + 0.5 * (p - within); }));
     CHECK(measured(nested, settings).nesting.cavities == 2);
     CHECK(measured(nested, settings).validButForCut());
-    // Where nothing is open a hollow is in a solid that goes on beyond the cut, unless a ball stands there in the open.
+    // Without an open shell, an inverted ball is a cavity in a solid that extends beyond the cut, unless another ball
+    // shows that there is void.
     Mesh alone = cavity;
     CHECK(measured(alone, settings).nesting.cavities == 1);
     alone.add(small.at(outside));
     CHECK(measured(alone, settings).nesting.inside_out == 1);
-    // Without a cut the same open shell bounds nothing.
+    // Without a cut, the same open shell encloses nothing.
     Mesh uncut = cut_box;
     uncut.add(cavity);
     CHECK(measured(uncut, settings).nesting.cavities == 1);
@@ -287,7 +288,7 @@ TEST_CASE("no number is too large or too small to be told from a good mesh", "[m
   const MeshMeasures found = measured(part);
   CHECK(found.non_finite == 1);
   REQUIRE(found.self_intersections->pairs > 0);
-  // Triangles keep their numbers.
+  // Reported triangles keep their numbers in the input.
   for (const auto& [a, b] : found.self_intersections->examples) {
     CHECK(a >= 1);
     CHECK(a < 81);

@@ -53,7 +53,7 @@ std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array
     const Int128 a = planeAt(plane, p), b = planeAt(plane, q);
     if (a >= 0) kept.push_back(p);
     if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-      // Homogeneous coordinates: the values are of p.w and q.w.
+      // In homogeneous coordinates; the interpolated values are those at p.w and q.w.
       const Ratio3 cut{b * p.x - a * q.x, b * p.y - a * q.y, b * p.z - a * q.z, b * p.w - a * q.w};
       Int128 divisor = commonDivisor(commonDivisor(cut.x, cut.y), commonDivisor(cut.z, cut.w));
       if (cut.w < 0) divisor = -divisor;
@@ -86,23 +86,23 @@ bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
 }  // namespace
 
 TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
-  const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // 0 1 2: in z = 0
-                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // 3 4 5: through it
-                             {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // 6 7 8: in it, inside
+  const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // 0 1 2: in the plane z = 0
+                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // 3 4 5: crosses that triangle
+                             {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // 6 7 8: in its plane, inside it
                              {0, 0, 4},  {4, 4, 0}, {8, 0, 0}};  // 9 10 11
   const Triangle flat{0, 1, 2};
   CHECK(meetWrongly(p, flat, {3, 4, 5}));
   CHECK(meetWrongly(p, {3, 4, 5}, flat));
   CHECK(meetWrongly(p, flat, {6, 7, 8}));
   CHECK(meetWrongly(p, flat, {6, 9, 4}));         // touches it with a corner
-  CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // a corner in common, no more
-  CHECK(meetWrongly(p, flat, {0, 3, 4}));         // a corner in common, and through
-  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // a corner in common, and an edge in the other's plane
-  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 9}));   // an edge in common
-  CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on both sides of the edge
-  CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side
-  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the same
-  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 11}));  // no area
+  CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // only a common corner
+  CHECK(meetWrongly(p, flat, {0, 3, 4}));         // a common corner, and crosses
+  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // a common corner, and an edge in the other's plane
+  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 9}));   // a common edge
+  CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on different sides of the common edge
+  CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side of the common edge
+  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the same triangle, reversed
+  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 11}));  // without area
   CHECK(isFlat(p, {0, 1, 11}));
   CHECK(isFlat(p, {0, 0, 11}));
   CHECK_FALSE(isFlat(p, flat));
@@ -112,7 +112,7 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
   int met = 0, apart = 0;
   for (unsigned seed = 0; seed < std::max(rounds(30000), 30000u); ++seed) {
     std::mt19937 random(seed);
-    // So few places that corners on edges, edges on edges and common planes are frequent.
+    // So few different places that corners on edges, edges on edges and common planes are frequent.
     const auto n = 2 + static_cast<uint32_t>(random() % 4);
     std::vector<Point> points;
     for (int i = 0; i < 6; ++i) {
@@ -131,19 +131,21 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
     met += expected;
     apart += !expected;
 
-    // With a corner in common: they meet elsewhere exactly where they do once it is taken a little inward in both.
+    // Triangles with a common corner: they meet elsewhere if and only if they still meet after the corner is moved
+    // slightly inwards in both.
     std::vector<Point> common = points;
     common[3] = common[0];
     const Triangle c{0, 4, 5};
     if (isFlat(points, c)) continue;
-    // A thin slice at the common corner is taken off each by moving along its two edges, in whole numbers.
+    // The common corner is cut off both triangles, parallel to the opposite side; coordinates are scaled to stay whole
+    // numbers.
     const double k = 16;
     const auto scaled = [&](Point q) { return k * q; };
     const auto inward = [&](Point from, Point to) { return (k - 1) * from + to; };
     const Point o = common[0];
     bool meet = false;
-    // The rest of a triangle without the slice is two triangles; with k so large the slice holds no more than the
-    // corner.
+    // The rest of a triangle without its cut-off corner is divided into two triangles; with a large k, the cut-off part
+    // contains no intersection but the corner.
     const auto rest = [&](Point q, Point r) {
       return std::array<std::array<Point, 3>, 2>{
           {{inward(o, q), scaled(q), scaled(r)}, {inward(o, q), scaled(r), inward(o, r)}}};
@@ -179,7 +181,7 @@ TEST_CASE("the tree finds all pairs that meet", "[self_intersection]") {
     const SelfIntersections here = found(mesh);
     CHECK(here.pairs == allPairs(mesh));
     CHECK(here.complete);
-    CHECK(here.folded == 0);  // no two share an edge
+    CHECK(here.folded == 0);  // no two triangles share an edge
     CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMostExamples));
     for (const auto& [a, b] : here.examples) {
       CHECK(a < b);

@@ -46,7 +46,7 @@ TEST_CASE("balls, rings, boxes and what is cut from them", "[shells]") {
     CHECK(shell.borders == 1);
     CHECK(shell.manifold);
     CHECK(shell.genus() == 1u);
-    // Of the 6 triangles around a vertex the first and the fourth: the vertex has two fans then.
+    // Removes the first and the fourth of the 6 triangles around a vertex, so that the vertex has two fans.
     Mesh pinched = torus(12);
     std::vector<size_t> around;
     for (size_t i = 0; i < pinched.triangles.size(); ++i)
@@ -195,14 +195,14 @@ TEST_CASE("how deep a place lies is what the winding number says", "[shells]") {
     const Shells parts = shellsIn(mesh);
     const Bvh tree(mesh, *jobs);
     for (int n = 0; n < 50; ++n) {
-      // Also straight below corners of the surface.
+      // Every other point lies exactly below a corner of the surface.
       Point at{between(random, 0, 5), between(random, 0, 5), between(random, 0, 5)};
       if (n % 2 == 0) {
         const Point corner = mesh.points[random() % mesh.points.size()];
         at = {corner.x, corner.y, at.z};
       }
       const double winding = windingNumber(mesh, at);
-      if (std::fabs(winding - std::round(winding)) > 1e-6) continue;  // on a surface
+      if (std::fabs(winding - std::round(winding)) > 1e-6) continue;  // the point lies on a surface
       CAPTURE(seed, n, at.x, at.y, at.z);
       CHECK(depthAt(mesh, tree, parts, kNoShell, at, 1u << 20) == static_cast<int>(std::round(winding)));
       CHECK(depthAt(mesh, tree, parts, kNoShell, at, 0) == std::nullopt);

@@ -63,7 +63,7 @@ TEST_CASE("an even texture has one density, however it is turned and placed") {
 }
 
 TEST_CASE("quantiles are of the area, and the ratio is of the worst triangles") {
-  // Half of the plate twice as dense along u: sqrt(2) times as many texels.
+  // Half of the plate is twice as dense along u: it has sqrt(2) times as many texels per length.
   const Mesh flat = plate(8, 2);
   const Coordinates bent = mapped(flat, [](Point p) { return std::pair{p.x < 1 ? p.x : 2 * p.x - 1, p.y}; });
   const TexelDensities d = densitiesOf(flat, bent, 100);
@@ -72,7 +72,7 @@ TEST_CASE("quantiles are of the area, and the ratio is of the worst triangles") 
   CHECK(d.p95 == Approx(100 * std::sqrt(2)));
   CHECK(d.most == Approx(100 * std::sqrt(2)));
   CHECK(d.ratio() == Approx(std::sqrt(2)));
-  // A tenth of a tenth of the area, ten times as dense: the median does not see it.
+  // A small plate with a hundredth of the area and ten times the density: the median ignores it.
   Mesh two = plate(1, 10);
   two.add(plate(1, 1).at({20, 0, 0}));
   const Coordinates dense = mapped(two, [](Point p) {

@@ -82,7 +82,7 @@ TEST_CASE("integers say of two triangles what doubles do", "[faults]") {
     CHECK(fault == integerFault(b, a));
     const bool through = TrianglePair<IntegerSigns>::pierce(a, b);
     CHECK(through == measure::pierce(inDoubles(a), inDoubles(b)));
-    // What passes through another cuts it, if both have an area.
+    // A triangle that passes through another one cuts it, if both have an area.
     if (through && IntegerSigns::seenAlong(a) >= 0 && IntegerSigns::seenAlong(b) >= 0) CHECK(fault == PairFault::cut);
     ++seen[static_cast<size_t>(fault)];
     pierced += through;
@@ -97,16 +97,17 @@ TEST_CASE("folds, cuts and piercing by hand", "[faults]") {
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, 2, 0}}}) == PairFault::folded);
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, -2, 0}}}) == PairFault::none);
   CHECK(fault({{{8, 0, 0}, {0, 0, 0}, {2, 2, 1}}}) == PairFault::none);
-  CHECK(fault({{{0, 8, 0}, {8, 0, 0}, {0, 0, 0}}}) == PairFault::none);  // duplicates are told by number
+  // Duplicates are detected by their corner numbers elsewhere.
+  CHECK(fault({{{0, 8, 0}, {8, 0, 0}, {0, 0, 0}}}) == PairFault::none);
   CHECK(fault({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);
-  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);  // it touches
+  CHECK(fault({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}) == PairFault::cut);  // only touches the other triangle
   CHECK(fault({{{0, 0, 0}, {4, 4, 1}, {4, 4, -1}}}) == PairFault::cut);
-  CHECK(fault({{{0, 0, 0}, {4, 4, 0}, {4, 4, 0}}}) == PairFault::none);  // it has no area
+  CHECK(fault({{{0, 0, 0}, {4, 4, 0}, {4, 4, 0}}}) == PairFault::none);  // has no area
   const auto pierce = [&](const Places& other) { return TrianglePair<IntegerSigns>::pierce(floor, other); };
   CHECK(pierce({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}));
   CHECK_FALSE(pierce({{{1, 1, 0}, {1, 1, 1}, {9, 9, 9}}}));
   CHECK_FALSE(pierce({{{8, 0, 0}, {0, 0, 0}, {2, 2, 0}}}));
-  CHECK_FALSE(pierce({{{4, 0, -1}, {4, 0, 1}, {4, -9, 0}}}));  // through an edge
+  CHECK_FALSE(pierce({{{4, 0, -1}, {4, 0, 1}, {4, -9, 0}}}));  // passes through an edge
 }
 
 TEST_CASE("corners of a seam may lie in one place where one is of each level", "[faults]") {
@@ -158,13 +159,13 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
     std::mt19937 random(seed);
     std::vector<PairCorner> corners;
     PairCounts expected;
-    // By cell, as bodies have them.
+    // Corners are ordered by cell, as in a mesh's body.
     for (int cell = 0; cell < 20; ++cell) {
       std::vector<PairCorner> of_cell;
       for (int i = 0; i < 6; ++i) {
         for (int k = 0; k < 3; ++k) {
           const auto place = [&] { return 128 * anyOf(random, 3); };
-          // In the cell: one corner at least is not in a high face of it.
+          // A triangle belongs to this cell if at least one of its corners is not in a high face of the cell.
           const int x = k == 0 ? 0 : place(), y = k == 1 ? 0 : place(), z = k == 2 ? 0 : place();
           of_cell.push_back(cornerAt(256 * cell + x, 256 * 3 + y, 256 * 31 + z, 0));
         }
@@ -175,7 +176,7 @@ TEST_CASE("a body's pairs are those within each cell where none is wide", "[faul
     const PairCounts counts = counted(corners);
     CHECK(counts == expected);
     all += counts;
-    // In another order they are compared with all around them.
+    // In another order, each triangle must be compared with all others near it.
     for (size_t t = corners.size() / 3; t-- > 1;) {
       const auto other = static_cast<size_t>(anyOf(random, static_cast<int32_t>(t + 1)));
       for (size_t k = 0; k < 3; ++k) std::swap(corners[3 * t + k], corners[3 * other + k]);

@@ -135,7 +135,7 @@ TEST_CASE("surfaces without creases keep their triangles", "[mesh][sharpen]") {
 }
 
 TEST_CASE("faces of the chunk stay as they are meshed", "[mesh][sharpen]") {
-  // Chunks that are meshed apart agree there without a look at each other.
+  // Chunks that are meshed independently agree on their common faces.
   for (uint64_t seed = 1; seed <= rounds(20); ++seed) {
     CAPTURE(seed);
     const Slab slab(seed, 0.5);

@@ -119,7 +119,7 @@ TEST_CASE("a body equals the plain algorithm, order and bits", "[mesh][body]") {
       const ChunkGrid grid = latticeChunk({-128, 0, 256}, level);
       const ChunkSamples samples = sampleChunk(noise(static_cast<uint64_t>(density * 1000), density), grid);
       const MeshPart expected = referenceBody(samples, grid);
-      polygonizeBody(samples, grid, part);  // into the same part each time
+      polygonizeBody(samples, grid, part);  // reuses one part for all cells
       INFO("density " << density << ", level " << level);
       CHECK(sameVertices(part, expected));
       CHECK((part.keys == expected.keys));
@@ -143,9 +143,10 @@ TEST_CASE("a vertex lies within its edge, by the ends' values in axis order", "[
   CHECK(crossing(-1, 0) == 255);
   CHECK(crossing(-kMaxQ, kMaxQ) == 128);
   CHECK(crossing(kMaxQ, -1) == 255);
-  CHECK(crossing(1, -511) == 1);    // 0.5 is rounded up
-  CHECK(crossing(3, -509) == 2);    // 1.5 is rounded up
-  CHECK(crossing(509, -3) == 255);  // 254.5 too: by axis order, not by distance from the solid
+  CHECK(crossing(1, -511) == 1);  // 0.5 is rounded up
+  CHECK(crossing(3, -509) == 2);  // 1.5 is rounded up
+  // 254.5, rounded up as well: by the order on the axis, not by the distance from the solid.
+  CHECK(crossing(509, -3) == 255);
   size_t bad = 0;
   for (uint64_t i = 0; i < 100000; ++i) {
     const int shift = static_cast<int>(i % 22);
@@ -193,7 +194,7 @@ TEST_CASE("random signs over several chunks: closed, manifold, borders equal to 
     CHECK(report.closed());
     CHECK(report.triangles > 100000);
 
-    // Chunks 0 and 1 meet in x = 0: the same keys there, at the same places.
+    // Chunks 0 and 1 meet at x = 0: vertices there have the same keys and places in both.
     std::map<VertexKey, std::pair<uint16_t, uint16_t>> low, high;
     for (size_t i = 0; i < parts[0].vertices.size(); ++i)
       if (const Vertex& v = parts[0].vertices[i]; v.x == kChunkCells * kSubcell) low[parts[0].keys[i]] = {v.y, v.z};

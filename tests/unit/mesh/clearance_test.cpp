@@ -11,7 +11,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr int kWide = 3 * kChunkCells + 1;  // samples of three chunks in a row
+constexpr int kWide = 3 * kChunkCells + 1;  // samples along three chunks in a row
 
 /// Samples of 27 chunks, divided into chunks.
 struct Block {

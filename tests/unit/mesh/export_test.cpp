@@ -113,7 +113,7 @@ void addTriangle(std::multiset<Corner3>& triangles, Corner3 t) {
 TEST_CASE("GLB blends pairs of materials by the colours of vertices", "[mesh][export]") {
   const Folder folder;
   const WorldMesh mesh = someMesh();
-  // Half of the triangles are of rock alone, the others of rock that passes into wet rock.
+  // Half of the triangles are of rock only, the others blend from rock to wet rock.
   std::vector<uint32_t> vertices, corners;
   std::vector<std::array<float, 2>> coordinates;
   std::vector<ExportBlend> blends;
@@ -366,7 +366,7 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
   }
   const std::string after = readFile(mtl);
   CHECK(after != before);
-  // The .obj's name is taken by a folder while its mesh is made: its old materials come back.
+  // A folder takes the .obj's name while the mesh is written: the old .mtl must be restored.
   for (const bool had_materials : {true, false}) {
     fs::remove_all(obj);
     if (!had_materials) fs::remove(mtl);
@@ -422,7 +422,7 @@ TEST_CASE("an export that fails leaves nothing behind and the old file as it was
 TEST_CASE("a full disk is one clear error, and nothing stays behind", "[mesh][export]") {
   const Folder folder;
   const WorldMesh mesh = someMesh();
-  // A limit on file size fails the write as a full disk does.
+  // A limit on the file size makes the write fail as a full disk does.
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);

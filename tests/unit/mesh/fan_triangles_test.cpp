@@ -72,7 +72,7 @@ struct TwoPatches {
 
   explicit TwoPatches(std::mt19937& random) {
     const int left = -between(random, 40, 120), right = between(random, 40, 120);
-    // Off the line between the face vertices, or on it.
+    // The middle lies off the line between the face vertices, or on it.
     const Place middle{between(random, left + 10, right - 10), random() % 2 == 0 ? 0 : -between(random, 1, 9)};
     centre = {{middle.x, middle.y, 0}, kCellVertices, true};
     const FanPoint first{{right, 0, 0}, kFaceVertices, true}, second{{left, 0, 0}, kFaceVertices + 1, true};
@@ -115,7 +115,7 @@ TEST_CASE("patches of a fan are covered once, whatever the centre sees of them",
     const LoopTriangles fan =
         patchTriangles(patches.centre, patches.ring, true, [](uint32_t, uint32_t) { return true; });
     REQUIRE(fan.count() == patches.ring.size());
-    // One way along each side of the ring, both ways along all else, and no edge twice.
+    // Each side of the ring occurs in one direction, every other edge in both, and no edge twice.
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     std::array<int64_t, 2> areas{};
     bool all_forward = true;
@@ -139,8 +139,8 @@ TEST_CASE("patches of a fan are covered once, whatever the centre sees of them",
                                     [&](const NamedTriangle& t) { return t.name[0] == patches.centre.name; });
     whole_fans += is_fan;
     joined += edges.contains({kFaceVertices, kFaceVertices + 1}) || edges.contains({kFaceVertices + 1, kFaceVertices});
-    // A plane polygon always has diagonals; but of two patches that need the one between the face vertices, one does
-    // without.
+    // A planar polygon always has a triangulation; if both patches need the diagonal between the face vertices, one of
+    // them is triangulated without it.
     if (!all_forward) CHECK(edges.contains({kFaceVertices, kFaceVertices + 1}));
   }
   CHECK(seen * 10 > rounds(20000));
@@ -175,11 +175,11 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
         ++others;
       }
     }
-    // About a point of the ring, no spoke may lie where a diagonal must not.
+    // If the centre is a point of the ring, spokes may lie only where diagonals may.
     const FanPoint centre = patches.ring.front();
     const std::vector<FanPoint> rest(patches.ring.begin() + 1, patches.ring.end());
     const LoopTriangles none = patchTriangles(centre, rest, false, [](uint32_t, uint32_t) { return false; });
-    // Of its patches only those of three corners have no spoke but the creases.
+    // With no diagonal allowed, only patches of three corners can be triangulated.
     size_t corners = 1, most = 0;
     for (const FanPoint& point : rest) {
       most = std::max(most, ++corners);
@@ -191,8 +191,8 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
 }
 
 TEST_CASE("strips between two creases are covered once, with the creases for edges", "[mesh][sharpen]") {
-  // Two walls stand on a floor's edges x = left and x = right; the ring goes up one wall, along the floor's ends and up
-  // the other.
+  // Two walls stand on the edges x = left and x = right of a floor; the ring goes up one wall, along the floor's ends
+  // and up the other.
   size_t seen = 0;
   for (unsigned seed = 1; seed <= rounds(3000); ++seed) {
     std::mt19937 random(seed);
@@ -221,12 +221,12 @@ TEST_CASE("strips between two creases are covered once, with the creases for edg
     addEnd(left, right, 0);
     const auto start = static_cast<std::ptrdiff_t>(random() % ring.size());
     std::rotate(ring.begin(), ring.begin() + start, ring.end());
-    // The walls are cut off where the walk begins at the first or the third face vertex.
+    // `from_second` chooses at which face vertex the walls are separated from the floor.
     const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
     const bool from_second = first->name % 2 != 0;
     const auto isFree = [](uint32_t, uint32_t) { return true; };
     const LoopTriangles strip = stripTriangles(ring, from_second, isFree);
-    // Walls' tops that are not convex may have no diagonals that face one way as the wall does.
+    // A wall whose top is not convex may have no triangulation whose triangles all face the same way.
     if (strip.count() == 0) continue;
     ++seen;
     REQUIRE(strip.count() == ring.size() - 2);

@@ -58,7 +58,7 @@ TEST_CASE("fans are the cycles of interface quads around a corner", "[mesh][fans
       checkerboard |= here == 4;
     }
     if (checkerboard) continue;
-    // Walk each cycle from its lowest quad; every quad touches two half axes, each shared with one other quad.
+    // Follows each cycle from its lowest quad; every quad touches two half axes, each shared with one other quad.
     std::set<size_t> left(interface.begin(), interface.end());
     std::set<int> fans;
     while (!left.empty()) {
@@ -102,7 +102,7 @@ TEST_CASE("the four seam cells at a checkerboard share a fan", "[mesh][fans]") {
       CHECK(fans.size() == 1);
     }
   }
-  // Two of the 16 states of the four octants around each of the six half axes.
+  // For each of the six half axes, two of the 16 states of its four octants are checkerboards.
   CHECK(checkerboards == 6 * 2 * 16);
 }
 

@@ -58,8 +58,8 @@ TEST_CASE("random octrees with random signs are closed", "[mesh][octree]") {
 }
 
 TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh][octree]") {
-  // Around the corner (64, 64, 64): octants of level 1, or the chunk of level 0 that touches the corner. Elsewhere is
-  // void.
+  // Around the corner (64, 64, 64): octants of level 1, or the chunk of level 0 that touches the corner; everything
+  // else is void.
   const auto meets = [](unsigned coarser) {
     for (int axis = 0; axis < 3; ++axis) {
       const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
@@ -87,7 +87,7 @@ TEST_CASE("every way in which eight octants meet in a corner is closed", "[mesh]
         const auto low = [&](int axis) { return (o >> axis & 1) != 0 ? 64 : coarse ? 0 : 32; };
         Neighbourhood around = 0;
         if (!coarse) {
-          // Blocks towards the corner lie in other octants, all others in this one.
+          // Blocks towards the corner lie in other octants, all others in the chunk's own octant.
           for (int i = 0; i < 27; ++i) {
             const std::array<int, 3> offset{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
             int octant = o;

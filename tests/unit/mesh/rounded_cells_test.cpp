@@ -96,7 +96,7 @@ TEST_CASE("single cells have the loops that a body has", "[mesh][sharpen]") {
             REQUIRE(next < loops.all().size());
             const SurfaceLoop& of_body = loops.all()[next++];
             auto theirs = keysOf(body, of_body), ours = keysOf(part, loop);
-            // A body's loop may start at another of its vertices.
+            // A body's loop may start at another one of its vertices.
             const auto start = std::find(ours.begin(), ours.begin() + loop.count, theirs.front());
             std::rotate(ours.begin(), start, ours.begin() + loop.count);
             wrong += ours != theirs || of_body.cell != loop.cell;
@@ -130,7 +130,7 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
       place[across] = 1 + anyOf(random, kSubcell - 1);
       place[along] = 1 + anyOf(random, kSubcell - 1);
       const bool high = anyOf(random, 2) == 0;
-      // Not beyond the faces of the chunk, of which these cells have low ones.
+      // Vertices may lie outside the cell, but not outside the chunk; these cells touch only low faces of it.
       if (anyOf(random, 2) == 0 && high && isUncut(q, side.axis, across, high)) {
         place[across] = kSubcell + 9 + anyOf(random, kMostOutside - 8);
         ++beyond;
@@ -138,7 +138,7 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
       for (int k = 0; k < 3; ++k) place[k] += cell[k] * kSubcell;
       std::vector<BorderVertex>& own = middles[side.behind];
       own.push_back({place, side.axis});
-      // Another one, so that the way from the one end of the side by both to the other does not turn back.
+      // A second vertex is added if the path along the side through both vertices does not turn back.
       const Int3 from = placeOf(part, loop.vertices[side.behind]),
                  to = placeOf(part, loop.vertices[(side.behind + 1) % loop.count]);
       const auto along_side = [&](const Int3& p) {

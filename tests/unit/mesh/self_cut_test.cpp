@@ -125,7 +125,7 @@ bool neverFolds(const Box& box, const Corners& a, const Corners& b) {
 bool separates(const Box& box, const Corners& plane, const Corners& a, const Corners& b) {
   const auto isInPlane = [&](int corner) { return std::find(plane.begin(), plane.end(), corner) != plane.end(); };
   const auto isShared = [&](int corner) { return std::find(b.begin(), b.end(), corner) != b.end(); };
-  // Where both triangles have corners of their own in the plane they may meet there.
+  // Triangles that both have corners of their own in the common plane may meet there.
   const bool a_touches = std::any_of(a.begin(), a.end(), [&](int c) { return isInPlane(c) && !isShared(c); });
   const bool b_touches = std::any_of(
       b.begin(), b.end(), [&](int c) { return isInPlane(c) && std::find(a.begin(), a.end(), c) == a.end(); });
@@ -294,7 +294,8 @@ TEST_CASE("of a loop of seven, the triangulations that chordMask forbids are hal
 }
 
 TEST_CASE("seams overlap no more than their loops make them", "[mesh][tables]") {
-  // In its plane a loop's triangles overlap where their areas add up to more than the least total of any triangulation.
+  // Projected into its plane, a loop's triangles overlap if their areas add up to more than the smallest total of any
+  // triangulation.
   const Cell cell = seamCell();
   const uint64_t seed = testSeed();
   CAPTURE(seed);
@@ -311,7 +312,7 @@ TEST_CASE("seams overlap no more than their loops make them", "[mesh][tables]") 
   size_t loops = 0, worse = 0, free_missed = 0, simple = 0;
   for (uint32_t solid = static_cast<uint32_t>(random() % 4); solid < 1u << 13; solid += 4) {
     for (const std::vector<int>& loop : loopsOfCase(cell, solid)) {
-      if (loop.size() > 8) continue;  // to try all triangulations of longer ones is slow
+      if (loop.size() > 8) continue;  // trying all triangulations of longer loops is slow
       std::vector<LoopPoint> points;
       for (const int e : loop) {
         const auto at = placeOn(e, static_cast<int>(random() % 2 ? 1 + random() % 255 : random() % 2 ? 1 : 255));

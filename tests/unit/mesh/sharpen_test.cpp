@@ -126,8 +126,8 @@ ContentHash hashOf(MeshPart part) {
 }  // namespace
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
-  // One box in four hundred has a corner at the border of the chunks, which passes through all boxes, that the samples
-  // in the border see apart from the rest, or of which the field there does not tell the third plane.
+  // One box in four hundred is not sharp at a corner on the border between the chunks, which passes through all boxes:
+  // the samples in the border separate the corner from the rest, or the field there does not show the third plane.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -161,7 +161,7 @@ TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
     }
     for (size_t t = 0; t < sharp.indices.size(); t += 3) {
       const double off = std::fabs(box.at(middleOf(sharp, t), gradient)) / kCell;
-      // What looks into the solid, but for slivers, lies upon its side.
+      // A triangle that faces into the solid, unless it is a sliver, must lie in a side of the box.
       if (dot(areaOf(sharp, t), gradient) < -2 * 0.02 * kCell * kCell) off_plane = std::max(off_plane, off);
     }
     blunt += off_true > kMost || off_mesh > kMost;
@@ -228,7 +228,8 @@ struct AtCorner : Field {
 }  // namespace
 
 TEST_CASE("sharp features do not depend on the field farther away than they say", "[mesh][sharpen]") {
-  // What reaches only farther is missing from the program of one chunk, and there in the other's.
+  // Shapes farther away than sharpReach() are in one chunk's program and pruned from the other's, so they must not
+  // matter.
   int64_t farthest = 0;
   for (uint64_t seed = 1; seed <= rounds(60); ++seed) {
     INFO("seed " << seed);
@@ -255,10 +256,10 @@ TEST_CASE("sharp features do not depend on the field farther away than they say"
 TEST_CASE("seams do not depend on the coarser field farther away than they say", "[mesh][sharpen]") {
   constexpr int32_t kCoarseCell = 2 * kCell;
   int64_t farthest = 0;
-  // Few seams look so far.
+  // Few seams evaluate the coarser field, so at least 40 rounds are run.
   for (uint64_t seed = 1; seed <= std::max<uint64_t>(rounds(40), 40); ++seed) {
     INFO("seed " << seed);
-    // The coarser chunk's face goes on there.
+    // The face's coarser neighbour continues there.
     const AtCorner boxes(seed * 7, true);
     const auto coarse = [&](const Int3& p) {
       Vector3 gradient{};
@@ -350,7 +351,7 @@ TEST_CASE("creases are split into sides that face as the field does", "[mesh][sh
       }
     }
     CHECK(astray * 100 < corners);
-    // Parts that were split weld to what those weld to that were not.
+    // Meshes whose creases were split have the same welded mesh as before.
     splitCreases(meshes.left);
     splitCreases(meshes.right);
     const WorldMesh again = meshes.welded();
@@ -364,7 +365,7 @@ TEST_CASE("a direction is what its packed normal unpacks to", "[mesh]") {
   for (uint64_t seed = 1; seed <= 1000; ++seed) {
     std::array<double, 3> n{};
     for (size_t k = 0; k < 3; ++k) n[k] = PathKey{seed}.unit(k) - 0.5;
-    // Axes and planes between octants, too.
+    // Also directions along axes and in coordinate planes, which lie between octants.
     if (seed % 3 == 0) n[seed / 3 % 3] = 0;
     if (seed % 9 == 0) n[(seed / 3 + 1) % 3] = 0;
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);

@@ -21,7 +21,7 @@ struct Table {
   const uint16_t* edge_faces;
   bool flat;
 
-  /// The triangles that the runtime makes of a loop.
+  /// Triangulates a loop as the runtime does.
   uint32_t* triangulate(const std::vector<LoopPoint>& points, uint32_t* out) const {
     const auto n = static_cast<int>(points.size());
     if (flat) return triangulateFlatLoop(points.data(), n, out);
@@ -109,7 +109,7 @@ TEST_CASE("every case closes into simple loops of its crossed edges", "[mesh][ta
 }
 
 TEST_CASE("each face is crossed once in each direction by its two sides", "[mesh][tables]") {
-  // What one cell leaves open in a face is a function of the face's signs: a run of solid corners is entered and left.
+  // The segments of a cell's loops in a face depend only on the signs of that face's corners.
   for (const Table& table : tables()) {
     std::map<std::pair<size_t, uint32_t>, std::set<std::pair<int, int>>> segments_of_face;
     size_t differing = 0;
@@ -145,7 +145,7 @@ TEST_CASE("every loop is triangulated without a diagonal in a face", "[mesh][tab
         std::vector<uint32_t> out(3 * (n - 2) + 1, 99);
         const uint32_t* end = table.triangulate(points, out.data());
         bad += end != out.data() + 3 * (n - 2) || out.back() != 99;
-        // Every directed side of the loop once, every diagonal once in each direction and in no face.
+        // Every directed side of the loop occurs once, every diagonal once in each direction and not in a face.
         std::map<std::pair<uint32_t, uint32_t>, int> sides;
         for (size_t t = 0; t + 3 < out.size(); t += 3)
           for (size_t i = 0; i < 3; ++i) ++sides[{out[t + i], out[t + (i + 1) % 3]}];
@@ -169,7 +169,7 @@ TEST_CASE("the chosen triangulation has the largest smallest triangle", "[mesh][
   for (const Table& table : tables()) {
     for (uint32_t solid = 0; solid < 1u << table.cell.corners; ++solid) {
       for (const std::vector<int>& loop : table.loops(solid)) {
-        // Trying all is slow for long loops; a few of them will do.
+        // Trying all triangulations of long loops is slow, so only a few of them are tested.
         if (loop.size() > 9 || (loop.size() > 7 && solid % 16 != 0)) continue;
         const std::vector<LoopPoint> points = randomPoints(loop, table.edge_faces, solid + 77);
         const auto n = static_cast<int>(loop.size());
@@ -193,7 +193,7 @@ TEST_CASE("the chosen triangulation has the largest smallest triangle", "[mesh][
 }
 
 TEST_CASE("equal choices are settled by the first apex", "[mesh][tables]") {
-  // A regular arrangement in which every choice is as good as another.
+  // A regular polygon, for which all triangulations are equally good.
   const Table cube = tables()[0];
   const std::vector<LoopPoint> square{{0, 0, 0, 1, 0}, {8, 0, 0, 2, 1}, {8, 8, 0, 4, 2}, {0, 8, 0, 8, 3}};
   std::vector<uint32_t> out(6);

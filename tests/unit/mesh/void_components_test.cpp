@@ -133,7 +133,7 @@ Signs randomChunk(std::mt19937& random, double noise) {
 TEST_CASE("samples join in a cell exactly where the mesh joins them: over every case of the rule") {
   const Cell cube = cubeCell();
   for (uint32_t solid = 0; solid < 256; ++solid) {
-    // Pieces of one sign whose samples are at most `diagonal` axes apart.
+    // Counts the components of samples of one sign, where samples at most `diagonal` axes apart are connected.
     const auto pieces = [&](bool sign, int diagonal) {
       size_t count = 0;
       for (uint32_t left = sign ? solid : ~solid & 255; left != 0; ++count) {
@@ -151,7 +151,7 @@ TEST_CASE("samples join in a cell exactly where the mesh joins them: over every 
       return count;
     };
     CAPTURE(solid);
-    // Each loop closes one disk, which parts one piece of the cell from another.
+    // Each loop bounds one disk, which separates the cell into one component more.
     CHECK(loopsOfCase(cube, solid).size() + 1 == pieces(true, 1) + pieces(false, 2));
   }
 }
@@ -159,7 +159,7 @@ TEST_CASE("samples join in a cell exactly where the mesh joins them: over every 
 TEST_CASE("voids join across the diagonal of every face, and not across a cell") {
   for (const Int3 to : {Int3{1, 0, 0}, Int3{1, 1, 0}, Int3{1, -1, 0}, Int3{1, 0, 1}, Int3{1, 0, -1}, Int3{0, 1, 1},
                         Int3{0, 1, -1}, Int3{1, 1, 1}, Int3{1, -1, 1}, Int3{-1, 1, 1}, Int3{1, 1, -1}}) {
-    // Two voids that only a pair of samples could join: one leads to the low x face, one to the high one.
+    // Two voids that only this pair of samples can connect: one extends to the low x face, one to the high one.
     const Int3 a{15, 16, 16}, b{16, 16 + to.y, 16 + to.z};
     const Signs signs = signsOf([&](Int3 p) {
       const bool low = p.x <= a.x + (to.x < 1 ? 1 : 0) - (to.x < 0 ? 1 : 0) && p.y == a.y && p.z == a.z;

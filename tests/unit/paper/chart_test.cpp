@@ -67,7 +67,7 @@ std::vector<std::string> textsOf(const std::string& html) {
   return texts;
 }
 
-/// The values of an attribute, in order.
+/// All values of one attribute, in their order.
 std::vector<double> valuesOf(const std::string& html, const std::string& attribute) {
   std::vector<double> values;
   const std::string begin = " " + attribute + "=\"";
@@ -128,7 +128,7 @@ TEST_CASE("escaped text is what it was, without any mark of HTML") {
   }
   CHECK(escaped("a\x01\xFF\xC0\x80z") == "a\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBDz");
   CHECK(escaped("m³ – ∞") == "m³ – ∞");
-  CHECK(escaped("\xEF\xBF\xBF") == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");  // no character of XML
+  CHECK(escaped("\xEF\xBF\xBF") == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");  // U+FFFF is not allowed in XML
 }
 
 TEST_CASE("elements are well formed, whatever their texts and values") {
@@ -233,7 +233,7 @@ TEST_CASE("what is drawn stands where its values are") {
   bars.groups = {"one", "two"};
   bars.series = {{"a", {1, 3}}, {"b", {2, std::numeric_limits<double>::quiet_NaN()}}};
   const std::vector<double> heights = valuesOf(drawn(bars).html, "height");
-  REQUIRE(heights.size() == 2 + 3);  // the legend's, and one a value that is one
+  REQUIRE(heights.size() == 2 + 3);  // the legend's, and one for each value that is one
   CHECK(std::abs(heights[2] * 2 - heights[3]) < 0.1);
   CHECK(std::abs(heights[2] * 3 - heights[4]) < 0.1);
 }

@@ -102,7 +102,7 @@ TEST_CASE("all contenders run as often, and what is absent does not") {
   size_t steps = 0;
   const Result<StageResult> result = measureStage(building(), kCell, 3, contenders, [&] { ++steps; });
   REQUIRE(result);
-  CHECK(steps == 8);  // with the first ones, which warm up
+  CHECK(steps == 8);  // including the first runs, which are not measured
   CHECK(result->rows[0].seconds.size() == 3);
   CHECK(result->rows[1].seconds.empty());
   CHECK(result->rows[2].seconds.size() == 3);
@@ -145,7 +145,7 @@ TEST_CASE("what a device leaves to the CPU is told of each") {
   const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
   REQUIRE(result);
   CHECK(result->rows[0].on_cpu == 0);
-  CHECK(result->rows[1].on_cpu == 8);  // two of each run's one batch
+  CHECK(result->rows[1].on_cpu == 8);  // two chunks of the one batch of each run
 }
 
 TEST_CASE("errors name the stage and the contender") {

@@ -25,7 +25,7 @@ Gaze randomGaze(std::mt19937& random) {
   do {
     for (auto& point : gaze)
       for (double& axis : point) axis = place(random);
-    // Straight up and down there is no heading, and the camera stays a little beside them.
+    // Vertical directions are excluded: they have no heading, and the camera never looks exactly along them.
   } while (std::hypot(gaze[1][0] - gaze[0][0], gaze[1][2] - gaze[0][2]) < 20);
   return gaze;
 }
@@ -55,7 +55,7 @@ TEST_CASE("in a hollow the camera stays where it is, outside its target does", "
     camera.turn(right, up);
     CHECK(near(camera.gaze()[inside ? 0 : 1], gaze[inside ? 0 : 1]));
     CHECK(glm::length(along(camera.gaze())) == Approx(glm::length(along(gaze))));
-    // Never over the top, however far it is turned.
+    // The camera cannot turn over the vertical, however far it is turned.
     camera.turn(0, inside ? -50 : 50);
     CHECK(along(camera.gaze()).y < glm::length(along(camera.gaze())));
     CHECK(along(camera.gaze()).y > 0.99 * glm::length(along(camera.gaze())));
@@ -66,7 +66,7 @@ TEST_CASE("what is dragged follows the pointer", "[preview]") {
   const Gaze gaze{{{0, 2, 10}, {0, 2, 0}}};
   for (const bool inside : {true, false}) {
     CAPTURE(inside);
-    // In a hollow a wall straight ahead; outside a place of the near side.
+    // Inside a hollow, a point of the wall straight ahead; outside, a point on the near side.
     const glm::dvec3 seen = inside ? glm::dvec3(0, 2, 0) : glm::dvec3(0, 2, 1);
     FreeCamera camera(gaze, inside);
     camera.turn(0.1, 0.1);
@@ -99,7 +99,7 @@ TEST_CASE("rays go through the places of a picture", "[preview]") {
     const Gaze gaze = randomGaze(random);
     const double fov = 0.3 + 1.5 * unit(random), aspect = 0.5 + 2 * unit(random), x = unit(random), y = unit(random);
     const glm::dvec3 ray = rayThrough(gaze, fov, aspect, x, y);
-    // Projected back it comes to the same place.
+    // Projecting the point back gives the same place in the picture.
     const glm::dvec3 forward = glm::normalize(along(gaze));
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0))), up = glm::cross(right, forward);
     const glm::dvec3 seen = far(random) * ray;

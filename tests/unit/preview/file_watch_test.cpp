@@ -66,7 +66,7 @@ TEST_CASE("files come, go and are replaced", "[preview]") {
   CHECK_FALSE(changedSoon(watch));
   write(file, "one");
   CHECK(changedSoon(watch));
-  // Many editors write another file and put it in the place of the first.
+  // Many editors write a new file and rename it to the old name.
   save(fresh, "two", 9);
   std::filesystem::rename(fresh, file);
   CHECK(changedSoon(watch));

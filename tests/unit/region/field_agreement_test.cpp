@@ -83,15 +83,15 @@ TEST_CASE("normals are the gradient, and vertices lie on the surface") {
     CHECK(found.normals.count == found.vertices);
     CHECK(found.normals.inward == 0);
     CHECK(found.normals.outward() == 1);
-    // What is asked is 5 degrees; packing takes 0.004, rounding to a unit 1/2048 m of 2 m, and a difference over 8
-    // units nearly nothing.
+    // The normals may deviate by 5 degrees; actual errors are smaller: packing causes 0.004 degrees, rounding to 1/2048
+    // m at a radius of 2 m and central differences over 8 units little more.
     CHECK(found.normals.greatest < 0.1);
     CHECK(found.normals.p99 <= found.normals.greatest);
     CHECK(found.normals.median <= found.normals.p99);
     CHECK(found.faces.inward == 0);
-    // A diagonal of a cell is 6.2 degrees of the thinnest, of radius 2 m.
+    // A diagonal of a cell spans 6.2 degrees at the smallest radius, 2 m.
     CHECK(found.faces.p99 < 6.2);
-    // h^2 / (8 r) and 1/512 of a cell.
+    // The sagitta h^2 / (8 r), and the rounding of 1/512 of a cell.
     CHECK(found.residual_max * metres(1) < 0.125 * 0.125 / 8 / 1.5 + 0.125 / 512 + 1e-4);
     CHECK(found.residual_mean <= found.residual_p99);
     CHECK(found.residual_p99 <= found.residual_max);
@@ -111,13 +111,13 @@ TEST_CASE("normals of triangles converge with the cell, and vertices with its sq
       normals.push_back(found.faces.median);
       residuals.push_back(found.residual_max);
       means.push_back(found.residual_mean);
-      // Packed vertices lie in a 256th of their edge, and never in its ends.
+      // Packed vertices are rounded to 1/256 of their edge, and never to its ends.
       CHECK(as_packed < found.residual_max + cell * kUnitsPerMetre / 256 + 0.01);
     }
     CAPTURE(shape, normals, residuals, means);
     CHECK(orderOfErrors(normals) >= 0.9);
     CHECK(orderOfErrors(means) >= 1.9);
-    // At the first cell, two fifths of the thinnest radius, terms of a higher order show in the farthest vertex.
+    // The first cell is two fifths of the smallest radius: there, higher-order terms still dominate the largest error.
     residuals.erase(residuals.begin());
     CHECK(orderOfErrors(residuals) >= 1.9);
   }
@@ -168,7 +168,7 @@ TEST_CASE("vertices that are off are found, with how far") {
   CHECK(spike.residual_max > 10 * before);
   CHECK(spike.farthest == one.positions[at]);
   CHECK(spike.residual_p99 < 2 * before);
-  // All of it a tenth of a metre higher.
+  // The whole mesh is moved up by a tenth of a metre.
   WorldMesh all = good;
   for (std::array<double, 3>& p : all.positions) p[1] += 0.1;
   const FieldAgreement shifted = agreementOf(meshed, all);
@@ -200,7 +200,8 @@ TEST_CASE("what lies in a crease is counted apart") {
   const IntBox all = world.program().domain.box;
   const WorldMesh sharp = splitCreases(meshed.meshed(all, 0, true).mesh);
   const FieldAgreement found = agreementOf(meshed, sharp);
-  // 345 cells along the twelve edges have one vertex within, and one in the face to the next, each once a side.
+  // About 345 cells along the twelve edges have one vertex inside, and one in the face to the next cell, which counts
+  // once for each side.
   CHECK(found.bent > 4 * 330);
   CHECK(found.bent < 4 * 360);
   CHECK(found.normals.count + found.bent + found.flat == found.vertices);

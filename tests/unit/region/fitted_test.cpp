@@ -30,7 +30,7 @@ TEST_CASE("a fitted asset is closed and of one piece in every size, and has its 
     };
     const auto& [name, mesh] = assets[seed % 3];
     const asset::Polyhedron solid = asset::solidOf(mesh);
-    // Not so wide and low that an arch would leave less above it than a cell.
+    // Sizes for which at least a cell remains above an arch: not too wide and low.
     const asset::Point size{between(3, 5.5), between(5, 8), between(1, 4)};
     std::vector<asset::FitZone> zones;
     std::string text = std::string("fit ") + name;
@@ -49,7 +49,7 @@ TEST_CASE("a fitted asset is closed and of one piece in every size, and has its 
     files.files[std::string(name) + ".glb"] = asset::glbOf(mesh);
     const World world(grammar, &files);
     const IntBox box = world.program().domain.box;
-    // The proof of reach knows the scope's box.
+    // The bound from the proof of reach uses the scope's box.
     const double half = 0.5 * std::sqrt(size.x * size.x + size.z * size.z) + 1.1;
     CHECK(box.hi.x <= half * kMetre);
     CHECK(box.hi.y <= (0.5 * size.y + 1.1) * kMetre);

@@ -30,7 +30,7 @@ TEST_CASE("levels of a smooth surface come together with the square of the cell"
     const double cell = metres(meshed.field().cellAt(level + 1)), far = found.distance->atLeast();
     CAPTURE(level, cell, far, found.distance->atMost(), found.distance->there.mean);
     CHECK(found.distance->atMost() <= kLevelBound * cell);
-    // The sagitta of both levels about the thin way: d^2 / (8 r), d the diagonal of a cell.
+    // Three sagittas d^2 / (8 r) of the smallest radius, where d is the diagonal of a cell, for both levels together.
     CHECK(far < 3 * cell * cell / 8 / 10 * 1.25 + cell / 256);
     if (before > 0) {
       CHECK(far < before / 2);
@@ -47,7 +47,7 @@ TEST_CASE("what lies at the cut is left out, and what does not is all there", "[
       "sgm 1; domain infinite; layer l cell 64m reach 30m { start A; } "
       "rule A { at(32m, 32m, 32m) sphere(28m); }");
   const MeshedWorld meshed(world, 0.5);
-  // The ball of the cell at 0, cut by the plane x = 32 m: 32 cells and 64 coarse ones end there.
+  // The ball in cell 0, cut by the plane x = 32 m: 32 cells of the fine level and 64 of the coarse one end there.
   const IntBox half{{0, 0, 0}, {32 * kMetre, 64 * kMetre, 64 * kMetre}};
   const LevelDistance found = distanceOf(meshed, half, 0);
   CHECK(found.fine_left_out > 500);
@@ -55,7 +55,7 @@ TEST_CASE("what lies at the cut is left out, and what does not is all there", "[
   CHECK(found.fine_left_out < found.fine_triangles / 4);
   CHECK(found.distance->atLeast() < 0.1);
   CHECK(found.distance->atMost() < kLevelBound);
-  // A region whose chunks are cut anywhere: the coarse mesh goes on for half of a chunk.
+  // The region's faces cut through chunks: the coarse mesh extends half a chunk farther.
   const LevelDistance odd = distanceOf(meshed, {{0, 0, 0}, {16 * kMetre, 16 * kMetre, 64 * kMetre}}, 0);
   CHECK(odd.coarse_left_out > odd.coarse_triangles);
   CHECK(odd.distance->atLeast() < 0.1);
@@ -84,7 +84,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   };
   const double before = measured().atLeast();
   CHECK(before < 0.1);
-  // The same places from another origin.
+  // The same places, relative to another origin.
   const Int3 origin = coarse.mesh.origin;
   coarse.mesh.origin = {origin.x - 5 * kMetre, origin.y, origin.z + kMetre};
   for (std::array<double, 3>& p : coarse.mesh.positions) p = {p[0] + 5, p[1], p[2] - 1};
@@ -93,7 +93,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[c
   const measure::Hausdorff moved = measured();
   CHECK(moved.there.at_least > 0.5 - before);
   CHECK(moved.back.at_least < 0.5 + before);
-  // And one that is not there at all.
+  // The coarse mesh is empty.
   coarse.mesh.indices.clear();
   const Result<LevelDistance> vanished = levelDistance(fine.mesh, fine.extent, coarse.mesh, kMetre, {}, meshed.jobs());
   REQUIRE(vanished);

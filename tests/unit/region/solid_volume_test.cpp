@@ -51,8 +51,8 @@ TEST_CASE("thin and bulky boxes have their volume", "[metrics]") {
   const World slab("sgm 1; start A; rule A { box(10m, 1m, 10m); }");
   for (const double cell : {0.5, 0.25, 0.1, 0.05}) {
     INFO("cells of " << cell << " m");
-    // Of an edge marching cubes takes off a triangle, at most half a cell's face; a face that lies in samples is off by
-    // a 256th of a cell.
+    // At an edge, marching cubes cuts off a triangle of half a cell's face at most; a face that coincides with samples
+    // is off by 1/256 of a cell.
     const double edges = 4 * (10 + 1 + 10) * cell * cell / 2, faces = (2 * 100 + 4 * 10) * cell / kSubcell;
     CHECK(std::fabs(volumeOf(slab, cell, slab.program().domain.box) - 100) < edges + faces);
   }
@@ -64,7 +64,7 @@ TEST_CASE("thin and bulky boxes have their volume", "[metrics]") {
 TEST_CASE("half a ball is left of one that a face of the border cuts, each of the six", "[metrics]") {
   const double whole = 4 * 3.14159265358979323846 * 27 / 3;
   for (int face = 0; face < 6; ++face) {
-    // The border lies 4 m beside the origin.
+    // The region's border is 4 m from the origin.
     const std::array<double, 3> at = [&] {
       std::array<double, 3> p{};
       p[static_cast<size_t>(face / 2)] = face % 2 == 0 ? -4 : 4;
@@ -102,7 +102,7 @@ TEST_CASE("volumes of regions side by side add up, near the origin and far out",
     const World world("sgm 1; domain infinite" + std::string(solid ? " solid" : "") +
                       "; layer l cell 64m reach 32m { start A; } rule A { " + shapes + " }");
     CAPTURE(round, shapes);
-    // 2,048 km away, 32,000 cells, the same shapes stand at the same places of the grid.
+    // 2,048 km away, 32,000 cells, the same shapes are at the same places relative to the grid.
     for (const int32_t away : {0, 32'000 * 8}) {
       const Int3 first{away, -away, away};
       const double all = volumeOf(world, 0.25, chunksAt(first, {2, 2, 2}, 0.25));
@@ -154,7 +154,7 @@ TEST_CASE("the border of a welded mesh says what its seams do", "[metrics]") {
     REQUIRE(by_edges);
     CAPTURE(round, shapes);
     CHECK(*by_edges == Approx(*by_seams).epsilon(1e-9).margin(1e-9));
-    // Wherever positions count from.
+    // The result does not depend on the origin of positions.
     const Result<WorldMesh> elsewhere = weld(parts, {region.lo.x - 512, region.lo.y + 1024, region.lo.z});
     REQUIRE(elsewhere);
     CHECK(*borderFlux(world, region, 0, *elsewhere) == Approx(*by_seams).epsilon(1e-9).margin(1e-9));

@@ -37,7 +37,8 @@ TEST_CASE("of two hollows the one with the anchor is taken", "[render]") {
   REQUIRE(free_choice);
   CHECK(glm::distance(free_choice->camera.position, glm::vec3(0)) < 12);
 
-  const std::vector<glm::vec3> anchors{{200, 0, 0}, {30, 0, 0}, {60, 0, 1}};  // nowhere, in rock, in the small hollow
+  // Far outside, in rock, and in the small hollow.
+  const std::vector<glm::vec3> anchors{{200, 0, 0}, {30, 0, 0}, {60, 0, 1}};
   CameraWish wish;
   wish.anchors = anchors;
   auto anchored = chooseCamera(mesh.vertices, mesh.indices, wish);
@@ -97,7 +98,7 @@ TEST_CASE("the light that is asked for is set, whatever the view", "[render]") {
       CHECK(scene.lamps.size() == (light == Light::lamp ? 1 : 0));
       CHECK((glm::length(scene.headlamp.colour) > 0) == (light != Light::none));
     }
-    // A lamp that is alone reaches farther.
+    // A single lamp reaches farther than one of two.
     RenderScene beside, alone;
     lightScene(view, Light::lamp, beside);
     view.lamps.clear();

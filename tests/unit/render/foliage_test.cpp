@@ -69,7 +69,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
   const std::vector<RenderMaterial> leaf{materialByName("leaf"), kPlainSky}, brick{materialByName("brick"), kPlainSky};
   const Result<Image> crown = renderer->render(ballScene(ball, leaf));
-  // The sun stands behind the camera: isBody does not know what only the sky lights.
+  // The sun is behind the camera, since isBody() does not detect surfaces lit only by the sky.
   RenderScene lit = ballScene(ball, brick);
   lit.sun_direction = {0, 0.3f, 1};
   const Result<Image> bare = renderer->render(lit);
@@ -77,7 +77,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   REQUIRE(bare);
   const Seen leaves = seenOf(*crown), bricks = seenOf(*bare);
   CHECK(leaves.inside > 0.6 * leaves.inside_all);
-  // Its rim lets the sky through, its middle hardly does.
+  // The sky is visible through the crown's rim, but hardly through its middle.
   CHECK(leaves.rim_gaps * leaves.middle > leaves.middle_gaps * leaves.rim);
   CHECK(leaves.middle_gaps < 0.25 * leaves.middle);
   CHECK(bricks.inside > 0.99 * bricks.inside_all);
@@ -85,7 +85,7 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   CHECK(bricks.near == 0);
   CHECK(leaves.far == 0);
   CHECK(bricks.far == 0);
-  // The outermost leaves, behind which no surface is, are lit too.
+  // The outermost leaves, with no surface behind them, are lit, too.
   double sum = 0, count = 0;
   for (int y = 0; y < kSide / 4; ++y) {
     for (int x = 0; x < kSide; ++x) {
@@ -125,9 +125,9 @@ TEST_CASE("blades and leaves grow where their material is, and near the camera",
   triangle(1, 1, 0);
   triangle(0, 1, 0);
   triangle(1, 2, 0);
-  triangle(2, 2, -1000);            // too far away
+  triangle(2, 2, -1000);            // too far from the camera
   triangle(3, 3, 0);                // without relief, as under wires
-  triangle(2, 2, 0, {0.5f, 0.5f});  // chequered
+  triangle(2, 2, 0, {0.5f, 0.5f});  // with the chequered pattern
   const RenderScene scene = ballScene(mesh, materials);
   const Foliage foliage = foliageOf(scene, frameOf(scene));
   REQUIRE(foliage.ground.size() == 9);
@@ -178,10 +178,10 @@ TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", 
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
   };
   triangle(0, 0, 0, 0);
-  triangle(0, 1, 0, 0);      // the second has no share
-  triangle(0, 1, 0.4f, 0);   // leaves pass into bark
+  triangle(0, 1, 0, 0);      // the second material has no share
+  triangle(0, 1, 0.4f, 0);   // blends from leaves to bark
   triangle(1, 1, 0, 0);      // bark
-  triangle(0, 0, 0, -1000);  // too far away for leaves
+  triangle(0, 0, 0, -1000);  // too far away to show leaves
   const RenderScene scene = ballScene(mesh, materials);
   const std::vector<uint32_t> drawn = withoutCrowns(scene, frameOf(scene), scene.indices);
   CHECK(drawn == std::vector<uint32_t>{6, 7, 8, 9, 10, 11, 12, 13, 14});
@@ -189,7 +189,7 @@ TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", 
 
 TEST_CASE("rays of the eye pass gaps of those triangles alone whose surface is not drawn", "[render]") {
   const std::vector<RenderMaterial> materials{materialByName("leaf"), materialByName("bark"), materialByName("glass")};
-  // Before a pane stands a sheet of leaves; only the pane mirrors.
+  // A sheet of leaves is in front of a pane of glass; only the pane reflects.
   const auto seen = [&](uint32_t second, float share, glm::vec2 texture) {
     TestMesh mesh;
     const auto addSquare = [&](float half, float z, RenderVertex like) {
@@ -209,7 +209,7 @@ TEST_CASE("rays of the eye pass gaps of those triangles alone whose surface is n
   };
   CHECK(seen(0, 0, {0, 0}) > 100);
   CHECK(seen(0, 0.4f, {0, 0}) == seen(0, 0, {0, 0}));
-  CHECK(seen(1, 0, {0, 0}) == seen(0, 0, {0, 0}));  // the second has no share
+  CHECK(seen(1, 0, {0, 0}) == seen(0, 0, {0, 0}));  // the second material has no share
   CHECK(seen(1, 0.4f, {0, 0}) == 0);
   CHECK(seen(0, 0, {0.5f, 0.5f}) == 0);
 }

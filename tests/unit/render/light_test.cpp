@@ -106,7 +106,7 @@ TEST_CASE("in even light a convex body is as bright as the light, and a cleft is
 TEST_CASE("a floor in the open gets the sky's mean, and its own shadow nowhere", "[render]") {
   LitStage stage;
   stage.addFloor(500, 0);
-  stage.materials.push_back({SurfacePattern::cloud});  // a world with its own clouds has no others
+  stage.materials.push_back({SurfacePattern::cloud});  // a world with cloud material gets no other clouds
   stage.scene.background = Background::sky;
   stage.look({0, 4, 0}, {0, 0, -6});
   const LightPlanes planes = stage.traced();
@@ -179,7 +179,7 @@ TEST_CASE("water is the deeper the farther its shore, and what stands in it is w
   stage.add({-6, -1, -6}, {6, -1, -6}, {6, 5, -6}, {-6, 5, -6});
   stage.look({0, 3, 6}, {0, 0.5f, -6});
   const LightPlanes planes = stage.traced();
-  // How deep water is there, or below 0 how wet the surface; -2: there is none.
+  // The depth of the water at a row, or if below 0, the wetness of the surface; -2 without either.
   const auto water = [&](uint32_t y) {
     const uint32_t bits = planes.direct[size_t{y} * planes.width + 32].mirror[1] >> 16;
     const int exponent = static_cast<int>(bits >> 10 & 31u);
@@ -221,7 +221,7 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
   std::vector<SoftLight> light(size_t{kSide} * kSide);
   for (uint32_t y = 0; y < kSide; ++y) {
     for (uint32_t x = 0; x < kSide; ++x) {
-      // Two walls that meet in a corner: the left one dark, the right one bright and noisy.
+      // Two walls that meet in a corner: the left one dark, the right one bright with noise.
       const bool left = x < kSide / 2;
       const float along = (static_cast<float>(x) - kSide / 2.0f) / kSide;
       const size_t at = size_t{y} * kSide + x;
@@ -242,7 +242,7 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
   }
   const double mean = sum / 640, deviation = std::sqrt(square / 640 - mean * mean);
   CHECK(mean == Approx(1).margin(0.06));
-  CHECK(deviation < 0.12);  // 0.58 before
+  CHECK(deviation < 0.12);  // it was 0.58 without the filter
   CHECK(dark == Approx(0.25).margin(1e-4));
 }
 
@@ -291,7 +291,7 @@ TEST_CASE("a cloud has a rim that light comes through, and a middle that none do
     for (uint32_t x = 0; x < 64; ++x) thin += cloudAt(planes, x, y).w > 0.02f && cloudAt(planes, x, y).w < 0.98f;
   CHECK(thin > 20);
   CHECK(thin < 400);
-  // It is no surface: nothing else is seen there.
+  // Nothing is visible there, since it is no surface.
   CHECK(planes.brightness == 0);
 }
 
@@ -321,7 +321,8 @@ TEST_CASE("a cloud's rim shines where the sun stands behind it", "[render]") {
 }
 
 TEST_CASE("a cloud sends no more light than it gets", "[render]") {
-  // From twelve sides of the ball, evenly: the light that leaves it, by what the disc of the sun and the sky give it.
+  // Renders the ball from twelve directions: compares the light that leaves it with the light from the sun and the sky
+  // that falls on its disc.
   double sum = 0, sky = 0;
   constexpr int kSides = 12;
   const glm::vec3 to_sun = glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f));
@@ -334,14 +335,14 @@ TEST_CASE("a cloud sends no more light than it gets", "[render]") {
     double seen = 0;
     for (uint32_t v = 0; v < 48; ++v)
       for (uint32_t u = 0; u < 64; ++u) seen += static_cast<double>(cloudAt(planes, u, v).g);
-    // Pixels to square metres across the view at the ball's distance.
+    // Converts pixels to square metres across the view at the ball's distance.
     const double pixel = 2 * std::tan(0.5235988) * 400 / 48;
     sum += seen * pixel * pixel / kSides;
     sky += static_cast<double>(skyLight(glm::normalize(stage.scene.camera.position), to_sun).g) / kSides;
   }
   const double disc = 3.14159265 * 100 * 100;
-  // Radiance that leaves on all sides; of the sun, 3.14 times what sunLight says falls on the disc. What leaves from
-  // all sides of the sky is its mean radiance, over 4 pi as the rest.
+  // The radiance that leaves in all directions; what arrives is 3.14 times sunLight() on the disc for the sun, and the
+  // sky's mean radiance times 4 pi.
   const double leaves = sum * 4 * 3.14159265,
                comes = disc * (3.14159265 * static_cast<double>(sunLight().g)) + disc * sky * 4 * 3.14159265;
   INFO(leaves / comes);
@@ -368,7 +369,7 @@ TEST_CASE("clouds shade the ground, hide what is behind them, and are the same h
   }
   CHECK(brightest == 255);
   CHECK(darkest < 80);
-  // A wall before the cloud is not behind it.
+  // A wall in front of the cloud hides it.
   const auto before = cloudAt(one, 32, 24).w;
   stage.add({-300, -300, 200}, {300, -300, 200}, {300, 300, 200}, {-300, 300, 200}, 1);
   stage.look({0, 0, 500}, {0, 0, 0});
@@ -398,7 +399,7 @@ TEST_CASE("materials are found by name, tint and wetness", "[render]") {
   CHECK(wet->roughness < 0.5f * dry->roughness);
   CHECK(wet->colour.g < 0.7f * dry->colour.g);
   CHECK(findMaterial("wet_roof_tile_red"));
-  // The smoothest of all stays within the range that shaders divide by.
+  // Even the smoothest material stays in the range that shaders can divide by.
   for (const char* smooth : {"wet_water", "wet_glass", "wet_ice", "wet_wet_wet_limestone"}) {
     INFO(smooth);
     REQUIRE(findMaterial(smooth));
@@ -422,12 +423,12 @@ TEST_CASE("a name that is not known looks as a word of it that is", "[render]") 
   CHECK(materialByName("main_road").colour == materialByName("asphalt").colour);
   CHECK(materialByName("wall_ochre").colour == materialByName("plaster_ochre").colour);
   CHECK(materialByName("old_wet_road").colour == materialByName("wet_asphalt").colour);
-  // Words that are materials come before words that only mean one, wherever they stand.
+  // Names of materials have priority over words that only imply one, at any position in the name.
   CHECK(materialByName("wall_brick").pattern == SurfacePattern::brick);
   CHECK(materialByName("roof_slate").pattern == SurfacePattern::slates);
   CHECK(materialByName("floor_wood").pattern == SurfacePattern::wooden);
   CHECK(materialByName("old_roof_tile").pattern == SurfacePattern::roof_tiles);
   CHECK(materialByName("road_wall").pattern == SurfacePattern::asphalt);
-  // A part of a word is none.
+  // A word inside a longer word does not count.
   CHECK(materialByName("roadster").pattern == SurfacePattern::rock);
 }

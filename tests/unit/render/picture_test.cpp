@@ -75,13 +75,14 @@ TEST_CASE("a void is seen from inside, and its walls' backs are open", "[render]
   scene.headlamp.reach = 20;
   auto outside = renderer->render(scene);
   REQUIRE(outside);
-  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, through the near one
+  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, seen through the near one
 }
 
 TEST_CASE("relief that is too fine to be seen spreads highlights: what is far away is no mirror", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // A dark wet ball 80 m away in a picture whose samples are as large as its relief, which is what it must be rough by.
+  // A dark wet ball 80 m away; a sample of the picture is as large as its relief, which must therefore act as
+  // roughness.
   const auto highlight = [&](float relief) {
     Stage stage{sphereMesh({0, 0, -110}, 30, false, 48)};
     stage.materials = {{SurfacePattern::rock, glm::vec3(0.05f), 0.1f, relief}};
@@ -122,20 +123,20 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
                               "glow",          "joist",
                               "lava",          "nothing anyone has heard of"};
   Stage stage{sphereMesh({0, 0, -6}, 2, false)};
-  // All in one scene, so that the device compiles once.
+  // All materials are in one scene, so that the device compiles its shaders once.
   stage.materials.clear();
   for (const char* name : kNames) stage.materials.push_back(materialByName(name));
   for (uint32_t i = 0; i < kNames.size(); ++i) {
     for (RenderVertex& vertex : stage.mesh.vertices) vertex.material = i;
     for (Background background : {Background::cave, Background::sky}) {
-      RenderScene scene = stage.scene(65, 47);  // odd sizes: the last workgroup is not full
+      RenderScene scene = stage.scene(65, 47);  // odd sizes, so that the last workgroup is not full
       scene.background = background;
       scene.supersample = background == Background::sky ? 3 : 1;
       scene.lamps.assign(kMaxLamps, RenderLamp{{3, 3, -3}, {1, 1, 1}, 2});
       auto image = renderer->render(scene);
       INFO(kNames[i]);
       REQUIRE(image);
-      const bool pane = stage.materials[i].pattern == SurfacePattern::glass;  // behind it lies a dark room
+      const bool pane = stage.materials[i].pattern == SurfacePattern::glass;  // a dark room is behind it
       CHECK(brightness(*image, 32, 23, 8) > (pane ? 5 : 15));
     }
   }
@@ -145,7 +146,7 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
 TEST_CASE("a room shows behind a pane of clear glass, and none behind a tinted one", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // Without any light but the room's own.
+  // A scene without any other light than the room's own.
   const auto within = [&](const char* material) {
     Stage stage{sphereMesh({0, 0, -6}, 2, false)};
     stage.materials = {materialByName(material)};
@@ -174,7 +175,7 @@ TEST_CASE("a window of stained glass shows the sky behind it, and is dark in a c
     scene.ambient = 0;
     auto image = renderer->render(scene);
     REQUIRE(image);
-    // By the sky beside it: the camera opens where a window is dark.
+    // Relative to the sky beside it, since the exposure rises if the window is dark.
     return brightness(*image, 32, 24, 9) / (background == Background::sky ? brightness(*image, 5, 40, 4) : 1);
   };
   const double pale = seen("leaded", Background::sky), dark = seen("leaded_black", Background::sky);

@@ -65,7 +65,7 @@ inline std::optional<Renderer> testRenderer() {
   return std::move(*renderer);
 }
 
-/// Mean of red, green and blue over a square of `side` pixels around (x, y), 0..255.
+/// The mean of red, green and blue over a square of `side` pixels around (x, y), 0..255.
 inline double brightness(const Image& image, int x, int y, int side) {
   double sum = 0;
   int count = 0;

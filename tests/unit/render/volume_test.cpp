@@ -95,7 +95,7 @@ TEST_CASE("a uniform box lets exp(-extinction * way) through, at every pixel", "
     Fog fog(size, 1.3f, full);
     fog.scene.medium.extinction = 0.06f;
     CHECK(error(fog, drawn(*renderer, fog.scene), 0.06) < 1e-4);
-    // From inside, too.
+    // Also with the camera inside the fog.
     fog.scene.camera.position = {0.1f, 0.1f, -0.3f};
     fog.scene.camera.target = {0.1f, 0.1f, -1.3f};
     CHECK(error(fog, drawn(*renderer, fog.scene), 0.06) < 1e-4);
@@ -111,12 +111,12 @@ TEST_CASE("a uniform box lets exp(-extinction * way) through, at every pixel", "
 TEST_CASE("what lies far in a large volume counts, and the empty bricks before it do not", "[render][volume]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  // A slab across the middle of the box, a linear slope on each side of it that a cell wide.
+  // A slab across the middle of the box; on each side, its density falls linearly to 0 within a cell.
   Fog fog({60, 60, 90}, 1, [](glm::uvec3 p) { return p.z >= 41 && p.z <= 50 ? uint8_t{255} : uint8_t{0}; });
   fog.scene.medium.extinction = 0.05f;
   const VolumePicture picture = drawn(*renderer, fog.scene);
   CHECK(std::fabs(double{fog.at(picture, 48, 35).w} - std::exp(-0.05 * 10)) < 0.01);
-  // Seen past its edge, nothing.
+  // A ray beside the column sees no fog.
   Fog column({60, 60, 60}, 1, [](glm::uvec3 p) { return p.x < 10 ? uint8_t{255} : uint8_t{0}; });
   const VolumePicture beside = drawn(*renderer, column.scene);
   CHECK(column.at(beside, 80, 35).w == 1.0f);
@@ -132,10 +132,10 @@ TEST_CASE("single scattering of a sun behind the eye is what its integral says",
   fog.scene.sun_light = {10, 5, 0};
   fog.scene.sky_light = fog.scene.ground_light = {0, 0, 0};
   const VolumePicture picture = drawn(*renderer, fog.scene);
-  // Light comes in along the ray and goes back on it: both ways weaken it.
+  // Light enters along the ray and is scattered back along it, so it is attenuated in both directions.
   const double g = 0.3, phase = (1 - g * g) / (4 * 3.14159265 * std::pow(1 + g, 3));
   const double expected = 10 * 0.7 * phase * (1 - std::exp(-2 * 0.04 * 32)) / 2;
-  // Each pixel samples its steps elsewhere; many of them together are right.
+  // Each pixel samples the ray at other offsets; the mean of many pixels is exact.
   glm::dvec3 light(0);
   for (int y = 28; y < 43; ++y) {
     for (int x = 41; x < 56; ++x) light += glm::dvec3(fog.at(picture, x, y)) / (15.0 * 15.0);

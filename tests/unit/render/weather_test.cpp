@@ -77,5 +77,5 @@ TEST_CASE("the brightest twentieth of what is in sight is brighter than the mean
   const LightPlanes planes = Wall().traced(Background::sky);
   CHECK(planes.brightness > 0);
   CHECK(planes.highlight > planes.brightness);
-  CHECK(planes.highlight < 2.5f);  // half of what the sun and the sky together could give
+  CHECK(planes.highlight < 2.5f);  // half of what the sun and the sky together could cause
 }

@@ -131,7 +131,7 @@ TEST_CASE("metrics say what the samples say") {
     CHECK(of("sgm_world_idle") == world.stats.idle);
     CHECK(of("sgm_edits") == static_cast<double>(world.stats.edits));
     CHECK(of("sgm_chunk_cache_bytes") == static_cast<double>(world.stats.cache_bytes));
-    // Each request has one result, though the statistics count what is damaged with the misses.
+    // In the metrics, each request has exactly one result; the statistics count damaged entries also as misses.
     CHECK(of("sgm_chunk_cache_requests_total", {{"result", "hit"}}) == static_cast<double>(world.stats.cache_hits));
     CHECK(of("sgm_chunk_cache_requests_total", {{"result", "miss"}}) +
               of("sgm_chunk_cache_requests_total", {{"result", "damaged"}}) ==
@@ -150,7 +150,7 @@ TEST_CASE("metrics say what the samples say") {
     }
     if (world.parallel_speedup) CHECK(isWritten(of("sgm_parallel_speedup_ratio"), *world.parallel_speedup));
 
-    // The buckets of one histogram, bound for bound.
+    // The buckets of one histogram, compared at each bound.
     double below = 0;
     for (int i = 0; i + 1 < SGM_TIME_BUCKETS; ++i) {
       below += static_cast<double>(world.times.update.counts[i]);
@@ -191,7 +191,7 @@ TEST_CASE("metrics tell of this process") {
   const auto now = static_cast<double>(std::time(nullptr));
   CHECK(started <= now + 2);
   CHECK(started > now - 24 * 3600);
-  // As many more as are opened, and not those that looking takes.
+  // The metric counts these descriptors, but not those that reading /proc opens.
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   CHECK(valueOf(read(), "process_open_fds", {}) == valueOf(before, "process_open_fds", {}) + 2);

@@ -76,7 +76,7 @@ TEST_CASE("a world that streams is watched: its figures rise, and its map is wha
   worlds->forget(streamed.world);
   CHECK(worlds->samples().empty());
 
-  // At rest the map is exactly what is drawn.
+  // When the world is idle, the map lists exactly the drawn chunks.
   REQUIRE(worlds->watch("again", streamed.world));
   const std::optional<WorldMap> map = worlds->map("again");
   REQUIRE(map);
@@ -103,7 +103,7 @@ TEST_CASE("a world that streams is watched: its figures rise, and its map is wha
   CHECK(told == expected);
   CHECK(map->total == count);
   CHECK(triangles == map->world.measures.value().drawn.triangles);
-  // The finest first, then by what is between their middles and the viewer, who is at the origin.
+  // The finest level first, then by the distance of chunks' middles from the viewer, who is at the origin.
   const auto far = [](const DrawnChunk& chunk) {
     return std::tuple(chunk.level,
                       std::pow(chunk.x + 0.5, 2) + std::pow(chunk.y + 0.5, 2) + std::pow(chunk.z + 0.5, 2));
@@ -124,7 +124,7 @@ TEST_CASE("a map is gathered once a second, whoever asks for it", "[threads]") {
   streamed.settle();
   const std::optional<WorldMap> soon = worlds->map("balls");
   REQUIRE(soon);
-  // A machine that has stood still for so long has made another one.
+  // After a longer delay of a busy machine, a new map may have been made already.
   if (std::chrono::steady_clock::now() - asked < milliseconds(900)) CHECK(soon->total == 0);
   CHECK(comesTrue([&] { return worlds->map("balls")->total > 0; }));
   CHECK(std::chrono::steady_clock::now() - asked >= milliseconds(900));

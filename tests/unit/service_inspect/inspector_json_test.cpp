@@ -58,7 +58,7 @@ TEST_CASE("members are found as a parser finds them") {
       CHECK(OrderedJson::parse(members[at].value) == value);
       ++at;
     }
-    // And of what is no JSON any more, something within it.
+    // Also of damaged JSON: the quoted part lies within it.
     std::string damaged = text;
     damaged[random() % damaged.size()] = "{}[]\",:\\ "[random() % 9];
     damaged.resize(random() % (damaged.size() + 1));

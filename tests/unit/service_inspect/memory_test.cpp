@@ -73,7 +73,7 @@ TEST_CASE("who waits is told of memory that has run out", "[threads]") {
     REQUIRE(told.waitFor(1));
     CHECK(inspector->counts().failed == 1);
     CHECK(inspector->counts().running == 0);
-    // One runs, and at its end there is no memory to say anything to the next, nor to think of an answer of one's own.
+    // One job runs; when it ends, there is no memory to answer the next job, not even for an error.
     REQUIRE(inspector->inspect(
         uploadOf("x"), [] {},
         [&](Inspection said) {
@@ -95,7 +95,7 @@ TEST_CASE("who waits is told of memory that has run out", "[threads]") {
 TEST_CASE("without memory nothing is queued, and that is said") {
   const TemporaryFolder files;
   const std::unique_ptr<Inspector> inspector = inspectorOf(makeScript(files, "inspect.sh", "exit 3"));
-  // Each allocation of a call's in turn; those of the inspector's threads count too, and are survived as well.
+  // Each allocation of a call fails in turn; those of the inspector's threads count, too, and must be survived as well.
   for (long after = 0; after < 12; ++after) {
     INFO(after);
     Told told;

@@ -105,7 +105,7 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       const bool at_border = touchesBorder(*chunk, part, triangle);
       const auto first = mesh.indices.begin() + static_cast<ptrdiff_t>(triangle);
       CAPTURE(i, chunk->key.level, part, triangle, at_border);
-      // Where a triangle begins, and in which order they come, matters to nobody.
+      // Neither a triangle's first corner nor the order of triangles matters.
       std::rotate(first, first + 1, first + 3);
       CHECK(store::bordersOf(mesh, static_cast<int>(part)) == before);
       const std::array<uint32_t, 3> was{first[0], first[1], first[2]};
@@ -116,7 +116,7 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       }
       chunk->borders[part] = store::bordersOf(mesh, static_cast<int>(part));
       const bool shows = chunk->borders[part] != before;
-      // Features may lie in a face that they do not belong to.
+      // Sharp feature vertices may lie in a face that they do not belong to.
       if (!sharp) CHECK(shows == at_border);
       if (shows) {
         const size_t problems = judge(chunks, region).told.size();
@@ -126,10 +126,10 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       std::copy(was.begin(), was.end(), first);
       chunk->borders[part] = before;
     }
-    // Bodies have a seam or a neighbour at each face but some of the region's own, where nobody is whom they have to
-    // fit.
+    // Bodies have a seam or a neighbour at each face, except some faces in the region's border, where they need not fit
+    // to anything.
     CHECK(tried[1] > 4 * tried[0]);
-    // A chunk in another's place.
+    // Swaps the borders of two chunks.
     for (unsigned i = 0; i < 4; ++i) {
       const auto [chunk, part] = drawn[random() % drawn.size()];
       const auto [other, same] = drawn[random() % drawn.size()];

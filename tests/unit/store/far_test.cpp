@@ -149,7 +149,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
     constexpr size_t kLookers = 4;
     WorkQueue queue(kLookers);
     Clock::time_point now{std::chrono::hours(1)};
-    std::vector<WorkItem> model;  // the most urgent last, as the queue is
+    std::vector<WorkItem> model;  // the most urgent last, as in the queue
     std::vector<std::shared_ptr<Look>> looking;
     Clock::time_point progress{};
     const auto sight = [&] { return std::span(model).last(std::min(WorkQueue::kSight, model.size())); };
@@ -260,7 +260,7 @@ TEST_CASE("a far store is asked by no job, and what it has is drawn", "[store][t
 
 TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever runs the jobs", "[store][threads]") {
   const BakedScene baked;
-  // None ever, or one part in a frame or three at most.
+  // The store never answers (-1), or answers slowly: one part in up to three frames.
   for (const int slowness : {-1, 60}) {
     for (const int kind : {0, 1, 2, 3}) {
       CAPTURE(slowness, kind);
@@ -272,7 +272,7 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
       if (kind == 3) jobs = std::make_unique<MarkedJobs>(std::make_unique<InlineJobs>());
       Scene scene(std::move(jobs), caveText(), with(far));
       Engine engine;
-      // So that each frame has a plan of its own.
+      // The viewer moves, so that each frame has its own plan.
       Viewer viewer = viewerAt(64, 64, 64);
       for (int frame = 0; frame < 2000 && scene.world->stats().planner.meshed < 200; ++frame) {
         viewer.position[0] += 0.02 * kUnitsPerMetre;
@@ -294,7 +294,7 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
 
 TEST_CASE("requests that hang cost their own lookers and no more", "[store][threads]") {
   const BakedScene baked;
-  // Few requests at one time, which is when one looker in the way shows.
+  // With few concurrent requests, one thread that blocks them has a visible effect.
   const auto hitsOfWalk = [&](std::shared_ptr<BakedParts> parts) {
     WorldSettings settings;
     settings.baked = parts;
@@ -331,7 +331,7 @@ TEST_CASE("a world that has no room for what is wanted says so, whatever its sto
     settings.mesh_bytes = size_t{21} << 20;
     settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
     Scene scene(markedJobs(2), caveText(), settings);
-    // One that takes meshes, and gives none back.
+    // An engine that takes meshes and never releases them.
     std::vector<std::shared_ptr<const ChunkSurface>> kept;
     const auto waitAndTake = [&] {
       const Result<void> waited = scene.world->waitIdle();
@@ -350,7 +350,7 @@ TEST_CASE("a world that has no room for what is wanted says so, whatever its sto
     }
     REQUIRE(!waited);
     CHECK(waited.error().code == Code::limit);
-    // And it goes on when there is room.
+    // Loading continues when there is memory again.
     kept.clear();
     viewer = viewerAt(64, 64, 64);
     REQUIRE(scene.world->setViewers({&viewer, 1}));

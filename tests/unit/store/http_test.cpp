@@ -67,7 +67,7 @@ TEST_CASE("a store on a server is read as one in a folder", "[store][threads]") 
   CHECK(far->stats().bytes == near->stats().bytes);
   CHECK(far->stats().misses + far->stats().errors == 0);
   CHECK(told.messages.empty());
-  // Read ahead, in blocks: there are far fewer of them than parts.
+  // Parts are read ahead in blocks: there are far fewer requests than parts.
   CHECK(server.requests < 40);
   CHECK(far->isFar());
   CHECK(!near->isFar());
@@ -83,7 +83,7 @@ TEST_CASE("what lies in a folder is asked of no server, whichever comes first", 
   CHECK(baked.unlike(**source) == 0);
   CHECK((*source)->stats().hits > 0);
   CHECK(server.requests == 0);
-  // And nobody who looks near asks one, where it has all.
+  // A request with Reach::near sends nothing to a server, even if the server has the part.
   const auto far = sourceAt(server.address());
   const ChunkRequest& request = baked.requests[0];
   const DiskKey world = far->worldOf(*bakedWorldInputs(baked.baking.world, false));
@@ -131,7 +131,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
         Case{Fault::refuses, "status 403", false}, Case{Fault::is_silent, "cannot be read (", true},
         Case{Fault::hangs_up, "cannot be read (", true}}) {
     for (const bool at_once : {true, false}) {
-      // Saying nothing takes seconds to be noticed: once will do.
+      // Detecting a silent server takes seconds, so it is tested only once.
       if (c.fault == Fault::is_silent && !at_once) continue;
       CAPTURE(static_cast<int>(c.fault), at_once);
       FileServer server(baked.folder.path);
@@ -140,7 +140,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
       if (!at_once) {
         ChunkMesher mesher = baked.baking.machine.mesher(baked.baking.world, nullptr);
         mesher.baked = source.get();
-        // The index is open, and most is yet to come.
+        // The index has been read, and most parts are still to be loaded.
         ChunkRequest uniform;
         uniform.key = {0, {baked.requests[0].key.at.x, baked.requests[0].key.at.y, baked.requests[0].key.at.z}};
         uniform.seams = 0;
@@ -150,7 +150,7 @@ TEST_CASE("whatever a server does, chunks are as they would be derived, which is
       }
       server.fault = c.fault;
       CHECK(baked.unlike(*source) == 0);
-      // Files of one block are whole then, too.
+      // Files of one block are read completely even without ranges.
       if (c.fault == Fault::no_ranges && !at_once) continue;
       REQUIRE(!told.messages.empty());
       for (const std::string& message : told.messages) {
@@ -206,7 +206,7 @@ TEST_CASE("nobody waits for a silent server once reading is stopped", "[store][t
   const auto stopped = std::chrono::steady_clock::now();
   source->stop();
   reader.join();
-  // By itself it would end after four seconds, and libcurl looks up once a second.
+  // The request's timeout is four seconds; libcurl checks for cancellation once a second.
   CHECK(std::chrono::steady_clock::now() - stopped < std::chrono::milliseconds(3500));
   unlike += baked.unlike(*source);
   CHECK(unlike == 0);
@@ -287,7 +287,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(1);
   CHECK(outage.failed(early, now));
   CHECK(!outage.failed(early, now));
-  // What was asked before says nothing of now.
+  // A request that was begun before the failure tells nothing about the present.
   CHECK(!outage.answered(early, now));
   for (double rest : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 60.0, 60.0}) {
     CAPTURE(rest);
@@ -308,7 +308,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   pass(0.1);
   CHECK(outage.answered(begun, now));
   CHECK(outage.look(now) == Look::there);
-  // Again, soon after: told, for the last time was long ago; not answered at once.
+  // A failure soon after: reported, since the last report was long ago; the server is not tried again at once.
   begun = now;
   pass(0.1);
   CHECK(outage.failed(begun, now));
@@ -325,7 +325,7 @@ TEST_CASE("an outage is told once a minute, and rests grow until it has been wel
   CHECK(outage.failed(begun, now));
   pass(1.1);
   CHECK(outage.look(now) == Look::find_out);
-  // On and off: nobody is told of it each time.
+  // A server that fails repeatedly is not reported each time.
   begun = now;
   pass(0.1);
   CHECK(outage.answered(begun, now));

@@ -35,11 +35,11 @@ TEST_CASE("a chunk from a store is what it would have been derived to, with edit
       CAPTURE(sharp, i);
       const auto edits = i % 3 == 2 ? randomEdits(random, scene, 10) : nullptr;
       ChunkRequest request = randomRequest(random, scene);
-      // As a streamed world asks, most often.
+      // The parts that a streamed world most often requests.
       if (request.key.level != 0 && i % 4 != 0) request.anchors = request.signs = false;
       const bool as_baked =
           !edits && !request.outermost && (request.key.level == 0 || (!request.anchors && !request.signs));
-      // A world with nothing derived yet.
+      // A world of which nothing is derived yet.
       const WorldField fresh(scene.settings(), std::pmr::get_default_resource());
       ChunkMesher derived = baking.machine.mesher(baking.world, nullptr),
                   stored = baking.machine.mesher(fresh, nullptr);

@@ -47,7 +47,7 @@ TEST_CASE("a region's tiles have each of its chunks once", "[store]") {
         CHECK(chunks.insert(chunk).second);
       }
     }
-    // Each lies in the region, and as many do.
+    // Each tile lies in the region, and their number is right.
     uint64_t count = 0;
     for (int level = region.first_level; level <= region.last_level; ++level)
       count += countChunks(region.box, int64_t{region.finest_cell} << level);

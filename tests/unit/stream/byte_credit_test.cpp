@@ -23,10 +23,10 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
     ByteCredit credit;
     std::vector<uint64_t> given{0}, budgets{0};  // sums up to each update
     size_t next = 0;
-    // Each update adds its budget, or there is nothing owed.
+    // Each update spends its budget, unless nothing is waiting; this bounds the number of updates.
     const uint64_t most_updates = all / std::max<uint64_t>(1, varies ? budget / 2 : budget) + 2 * items.size() + 2;
     for (uint64_t updates = 0; next < items.size(); ++updates) {
-      if (updates > 4000) break;  // tiny budgets: long, and more of the same
+      if (updates > 4000) break;  // tiny budgets only take long and test nothing new
       REQUIRE(updates <= 8 * most_updates);
       const uint64_t now = varies ? 1 + random() % budget : budget;
       credit.begin(now);
@@ -38,7 +38,7 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
       given.push_back(given.back() + bytes);
       budgets.push_back(budgets.back() + now);
     }
-    // The worst row of updates is one where given - budgets rises most.
+    // The worst run of updates is the one over which given - budgets rises most.
     int64_t lowest = 0, worst = 0;
     for (size_t i = 0; i < given.size(); ++i) {
       const int64_t beyond = static_cast<int64_t>(given[i]) - static_cast<int64_t>(budgets[i]);

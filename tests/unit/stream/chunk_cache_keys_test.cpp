@@ -39,7 +39,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   ++other.finest_cell;
   CHECK(changes(other));
 
-  // Every number in the grammar, by a little.
+  // Changes each number in the grammar slightly.
   const std::string text = yardstick("cave.sgm");
   size_t numbers = 0;
   for (size_t at = text.find("sgm 1;") + 6; at < text.size(); ++at) {
@@ -55,21 +55,21 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     changed.insert(end, fraction ? "000001" : ".000001");
     at = end;
     CompileResult compiled = compileGrammar(changed, "test.sgm");
-    if (!compiled.program) continue;  // a comment, a count, or a proof of reach that fails
+    if (!compiled.program) continue;  // the number is in a comment, is a count, or the proof of reach fails
     ++numbers;
     other = settings;
     other.program = compiled.program;
     CAPTURE(changed.substr(0, end + 8));
     const bool same = compiled.program->hash == settings.program->hash;
     CHECK(changes(other) != same);
-    // What people read and what is only measured makes no mesh another one.
+    // Comments, descriptions and expectations do not change the key, since they do not change the mesh.
     const size_t line = text.rfind('\n', end) + 1;
     const size_t slashes = text.find("//", line), quote = text.find('"', line);
     CHECK(same == (std::min(slashes, quote) < end || text.compare(line, 7, "expect ") == 0));
   }
   CHECK(numbers > 20);
 
-  // What only people read.
+  // Changes in comments and layout only.
   other = settings;
   other.program =
       compileGrammar(replaced(text, "rule Chamber(r) {", "// tall\n\n rule  Chamber( (r)\n) {"), "b").program;
@@ -83,7 +83,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   other.on_notes = [](const GrammarChunk&) {};
   CHECK(!changes(other));
 
-  // The request.
+  // Changes of the request.
   const auto asks = [&](int part, const std::function<void(ChunkRequest&)>& change) {
     ChunkRequest changed = request;
     change(changed);
@@ -101,7 +101,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     CHECK(asks(part, [](ChunkRequest& r) { r.outermost = true; }) == (part != 0));
   }
 
-  // Of a world that holds something else, nothing is known.
+  // A world made from a given cell has no key, since its contents are not known from its settings.
   const auto alone = std::make_shared<const DerivedCell>(GrammarChunk(), std::pmr::get_default_resource());
   CHECK(!ChunkPartInputs::of(WorldField(settings, alone, std::pmr::get_default_resource()), request, nullptr));
 }
@@ -128,7 +128,7 @@ TEST_CASE("the brushes that show around a part are in its key, and no others", "
   CHECK(inputs(0, {}) == none);
   CHECK(inputs(0, {ball}) != none);
   CHECK(inputs(1, {ball}) != seam_none);
-  CHECK(inputs(0, {ball}) == inputs(0, {ball}, 9));  // whoever laid it, and when
+  CHECK(inputs(0, {ball}) == inputs(0, {ball}, 9));  // an edit's author and time do not matter
 
   std::vector<std::vector<std::byte>> seen{none};
   const auto isNew = [&](const std::function<void(Brush&)>& change) {
@@ -147,18 +147,18 @@ TEST_CASE("the brushes that show around a part are in its key, and no others", "
   CHECK(isNew([](Brush& b) { ++b.material; }));
   CHECK(isNew([](Brush& b) { ++b.tag; }));
   CHECK(isNew([](Brush& b) { ++b.from.x; }));
-  CHECK(!isNew([](Brush& b) { ++b.to.x; }));  // a ball has no other end
+  CHECK(!isNew([](Brush& b) { ++b.to.x; }));  // the second end of a ball is unused
   Brush cut = ball;
   cut.cut = true;
   CHECK(inputs(0, {ball, cut}) != inputs(0, {cut, ball}));
 
-  // Two cells of its own level around the body are reached, two of the next around a seam.
+  // A body depends on edits within two cells of its own level, a seam on those within two cells of the next level.
   Brush near = ball;
   near.from.x = box.lo.x - ball.radius - 3 * world.cellAt(0);
   CHECK(inputs(0, {near}) == none);
   CHECK(inputs(1, {near}) != seam_none);
   CHECK(inputs(1, {near}, 1, true) == inputs(1, {}, 1, true));
-  // Too thin for the coarser level, where it does not show.
+  // A brush too thin for the coarser level, where it is left out.
   Brush thin = near;
   thin.radius = world.cellAt(0) * 3 / 4;
   thin.from.x = box.lo.x - thin.radius - 3 * world.cellAt(0);

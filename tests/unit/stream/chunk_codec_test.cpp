@@ -180,7 +180,7 @@ TEST_CASE("bytes that were cut or changed are refused or still a chunk", "[strea
 }
 
 TEST_CASE("every check of the decoder is one that can fail", "[stream][codec]") {
-  // Two parts of one triangle each.
+  // A record of two parts with one triangle each.
   ChunkRecord good;
   for (const size_t r : {size_t{0}, size_t{2}}) {
     const auto first = static_cast<uint32_t>(good.mesh.vertices.size());
@@ -226,7 +226,7 @@ TEST_CASE("every check of the decoder is one that can fail", "[stream][codec]") 
     return decoded(bytes);
   };
   CHECK(spoiled(0, kChunkCodecVersion + 1).error().message.find("version") != std::string::npos);
-  // Nothing is made of these sizes before they are believed.
+  // Sizes in the header are validated before any memory is allocated for them.
   for (const size_t word : {size_t{1}, size_t{2}, size_t{3}}) {
     for (const uint32_t value : {0u, 1u, 0x80000000u, ~0u}) {
       CHECK(spoiled(word, value ^ (word == 3 && value == 0)).error().message.find("sizes") != std::string::npos);

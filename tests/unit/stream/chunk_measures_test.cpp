@@ -149,7 +149,7 @@ struct Damage {
 };
 
 const std::vector<Damage>& damages() {
-  // With a corner that is not in the border, where an edge has one triangle anyway.
+  // A triangle with a corner that is not on the border: an edge on the border has only one triangle anyway.
   static const auto triangle = [](PlacedChunk& chunk, std::mt19937& random) {
     Body& body = chunk.mesh.body;
     for (;;) {
@@ -273,7 +273,7 @@ const std::vector<Damage>& damages() {
       {"a triangle goes through another",
        [](PlacedChunk& chunk, std::mt19937& random) {
          Body& body = chunk.mesh.body;
-         // One whose middle is inside on every grid.
+         // Chooses a triangle whose middle is inside the chunk on every grid.
          std::array<uint32_t, 3> t{};
          std::array<int, 3> middle{}, across{};
          do {
@@ -285,7 +285,7 @@ const std::vector<Damage>& damages() {
            const double length = std::sqrt(static_cast<double>(terms.square));
            across = {static_cast<int>(100 * terms.x / length), static_cast<int>(100 * terms.y / length),
                      static_cast<int>(100 * terms.z / length)};
-           // Not a sliver, and its middle far enough inside of the chunk.
+           // It must not be a sliver, and its middle must be far enough inside the chunk.
            if (isSliver(terms) || terms.square < int64_t{1} << 28) middle[0] = 0;
          } while (*std::min_element(middle.begin(), middle.end()) < 200 ||
                   *std::max_element(middle.begin(), middle.end()) > kChunkCells * kSubcell - 200);
@@ -382,7 +382,7 @@ TEST_CASE("chunks and seams of mixed levels add up to the area and the volume of
     }
     CHECK(sums.sound());
     CHECK(sums.seams > 0);
-    // To the last bit: integers cancel.
+    // Equal to the last bit, since all terms are integers.
     CHECK(cross == std::array<int64_t, 3>{});
     const Result<WorldMesh> welded = weld(parts, {0, 0, 0});
     REQUIRE(welded);
@@ -411,7 +411,7 @@ TEST_CASE("open chunks have the area and the flux of their triangles") {
     const asset::TriangleMesh triangles = trianglesOf(*welded);
     const AreaVolume whole = areaVolume({triangles.points, triangles.triangles}, *jobs);
     CHECK(std::fabs(sums.area - whole.area) < 1e-9 * whole.area);
-    // Some 100 m from the origin what is added is far larger than what is left.
+    // Some 100 m from the origin, the summands are far larger than their sum.
     CHECK(std::fabs(sums.flux - whole.volumeAbout({0, 0, 0})) < 1e-9 * 300 * whole.area);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(std::fabs(sums.area_vector[static_cast<size_t>(axis)] - whole.area_vector[axis]) < 1e-9 * whole.area);

@@ -47,7 +47,7 @@ FieldProgram fromWholeCells(const WorldField& world, const IntBox& box, int leve
   return *std::move(program);
 }
 
-/// The rules with `detail` before many of their shapes: in blends, meets, sums and cuts.
+/// Puts `detail` in front of many of the rules' shapes: also in blends, meets, sums and cuts.
 std::string withDetails(const std::string& text, std::mt19937& random) {
   std::string out;
   for (size_t at = 0; at < text.size(); ++at) {
@@ -63,7 +63,7 @@ std::string withDetails(const std::string& text, std::mt19937& random) {
 }
 
 bool sameMesh(const ChunkMesh& a, const ChunkMesh& b) {
-  // Signs are left out where they are proven to be alike, which boxes of other sizes need not prove.
+  // Signs are omitted where they are proven to be equal; with boxes of other sizes, this may not be proven.
   const bool uniform = a.signs.empty() || b.signs.empty();
   return a.body.hash == b.body.hash && a.solid_samples == b.solid_samples && (uniform || a.signs == b.signs) &&
          a.body.indices == b.body.indices;
@@ -120,7 +120,7 @@ LeftOut compareLevels(unsigned seed, std::string (*rules)(std::mt19937&, unsigne
   const auto backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
   size_t surfaces = 0;
   LeftOut out;
-  // Few random grammars have something that a far level leaves out: it goes on until one had.
+  // In few random grammars a coarse level omits something, so rounds continue until it has happened once.
   for (unsigned round = 0; round < tries || (reach == 0 && out.by_level == 0 && round < 1000); ++round) {
     const std::string text = rules(random, round);
     const CompileResult compiled = compileGrammar(text, "test.sgm");

@@ -144,7 +144,8 @@ TEST_CASE("an update tells of few colliders, of none that has not changed, and t
         }
         if (event.kind == Kind::collider_removed) {
           REQUIRE(given.erase(event.key) == 1);
-          // What was drawn in its place when this was decided has its colliders: some of what is drawn now, at least.
+          // When a collider is removed, the chunks that replace it must have colliders: at least one of the chunks
+          // drawn there now.
           size_t near = 0, with = 0;
           for (const auto& [key, surface] : shown) {
             if (!holds(key, event.key) && !holds(event.key, key)) continue;

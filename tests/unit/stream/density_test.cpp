@@ -159,7 +159,7 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
     const DensityGrid grid = gridIn(random);
     const Volume whole = volumeOf(field, grid, 1);
     for (const unsigned threads : {2u, 5u}) CHECK(volumeOf(field, grid, threads).values == whole.values);
-    // In two along each axis, laid into one array by its pitches.
+    // The grid is computed in two parts along each axis, which are written into one array with its pitches.
     std::array<uint32_t, 3> at{};
     for (size_t axis = 0; axis < 3; ++axis) at[axis] = static_cast<uint32_t>(random() % grid.size[axis]);
     std::vector<float> joined(pointsOf(grid), -1.0f);
@@ -190,7 +190,7 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
 TEST_CASE("the mesh lies where density begins", "[density][costly]") {
   const unsigned seed = 11;
   CAPTURE(seed);
-  constexpr int32_t kCell = 4096;  // as clouds() has it
+  constexpr int32_t kCell = 4096;  // the cell that clouds() uses
   const WorldField world(clouds(seed), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;
   for (int32_t x = 0; x < 16; ++x) {
@@ -204,7 +204,7 @@ TEST_CASE("the mesh lies where density begins", "[density][costly]") {
       const Vertex& vertex = body.vertices[v];
       const std::array<double, 3> n = unpackNormal(vertex.normal_x, vertex.normal_y);
       const double at[3] = {vertex.x / 256.0, vertex.y / 256.0, vertex.z / 256.0};
-      // The vertex lies on an edge between a solid and an empty sample; the lattice's own points there.
+      // The vertex lies on an edge between a solid and an empty sample; this grid has exactly these two samples.
       DensityGrid ends;
       ends.spacing = kCell;
       ends.size = {1, 1, 1};
@@ -216,7 +216,7 @@ TEST_CASE("the mesh lies where density begins", "[density][costly]") {
       const Volume edge = volumeOf(queryField(world), ends, 1);
       REQUIRE(edge.values.size() == 2);
       wrong += (edge.values[0] > 0) == (edge.values[1] > 0);
-      // And a cell along the normal, where the surface is not folded, there is fog on one side alone.
+      // A cell away along the normal, where the surface is not folded, there is fog only on the inner side.
       DensityGrid sides;
       sides.size = {1, 1, 1};
       float density[2] = {};
@@ -272,7 +272,7 @@ TEST_CASE("a volume that makes no sense is refused, and one that is stopped ends
   CHECK(!codeOf(grid));
   ++grid.origin.y;
   CHECK(codeOf(grid) == Code::range);
-  // The whole world, in steps that an int32 just holds.
+  // The whole world, with a spacing that just fits into int32.
   grid.origin = {INT32_MIN, INT32_MIN, INT32_MIN};
   grid.spacing = INT32_MAX;
   grid.size = {3, 3, 3};
@@ -285,7 +285,7 @@ TEST_CASE("a volume that makes no sense is refused, and one that is stopped ends
   std::vector<std::pair<uint64_t, uint64_t>> told;
   CHECK(!codeOf(good, [&](uint64_t done, uint64_t total) {
     told.emplace_back(done, total);
-    return done < total;  // too late to stop
+    return done < total;  // the last call is too late to stop
   }));
   REQUIRE(told.size() == 27);
   for (size_t i = 0; i < told.size(); ++i) CHECK(told[i] == std::pair<uint64_t, uint64_t>(i + 1, 27));

@@ -74,7 +74,7 @@ TEST_CASE("processes share a folder", "[stream][disk]") {
     children.push_back(forked([&] {
       auto cache = DiskCache::open(folder.path, kLimit, {});
       if (!cache) return 100;
-      // Together they store more than there is room for, however slow the machine.
+      // On any machine, the threads together store more than fits into the cache.
       const auto enough = [&] { return (*cache)->stats().stored > 100; };
       const int wrong = useCache(**cache, i, 300, [&] { return late(0s) && (enough() || late(120s)); });
       return wrong != 0 || enough() ? wrong : 101;
@@ -154,7 +154,7 @@ TEST_CASE("a full disk is counted and said once", "[stream][disk]") {
   const auto cache = openCache(folder, kRoomy, said.log());
   const Bytes large = noise(1, 100'000);
   const DiskKey small = keyNumber(1);
-  // A limit on file sizes fails the write as a full disk does.
+  // A limit on the file size makes the write fail as a full disk does.
   rlimit before{};
   REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -190,7 +190,7 @@ TEST_CASE("a folder may go and come while its cache is open", "[stream][disk]") 
   CHECK(cache.stats().errors == 0);
   for (int i = 0; i < 3; ++i) cache.put(key, contentOf(key));
   CHECK(cache.stats().errors == 3);
-  writeFile(inner.path / "cache", {});  // now it is a file
+  writeFile(inner.path / "cache", {});  // replaces the folder by a file
   CHECK(!getFrom(cache, key));
   cache.put(key, contentOf(key));
   CHECK(cache.stats().errors == 5);
@@ -212,7 +212,7 @@ TEST_CASE("a folder that may not be written to serves what it has", "[stream][di
     fs::permissions(folder.path, mode);
   };
   const pid_t child = forked([&] {
-    // Modes do not bind the superuser; another user has none of its rights.
+    // The superuser ignores file modes; so the test continues as another user.
     if (geteuid() == 0 && (chown(folder.path.c_str(), 65534, 65534) != 0 || chown(shard.c_str(), 65534, 65534) != 0 ||
                            chmod(folder.path.c_str(), 0755) != 0 || setgid(65534) != 0 || setuid(65534) != 0)) {
       return 1;

@@ -96,14 +96,14 @@ TEST_CASE("worlds that have exchanged their edits in any order are equal", "[edi
         case 0:
           letters.push_back(log.exportBytes(random() % (log.size() + 1)));
           break;
-        case 1:  // late, or again
+        case 1:  // delivered late, or twice
           if (!letters.empty()) REQUIRE(log.import(letters[random() % letters.size()]));
           break;
         default:
           edit(random, log);
       }
     }
-    // An undo may come before its brush: single operations in any order, to a world that knows none.
+    // Operations arrive one by one in any order at a world without edits; an undo may arrive before its brush.
     std::vector<std::vector<std::byte>> all;
     for (const EditLog& log : logs) all.push_back(log.exportBytes());
     EditLog last = logOf(99);
@@ -138,7 +138,7 @@ TEST_CASE("a place's brushes are found, in order, at every level; old snapshots 
     const std::shared_ptr<const EditSnapshot> none = log.snapshot();
     for (int i = 0; i < 150; ++i) {
       edit(random, log);
-      // Now and then the ends of the world, and the largest that there is.
+      // Some brushes at the ends of the world, and some of the largest size.
       if (i % 50 == 0) REQUIRE(log.add(ball({INT32_MIN + 3000, INT32_MAX - 3000, 0}, 2000)));
       if (i % 70 == 0) REQUIRE(log.add(ball({5, 5, 5}, kMaxBrushSize, true)));
       const Int3 at = randomPlace(random, kPlaces);
@@ -169,7 +169,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   const EditLog::Edited hidden = *log.undo(laid.id);
   CHECK(hidden.box == brushBounds(brush));
   CHECK(log.snapshot()->brushes() == 0);
-  CHECK(log.undo(laid.id)->box.empty());  // hidden already
+  CHECK(log.undo(laid.id)->box.empty());  // it is hidden already
   const EditLog::Edited again = *log.undo(hidden.id);
   CHECK(again.box == brushBounds(brush));
   CHECK(log.snapshot()->brushes() == 1);
@@ -181,7 +181,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   CHECK(unknown.error().code == Code::invalid_argument);
   CHECK(unknown.error().message == "there is no edit 77 of author 7 to undo");
 
-  // Of what comes from elsewhere: a box for each brush that comes or goes, none for what is known or hidden.
+  // Imported edits: a box is returned for each brush that appears or disappears, none for known or hidden ones.
   EditLog other = logOf(8);
   CHECK(other.import(log.exportBytes())->empty());
   CHECK(other.hash() == log.hash());
@@ -190,7 +190,7 @@ TEST_CASE("an undo hides, an undo of it shows again, and each says what changed"
   REQUIRE(came.size() == 1);
   CHECK(came[0] == brushBounds(brush));
   CHECK(other.import(log.exportBytes())->empty());
-  // Numbers and times go on from what is known.
+  // New edits continue the numbers and times of known ones.
   EditLog reopened = logOf(7);
   REQUIRE(reopened.import(log.exportBytes()));
   CHECK(reopened.add(brush)->id == EditId{7, log.size() + 1});
@@ -209,7 +209,7 @@ TEST_CASE("what is essential shows the same brushes, also after what is still to
     EditLog small = logOf(2);
     REQUIRE(small.merge(kept));
     CHECK(shown(small, IntBox::everything()) == shown(log, IntBox::everything()));
-    // A world that knows all brings back what was left out.
+    // Importing the full log brings back the operations that were left out.
     REQUIRE(small.import(log.exportBytes()));
     CHECK(small.hash() == log.hash());
     CHECK(shown(small, IntBox::everything()) == shown(log, IntBox::everything()));
@@ -239,7 +239,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
       accepted += !refused(bad);
     }
   }
-  // With a checksum that fits, as an enemy would make it.
+  // Damaged messages whose checksum was recomputed, as an attacker would send them.
   for (uint32_t round = 0; round < rounds(3000); ++round) {
     std::vector<std::byte> bad(good.begin(), good.end() - 8);
     for (int32_t n = within(random, 1, 3); n > 0; --n) bad[8 + random() % (bad.size() - 8)] = std::byte(random() % 256);
@@ -258,7 +258,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
   }
   CHECK(accepted == 0);
 
-  // The last good operation of a message with a bad one does not come in either.
+  // If a message has one invalid operation, none of its operations are imported.
   std::vector<EditOperation> list(log.operations().begin(), log.operations().end());
   list[0].brush.from.x += 1;
   EditLog knows = logOf(3);
@@ -356,7 +356,7 @@ TEST_CASE("ten thousand brushes do not make the next one slow", "[edits]") {
   std::mt19937 random(1);
   EditLog log = logOf(1);
   for (int i = 0; i < 10'000; ++i) REQUIRE(log.add(randomBrush(random, kPlaces.grown(100'000), 3000)));
-  // Processor time: the machine may be busy.
+  // Measures processor time, since the machine may be busy.
   const auto microseconds = [](std::clock_t since) {
     return 1e6 * static_cast<double>(std::clock() - since) / CLOCKS_PER_SEC;
   };
@@ -380,5 +380,5 @@ TEST_CASE("ten thousand brushes do not make the next one slow", "[edits]") {
   std::cout << "importing " << log.size() << " edits: " << import << " ms\n";
   std::cout << "an edit over 10,000 brushes: " << each << " us; a chunk's " << found.size() << " brushes: " << query
             << " us\n";
-  CHECK(each < 5000);  // generous, for sanitizers: a millisecond would do for 60 a second
+  CHECK(each < 5000);  // a generous limit, for sanitizers: a millisecond would suffice for 60 frames a second
 }

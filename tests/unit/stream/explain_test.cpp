@@ -58,7 +58,7 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
     const ExplainedNode& leaf = found->nodes[found->leaf];
     CAPTURE(leaf.path);
     ++count.told;
-    // The group's field is the world's, but for which of two groups that touch there decides.
+    // The field of the deciding group equals the world's, whichever of two touching groups decides.
     CHECK((whole.cuts ? -whole.value : whole.value) == found->value);
     if (isExact(found->nodes, found->leaf)) {
       CHECK(std::fabs(leaf.value) == std::fabs(found->value));
@@ -67,12 +67,12 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
     CHECK(leaf.path.find("override") == std::string::npos);
     const CompileResult edited = compileGrammar(text + "\noverride \"" + leaf.path + "\" { }\n", "test.sgm");
     INFO(renderDiagnostics(edited));
-    // One that has an override already takes another that derives it.
+    // A use that already has an override refuses a second one, unless this one keeps the original (`inner`).
     if (!edited.program && edited.diagnostics[0].code == "duplicate") {
       CHECK(compileGrammar(text + "\noverride \"" + leaf.path + "\" { inner; }\n", "test.sgm").program);
       continue;
     }
-    // A sum that is displaced must keep its largest shape.
+    // A displaced sum must keep its largest shape, so some of these do not compile.
     if (!edited.program && text.find("sum") != std::string::npos) continue;
     REQUIRE(edited.program);
     const WorldField without(settingsOf(text + "\noverride \"" + leaf.path + "\" { }\n", cell, seed),
@@ -97,7 +97,8 @@ TEST_CASE("what is said to make a surface makes it: without it the field is anot
   }
   CHECK(count.told > 10);
   CHECK(count.exact > 0);
-  // Where two shapes share a face, or a shape has another one inside, the other one still makes it.
+  // Removing a shape need not change the field if another shape shares its face or contains it, so only half are
+  // required to.
   CHECK(count.edited * 2 > count.told);
 }
 
@@ -106,7 +107,8 @@ TEST_CASE("of random grammars explain() finds the shape that decides") {
   CAPTURE(seed);
   std::mt19937 random(seed);
   Count count;
-  // A quarter of them does not compile, and others have no surface where it looks: it goes on until enough had.
+  // A quarter of the random grammars does not compile, and others have no surface nearby, so rounds continue until
+  // enough were explained.
   for (unsigned round = 0; round < rounds(40) || (count.told <= 20 && round < 400); ++round) {
     const uint64_t rules = random();
     const std::string text = RandomRules(rules).program(false);

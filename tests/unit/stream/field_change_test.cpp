@@ -149,7 +149,7 @@ TEST_CASE("what differs between two fields is told for every chunk that it chang
     CHECK(checkChange(random, from, fieldOf(cave)) == 0);
     const size_t boxy = checkChange(random, from, fieldOf(cave, "boxy", 0.5));
     CHECK(boxy > 0);
-    CHECK(boxy < allChunks());  // passages are not of it
+    CHECK(boxy < allChunks());  // passages do not depend on the parameter
     const size_t wet = checkChange(random, from, fieldOf(cave, "wet", 0.6));
     CHECK(wet > 0);
     CHECK(wet < allChunks());
@@ -178,7 +178,7 @@ TEST_CASE("cells that have read no parameter that differs are taken over and not
   for (int32_t x = 0; x < 3; ++x) CHECK(cellOf(*wetter, net, {x, 0, 0}) == cellOf(*from, net, {x, 0, 0}));
   CHECK(wetter->cacheStats().misses == 0);
   CHECK(wetter->cacheStats().cells < cells);
-  // A drip hangs from the hall that was probed, and so depends on its shape.
+  // A drip hangs from the ceiling of the hall that its probe found, so it depends on that hall's shape.
   const auto boxier = fieldOf(cave, "boxy", 0.9);
   uint64_t probed = 0;
   for (int32_t x = 0; x < 8; ++x) probed |= cellOf(*from, drip, {x, 2, 2})->chunk.parameters;
@@ -239,7 +239,7 @@ TEST_CASE("every frame shows one field with one state of the edits, and is close
     CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
     REQUIRE(log.import(scene.world->exportEdits(log.size())));
     checkFrame(scene, engine, log.snapshot().get(), last.get());
-    // A query asks what is drawn.
+    // Queries use the field that is drawn.
     const Result<ContentHash> streamed = scene.world->hashBodies({{60000, 60000, 60000}, {90000, 90000, 90000}}, 0);
     REQUIRE(streamed);
   }
@@ -259,7 +259,7 @@ TEST_CASE("Birger: the sky is edited while it is looked at", "[table4]") {
     return count;
   };
   std::vector<size_t> counts{triangles()};
-  // The author turns two knobs while the viewer goes on; what is drawn is always the sky of one setting.
+  // Two parameters change while the viewer moves; every drawn frame belongs to exactly one pair of their values.
   const std::pair<const char*, double> turns[] = {{"cover", 0.3}, {"octaves", 2}};
   for (const auto& [knob, value] : turns) {
     const std::shared_ptr<const WorldField> edited = fieldOf(sky, knob, value);
@@ -296,7 +296,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
     const auto was = before.find(key);
     if (was == before.end()) continue;
     ++(was->second.surface == shown.surface ? same : other);
-    // Stalactites are a detail of 0.6 m: no other level has any.
+    // Stalactites have a detail of 0.6 m, so only level 0 has any.
     if (key.level > 0) CHECK(was->second.surface == shown.surface);
   }
   CHECK(same > 0);
@@ -305,7 +305,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
   engine.take(*scene.world);
   REQUIRE(engine.shown.size() == before.size());
   for (const auto& [key, shown] : engine.shown) {
-    // What is drawn of it: a surface may hold seams that were drawn while the world was on its way.
+    // Only seams that are drawn now are compared: a surface may also have seams that were needed on the way.
     const Engine::Shown& was = before.at(key);
     CHECK(shown.seams == was.seams);
     for (size_t range = 0; range < 7; ++range) {
@@ -313,7 +313,7 @@ TEST_CASE("a parameter changes what depends on it alone, and back again gives th
       CHECK(shown.surface->mesh.ranges[range].hash == was.surface->mesh.ranges[range].hash);
     }
   }
-  // The same field again costs nothing.
+  // Setting the same field again meshes nothing.
   const uint64_t outdated = scene.world->stats().planner.outdated;
   REQUIRE(scene.world->setField(fieldOf(drippingText())));
   REQUIRE(scene.world->waitIdle());
@@ -453,7 +453,7 @@ TEST_CASE("before anything is drawn one field takes another's place, and the nex
   go();
   CHECK_FALSE(fields.begin(progress));
   CHECK(fields.turn().drawn == 1);
-  // One that comes ten times a second would begin everything anew, for ever.
+  // If each of ten changes a second restarted the work, nothing would ever be drawn.
   fields.want(fieldOf(caveText(), "boxy", 0.2));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   CHECK_FALSE(fields.begin(progress));

@@ -47,7 +47,7 @@ TEST_CASE("random octrees of a cave and of a cloud are closed in every vertex") 
     Int3 centre;
     int32_t cell;
   };
-  // At these cells the coarse levels have lost drips and octaves: the levels' fields differ.
+  // With these cells, coarse levels omit drips and octaves, so the levels' fields differ.
   const Scene scenes[] = {{"cave.sgm", {96 * 1024, 96 * 1024, 96 * 1024}, 128},
                           {"cloud.sgm", {450 * 1024, 1200 * 1024, 450 * 1024}, 4096}};
   for (const Scene& scene : scenes) {
@@ -94,7 +94,7 @@ TEST_CASE("a frame without one of its seams is seen to be open") {
 TEST_CASE("what viewers want of an endless world is closed, near the origin and far from it") {
   for (const int32_t far : {0, 1'500'000 * 1024}) {
     CAPTURE(far);
-    // Without the drips, whose small cells a coarse chunk would have by the hundred thousand.
+    // Without drips: a coarse chunk would have hundreds of thousands of their small cells.
     const std::string text =
         replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
     const WorldField world(settingsOf(text, 256, 3), std::pmr::get_default_resource());

@@ -44,7 +44,7 @@ double coarseValue(const WorldField& world, int level, const std::array<double, 
 }  // namespace
 
 TEST_CASE("morph offsets lead to the coarser surface, and neighbours agree") {
-  // Noise that the coarser level leaves out, so that the two surfaces differ by some cells' fractions.
+  // The coarser level omits this noise, so that the two surfaces differ by fractions of a cell.
   const WorldField world(
       settingsOf("sgm 1; units m; domain infinite; layer l cell 64m reach 40m { start Ball; }\n"
                  "rule Ball { at(cell.center) { displace 0.4m*fractal(1.5m) amp 0.4m { sphere(26m); } } }\n",

@@ -90,14 +90,14 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
     above.cut = true;
     above.sample = [inner = above.sample](const SampleLattice& at, std::span<float> values) -> Result<void> {
       if (Result<void> sampled = inner(at, values); !sampled) return sampled;
-      for (float& value : values) value = -value;  // the air over them
+      for (float& value : values) value = -value;  // the air above the hills
       return {};
     };
     above.smooth = random() % 2 == 0 ? 2 * kUnitsPerMetre : 0;
     HostField rock =
         hostBall(96 * kHostMetre, 100 * kHostMetre, 96 * kHostMetre, 7 * kHostMetre, random() % 2 == 0 ? 1.0f : 0.0f);
     rock.label = makeLabel(1, 0);
-    // Less than all of it: its box cuts it off.
+    // The bounds hold only a part of the rock, which is cut off at them.
     rock.bounds = {{90 * kUnitsPerMetre, 90 * kUnitsPerMetre, 90 * kUnitsPerMetre},
                    {101 * kUnitsPerMetre, 120 * kUnitsPerMetre, 120 * kUnitsPerMetre}};
     Scene scene(std::make_unique<LateJobs>(seed), caveText(), {}, {above, rock});
@@ -152,7 +152,7 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
     for (int round = 0; round < 12; ++round) {
       const auto at = [&] { return static_cast<int32_t>(random() % 8) - 4; };
       Int3 chunk{at() * edge, at() * edge, at() * edge};
-      // Now and then at an end of the world, in cells that it cuts off.
+      // Some chunks lie at an end of the world, which cuts off their cells.
       if (round % 4 == 3) chunk[static_cast<int>(random() % 3)] = random() % 2 == 0 ? INT32_MIN : INT32_MAX - edge;
       const IntBox small{chunk, {chunk.x + edge, chunk.y + edge, chunk.z + edge}};
       const IntBox large = small.grown(static_cast<int32_t>(random() % static_cast<uint32_t>(edge)));
@@ -164,7 +164,7 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
       REQUIRE(other);
       std::vector<int32_t> x, y, z;
       for (int i = 0; i < 400; ++i) {
-        // Corners, edges and faces too, which several chunks have.
+        // Also points in corners, edges and faces, which belong to several chunks.
         const auto along = [&](int32_t first) {
           return random() % 4 == 0 ? first + edge * static_cast<int32_t>(random() % 2)
                                    : first + static_cast<int32_t>(random() % static_cast<uint32_t>(edge));
@@ -250,7 +250,7 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
   REQUIRE(*hit);
   CHECK((*hit)->position[1] == Approx(5 * kHostMetre).margin(16));
 
-  // Slanting rays over many small cells, beside what is steep and what is not.
+  // Slanting rays through many small cells, with a field of unknown (0) or known (1) steepness.
   for (const float steepness : {0.0f, 1.0f}) {
     const WorldField fine = hostedWorld({hostBall(0, 0, 0, 5 * kHostMetre, steepness)}, 102);
     const double side = 40 * kHostMetre;
@@ -266,7 +266,7 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
     CHECK((*nearest)->distance == Approx(4 * kHostMetre).margin(102));
   }
 
-  // Cells that the world's end cuts off.
+  // Cells that are cut off by the end of the world.
   const WorldField everywhere = hostedWorld({hills(0, 0, 0)}, 1000);
   for (const int32_t end : {INT32_MIN, INT32_MAX}) {
     const Int3 corner{end, 0, end};

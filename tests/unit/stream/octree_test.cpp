@@ -45,7 +45,7 @@ size_t brokenPlaces(const Octree& tree, int32_t extent) {
           const size_t u = step[(axis + 1) % 3], v = step[(axis + 2) % 3];
           const int here = levels[at], a = levels[at + u], b = levels[at + v], c = levels[at + u + v];
           broken += std::abs(here - a) > 1;
-          // Crosswise: two opposite ones finer than some level, the two others not.
+          // No edge may have two diagonally opposite leaves finer than both others.
           broken += std::max(here, c) < std::min(a, b) || std::max(a, b) < std::min(here, c);
         }
       }
@@ -200,7 +200,7 @@ TEST_CASE("a step keeps the rules and draws nothing that is not ready, whatever 
     const Octree target = randomTree(random);
     std::map<ChunkKey, uint8_t> wanted;
     makeReady(target, wanted);
-    // Stand-ins between the two, and seams of some, come as they come.
+    // Chunks of intermediate nodes, and some additional seams, become ready in random order.
     for (const ChunkKey& node : target.splitNodes()) {
       if (node.level <= kTop && random() % 2) wanted[node] |= static_cast<uint8_t>(random() % 64);
     }

@@ -20,7 +20,7 @@ using Clock = PlanTurns::Clock;
 class CountedJobs final : public JobSystem {
  public:
   explicit CountedJobs(unsigned workers) : workers_(workers) {}
-  unsigned concurrency() const override { return workers_ + 1; }  // the engine's thread is one of them
+  unsigned concurrency() const override { return workers_ + 1; }  // the engine's thread counts as one
   void submit(void (*)(void*), void*, int) override {}
   bool help() override { return false; }
 
@@ -161,7 +161,7 @@ TEST_CASE("planning takes a quarter of the workers' time at most, and no world w
       return std::exp(std::uniform_real_distribution<>(std::log(low), std::log(high))(random));
     };
     const auto workers = static_cast<unsigned>(between(1, 9));
-    // Each has a job that meshes: no worker is ever without work.
+    // Each world has a meshing job, so that no worker is ever idle.
     Simulation simulation(workers, workers + random() % 40, between(2, 1000));
     double plans = 0;
     for (Simulation::World& world : simulation.worlds()) {
@@ -175,7 +175,7 @@ TEST_CASE("planning takes a quarter of the workers' time at most, and no world w
     for (const Simulation::World& world : simulation.worlds()) {
       CHECK(world.planned > 2);
       CHECK(world.meshed > 2);
-      // What all owe is paid once in between, by a quarter of what the others mesh.
+      // Between two plans of a world, the debt of all plans is paid once, with a quarter of the meshing time.
       CHECK(world.longest_wait <= 8 * plans + 0.1);
     }
   }
@@ -208,15 +208,15 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   }
   const Clock::time_point now = Clock::time_point() + std::chrono::hours(1);
   turns.startDue(now);
-  CHECK(begun == 0);  // nobody has asked
+  CHECK(begun == 0);  // no plan was requested
   for (int i = 1; i <= 5; ++i) {
     turns.request(member);
     turns.startDue(now);
     CHECK(begun == i);
     turns.endPlan(member, 10);
-    CHECK(std::abs(turns.credit() + 10) < 1e-6);  // of one plan, however many were free
+    CHECK(std::abs(turns.credit() + 10) < 1e-6);  // the credit of one plan, however many workers were free
   }
-  // Two workers that mesh, or are about to.
+  // Two workers mesh or are about to.
   turns.setMeshJobs(other, 2);
   turns.request(member);
   turns.startDue(now);
@@ -228,7 +228,7 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   turns.startDue(now);
   CHECK(begun == 6);
   turns.endPlan(member, 10);
-  // A system that meshes nothing for a while: time pays, too, but gives no credit.
+  // While nothing is meshed, passing time pays the debt, but gives no credit.
   turns.request(member);
   turns.startDue(now + std::chrono::seconds(190));
   CHECK(begun == 6);
@@ -237,7 +237,7 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   turns.endPlan(member, 10);
   turns.startDue(now + std::chrono::hours(100));
   CHECK(std::abs(turns.credit()) < 1e-6);
-  // Nor does anyone wait for a plan that a job system leaves lying.
+  // A plan that its job system does not execute does not block the others for ever.
   turns.request(member);
   turns.startDue(now + std::chrono::hours(100));
   CHECK(begun == 8);
@@ -248,7 +248,7 @@ TEST_CASE("a worker without work plans at once, whatever is owed") {
   CHECK(begun == 9);
   turns.endPlan(member, 0);
   turns.endPlan(other, 0);
-  // Who leaves with work undone takes it along.
+  // A world that leaves takes its unfinished plan with it.
   turns.request(member);
   turns.leave(other);
   turns.startDue(now + std::chrono::hours(101));

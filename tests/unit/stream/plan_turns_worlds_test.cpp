@@ -73,7 +73,7 @@ TEST_CASE("a world plans as soon as another one has left with jobs that never be
 TEST_CASE("a world whose viewers move all the time plans though nothing is meshed") {
   const auto begun_at = std::chrono::steady_clock::now();
   TwoWorlds worlds;
-  // Its turn comes when a twentieth of the time has paid for the first world's plan.
+  // The second world plans when a twentieth of the passed time has paid for the plan of the first one.
   const auto at_most = begun_at + std::chrono::minutes(1) + 40 * (std::chrono::steady_clock::now() - begun_at);
   while (worlds.jobs.waiting() == 1 && std::chrono::steady_clock::now() < at_most) {
     worlds.move(*worlds.second);

@@ -156,7 +156,7 @@ void comparePrograms(const WorldField& world, std::mt19937& random, int boxes, C
     for (int axis = 0; axis < 3 && !isWhole(program.layers[layer]); ++axis)
       if (program.layers[layer].cell[axis] > 0) about[axis] = static_cast<int32_t>(random() % 3) - 1;
     const auto cell = world.cell(layer, about);
-    if (!cell) continue;  // more than a cell may cost
+    if (!cell) continue;  // the cell exceeds the limits of a cell
     const int level = static_cast<int>(random() % 4);
     const IntBox box = boxAbout((*cell)->chunk, 32 * world.cellAt(level), random);
     const auto walked = world.compile(box, level);
@@ -184,7 +184,7 @@ TEST_CASE("the groups of every sample lie within what is proven of its layers") 
         for (const int32_t cell_edge : {kFinestCell, kFinestCell << 4}) {
           CAPTURE(sample.name, layer, at.x, at.y, at.z, cell_edge, settings.seed, settings.parameters.values);
           const auto cell = world.cellFor(layer, at, cell_edge);
-          if (!cell) continue;  // more than a cell may cost
+          if (!cell) continue;  // the cell exceeds the limits of a cell
           const IntBox limit = shapeLimit(*sample.program, layer, at);
           for (const Group& group : (*cell)->chunk.groups) CHECK(limit.contains(group.bounds));
           for (const DeriveNote& note : (*cell)->chunk.notes) {
@@ -222,13 +222,14 @@ TEST_CASE("chunks of random rules and overrides have the program of all cells in
   std::mt19937 random(seed);
   Compared compared;
   size_t unproven = 0;
-  // A quarter of them does not compile, and few lack the proof: it goes on until enough had what is asked for.
+  // A quarter of the random grammars does not compile, and few lack the proof, so rounds continue until both kinds
+  // occurred often enough.
   const auto enough = [&] { return compared.groups > 20 && unproven > 0; };
   for (unsigned round = 0; round < rounds(60) || (!enough() && round < 600); ++round) {
     RandomRules made(random());
     std::string text = made.program(round % 4 == 3);
     if (round % 3 == 0) text += made.edits();
-    // The proof fails where what may lie as far as this may lie farther.
+    // With a reach of 20 m, the proof fails for grammars whose shapes may extend farther.
     if (round % 5 == 0 && round % 4 != 3) text = replaced(text, "reach 150m", "reach 20m");
     const CompileResult compiled = compileGrammar(text, "test.sgm");
     if (!compiled.program) continue;
@@ -280,10 +281,10 @@ TEST_CASE("cells that cannot show in a chunk are not derived for it") {
   };
   CHECK(cellsFor(boxAt(20, 0, 20)) == 1);
   CHECK(cellsFor(boxAt(20, 0, 48)) == 1);
-  CHECK(cellsFor(boxAt(60, 0, 60)) == 0);  // a street
+  CHECK(cellsFor(boxAt(60, 0, 60)) == 0);  // a street without shapes
   CHECK(cellsFor(boxAt(20, 50, 20)) == 0);
   CHECK(cellsFor(boxAt(20, -50, 20)) == 0);
-  // The anchor stands in the cell's corner, where none of its shapes are.
+  // The anchor stands in the corner of the cell, away from its shapes.
   const WorldField world(settings, std::pmr::get_default_resource());
   const auto anchors = world.anchors(boxAt(64, 0, 64));
   REQUIRE(anchors);

@@ -146,7 +146,7 @@ TEST_CASE("rays hit a ball where they should, with its normal, and miss it where
                         {hit->position[0] / radius, hit->position[1] / radius, hit->position[2] / radius})) < 2e-3);
       CHECK(hit->material == 1);
       CHECK(hit->tag == 1);
-      // Just too short.
+      // A ray that is just too short finds nothing.
       CHECK_FALSE(cast(asked.field, from, direction, hit->distance - 4));
       CHECK(cast(asked.field, from, along({}, direction, 1e-200), hit->distance + 4));
     }
@@ -163,7 +163,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   const Int3 far{kMoved, -kMoved, kMoved};
   const Asked near_world(oneShape(shape)), far_world(oneShape(shape, 256, far));
   const Vector shift{kMoved, -kMoved, kMoved};
-  // Which way the language turns is told by what it builds.
+  // The direction of the language's rotation is determined from the shape that it makes.
   const double turned =
       solidAt(near_world.field, rounded({std::sin(angle) * 3 * kMetre, 0, std::cos(angle) * 3 * kMetre})) ? angle
                                                                                                           : -angle;
@@ -171,7 +171,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   int hits = 0, nearest = 0;
   for (unsigned i = 0; i < rounds(200); ++i) {
     CAPTURE(i);
-    // A sixteenth of a unit is kept by both places.
+    // Coordinates in sixteenths of a unit are exact at both places.
     Vector from = dice.place(6 * kMetre);
     for (double& p : from) p = std::floor(p * 16) / 16;
     const Vector there = along(shift, from, 1);
@@ -186,7 +186,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
       CHECK(far_hit->distance == hit->distance);
       CHECK(far_hit->normal == hit->normal);
       if (!hit->inside) CHECK(std::fabs(boxDistance(hit->position, size, turned)) < 1.5);
-      // Nothing solid before it.
+      // There is nothing solid in front of the hit.
       for (double t = 0; t < hit->distance - 1; t += 40) {
         CHECK(boxDistance(along(from, direction, t), size, turned) > -1.5);
       }
@@ -205,7 +205,7 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
     CHECK(found->inside == (away < 0));
     CHECK(std::fabs(boxDistance(found->position, size, turned)) < 1.5);
     CHECK(length(less(found->position, from)) == Approx(found->distance).margin(1e-6));
-    // The stated tolerance.
+    // The tolerance that the interface states.
     CHECK(found->distance > std::fabs(away) - 1.5);
     CHECK(found->distance < std::fabs(away) * 65 / 64 + 64 + 1.5);
     CHECK(far_found->distance == found->distance);
@@ -231,11 +231,11 @@ TEST_CASE("the surface nearest to a place by a ball is exact, inside and out") {
     CHECK(found->distance < away * 65 / 64 + 64 + 1.5);
     worst = std::max(worst, found->distance - away);
     CHECK(found->inside == (length(from) < radius - 1 || (length(from) < radius + 1 && found->inside)));
-    // From its own place, the surface is where it is.
+    // With a smaller radius than the surface's distance, nothing is found.
     if (away > 8) CHECK_FALSE(closest(asked.field, from, away - 4 - away / 64));
   }
   WARN("nearest points: at most " << worst << " units too far");
-  // Everywhere is equally near to the middle.
+  // From the middle, all of the surface is equally near.
   const auto middle = closest(asked.field, {0, 0, 0}, 20 * kMetre);
   REQUIRE(middle);
   CHECK(middle->distance == Approx(radius).margin(64 + radius / 64));
@@ -253,7 +253,7 @@ TEST_CASE("the answers do not depend on the cell, odd, tiny or larger than the s
       const double away = length(less(from, middle)) - kMetre;
       const Vector towards = less(middle, from);
       const auto hit = cast(asked.field, from, towards, 4 * kMetre);
-      // A ball of a third of a cell lies between its samples, and its quantised field is as coarse as the cell.
+      // A ball of a third of a cell lies between the samples, and its quantised field is as coarse as the cell.
       const double rough = 2 + cell / 512.0;
       REQUIRE(hit);
       CHECK(hit->distance == Approx(away).margin(rough));
@@ -273,7 +273,7 @@ TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
     for (unsigned i = 0; i < rounds(200); ++i) {
       CAPTURE(thick, cell, i);
       const Vector from = dice.place(3 * kMetre), direction = dice.direction();
-      // Sides of the wall's middle plane.
+      // The sides of the wall's middle plane.
       const double c = std::cos(33 * 3.14159265358979 / 180), s = std::sin(33 * 3.14159265358979 / 180);
       const auto side = [&](const Vector& p, double turn) { return c * (p[1] - 0.211 * kMetre) + turn * s * p[2]; };
       const Vector to = along(from, direction, 8 * kMetre);
@@ -310,7 +310,7 @@ TEST_CASE("random rays and places in the cave agree with dense sampling, here an
     const double far = dice.real(1, 40) * kMetre;
     const auto hit = cast(asked.field, from, direction, far);
 
-    // Every sixteenth of a cell, one by one.
+    // Compares with a march along the ray in steps of a sixteenth of a cell.
     IntBox box = IntBox{rounded(from), rounded(from)}
                      .joined({rounded(along(from, direction, far)), rounded(along(from, direction, far))})
                      .grown(1);
@@ -361,7 +361,7 @@ TEST_CASE("random rays and places in the cave agree with dense sampling, here an
       const Vector p{static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
       nearest = std::min(nearest, length(less(p, from)));
     }
-    // What only samples between those of level 0 see may be left out: the cave has next to nothing of that.
+    // Parts that are only visible in samples between those of level 0 may be missed; the cave has hardly any.
     if (nearest < reach - 128) {
       REQUIRE(found);
       CHECK(found->distance < nearest * 65 / 64 + 64);
@@ -390,8 +390,8 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK(floor.largest == floor.standing);
   CHECK(floor.sides == 0b110011);
 
-  // The underside of a slab is no floor; a ceiling too low leaves none, one high enough all.
-  CHECK(areaOf("at(0m, 4m, 0m) box(40m, 1m, 40m);").standing > 0);  // its upper side, in the box
+  // The underside of a slab is no floor; a ceiling that is too low prevents standing, a higher one does not.
+  CHECK(areaOf("at(0m, 4m, 0m) box(40m, 1m, 40m);").standing > 0);  // its upper side, inside the box
   CHECK(areaOf("at(0m, 5m, 0m) box(40m, 1m, 40m);").standing == 0);
   const Asked high_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3.4m, 0m) box(40m, 1m, 40m);"));
   const Asked low_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3m, 0m) box(40m, 1m, 40m);"));
@@ -401,14 +401,14 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   small.height = 1.2 * kMetre;
   CHECK(walk(low_ceiling.field, under, small).walkable);
 
-  // Slopes: 30 degrees is walked, 60 is not, but for who climbs.
+  // A slope of 30 degrees can be walked, one of 60 only by an agent that climbs.
   CHECK(areaOf("rot(x, 30deg) box(40m, 2m, 40m);").largest > all / 2);
   CHECK_FALSE(areaOf("rot(x, 60deg) box(40m, 2m, 40m);").walkable);
   Walker climber;
   climber.slope = 0.4;
   CHECK(areaOf("rot(x, 60deg) box(40m, 2m, 40m);", climber).walkable);
 
-  // A step of 0.25 m is taken, one of 1 m is not: two floors, and neither goes all the way.
+  // A step of 0.25 m can be walked, one of 1 m cannot: then there are two floors, each ending at the step.
   const WalkableArea low = areaOf("box(40m, 2m, 40m); at(10m, 0.25m, 0m) box(20m, 2m, 40m);");
   CHECK(low.largest == low.standing);
   CHECK(low.sides == 0b110011);
@@ -416,7 +416,7 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK(high.largest < 0.6 * high.standing);
   CHECK((high.sides & 3) != 3);
 
-  // A door of 2 m lets a walker through, one of its own width does not.
+  // A walker passes a door of 2 m, but not one of exactly the walker's width.
   const auto door = [&](double width) {
     const std::string half = std::to_string(6 - width / 2), at = std::to_string(3 + width / 4);
     return areaOf("box(40m, 2m, 40m); at(0m, 2m, " + at + "m) box(0.5m, 3m, " + half + "m); at(0m, 2m, -" + at +
@@ -427,9 +427,9 @@ TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps an
   CHECK((door(0.4).sides & 3) != 3);
   CHECK(door(0.4).walkable);
 
-  // A gap as wide as a cell and more is not stepped over.
+  // A gap of a cell or more cannot be crossed.
   CHECK((areaOf("at(10m, 0m, 0m) box(19m, 2m, 40m); at(-10m, 0m, 0m) box(19m, 2m, 40m);").sides & 3) != 3);
-  // Nothing, and rock through and through.
+  // An empty region, and one of solid rock.
   CHECK(areaOf("at(100m, 0m, 0m) sphere(1m);").standing == 0);
   CHECK(areaOf("sphere(30m);").standing == 0);
 }
@@ -499,7 +499,7 @@ TEST_CASE("queries refuse what is not finite, outside of the world, or too much"
   walker.area = nan;
   CHECK(codeOf(isWalkable(field, box, walker)) == Code::invalid_argument);
 
-  // An error of the field comes through.
+  // An error of the field is returned.
   const QueryField broken{[](const IntBox&) -> Result<std::shared_ptr<const FieldProgram>> {
                             return Error{Code::cancelled, "not now"};
                           },

@@ -102,7 +102,7 @@ TEST_CASE("what a query proves of a ball holds at every position in it, in any w
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t open = 0, solid = 0;
-  // As long as it takes to prove either.
+  // Rounds continue until both kinds, open and solid, were proven.
   for (unsigned round = 0; round < rounds(60) || ((open == 0 || solid == 0) && round < 600); ++round) {
     const uint64_t rules = random();
     std::string text = RandomRules(rules).program(false);
@@ -142,7 +142,8 @@ TEST_CASE("a ball is decided wherever the field's slope leaves no doubt, also be
   const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  // The displacement's own slope, and a 32nd of the radius for the last pieces, twice: theirs and the bounds'.
+  // The slope of the displacement, and the size of the smallest pieces, a 32nd of the radius, counted twice: for the
+  // pieces and for the bounds.
   constexpr double kSlope = 1 + 3.7501 * 1.5 / 16, kPieces = 1.12;
   size_t among_crests = 0;
   const WorldField world(settingsOf(hall("1.5m", "query clear of net"), 512, seed), std::pmr::get_default_resource());
@@ -172,7 +173,7 @@ TEST_CASE("what is asked decides about shapes: the same in any order, and as the
     const Sampled field = sampled(world, 0, positionsIn(random, {a.frame.origin, 1024}));
     CHECK(std::all_of(field.q.begin(), field.q.end(), [](int32_t q) { return q >= 0; }));
   }
-  // All that is a little farther from the walls is there.
+  // All anchors that are a little farther from the walls than required exist.
   const WorldField all(settingsOf(hall("0.7m", "true"), 512), std::pmr::get_default_resource());
   for (const Anchor& a : anchorsIn(all, cells)) {
     const double there = double{sampled(world, 0, {a.frame.origin}).centre};

@@ -175,7 +175,7 @@ TEST_CASE("random clusters: whatever a flood fill over all samples reaches is re
           missed += !steps;
           const auto apart = [&](int axis) { return std::abs(key.at[axis] - from[axis] / 32); };
           if (steps) CHECK(*steps >= static_cast<uint32_t>(apart(0) + apart(1) + apart(2)));
-        } else if (noise < 0.02) {  // rock full of holes has more voids than are told apart
+        } else if (noise < 0.02) {  // rock full of holes has more voids in a chunk than are distinguished
           (steps ? reached_too : out_of_reach) += 1;
         }
       }
@@ -189,7 +189,7 @@ TEST_CASE("random clusters: whatever a flood fill over all samples reaches is re
 }
 
 TEST_CASE("steps follow the passage, and a chunk that is not known yet ends it") {
-  // A passage along x, round the corner in z, and back beside itself, a wall of rock between.
+  // A passage along x, around a corner into z, and back beside itself, separated by a wall of rock.
   std::map<ChunkKey, VoidComponents> chunks;
   for (int32_t x = 0; x < 4; ++x) {
     chunks[{0, {x, 0, 0}}] = passageThrough((x > 0 ? kLowX : 0) | (x < 3 ? kHighX : kHighZ));
@@ -210,14 +210,15 @@ TEST_CASE("steps follow the passage, and a chunk that is not known yet ends it")
   chunks.erase({0, {2, 0, 0}});
   CHECK(steps({0, {2, 0, 0}}) == 2u);
   CHECK_FALSE(steps({0, {3, 0, 0}}));
-  // Known, and closed on that side: it is drawn, but nothing lies behind it.
+  // If the chunk is known, and its passage is closed on that side, the chunk is drawn, but nothing behind it is
+  // reached.
   chunks[{0, {2, 0, 0}}] = passageThrough(kHighX);
   CHECK(steps({0, {2, 0, 0}}) == 2u);
   CHECK_FALSE(steps({0, {3, 0, 0}}));
   chunks[{0, {2, 0, 0}}] = hidden;
   CHECK(steps({0, {3, 0, 0}}) == 3u);
 
-  // Two voids in one chunk are two places: the longer way round does not become shorter.
+  // Two voids in one chunk are separate places: the longer way around does not become shorter through it.
   chunks[{0, {0, 0, 1}}] = passageThrough(kHighX | kHighZ);
   chunks[{0, {0, 0, 0}}] = passageThrough(kHighX | kLowY);
   chunks[{0, {0, -1, 0}}] = passageThrough(kHighY | kHighZ);
@@ -283,7 +284,7 @@ TEST_CASE("a viewer in rock sees through it, and at the world's end what there i
     CHECK(reached.size() == 27);
     CHECK(stepsTo(reached, {0, {3, 3, 3}}) == 3u);
   }
-  // In the sealed void itself nothing else is reached.
+  // From the sealed void itself, nothing else is reached.
   const Place inside{2.02 * kChunkEdge, 2.02 * kChunkEdge, 2.98 * kChunkEdge};
   CHECK(reachedFrom(inside, kChunkEdge, [&](const ChunkKey&) { return &sealed; }).size() == 1);
 
@@ -329,7 +330,7 @@ TEST_CASE("around a spawn anchor of the cave a share of what is near lies behind
     CHECK(drawn_reached > 0);
     CHECK(reached.size() < voids.size());
 
-    // Chunks become known as they are reached, and it ends the same.
+    // Chunks become known only when they are reached, and the result is the same.
     std::map<ChunkKey, VoidComponents> known;
     std::vector<ReachedChunk> so_far;
     for (size_t before = 1; known.size() != before;) {

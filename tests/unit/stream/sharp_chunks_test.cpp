@@ -160,7 +160,7 @@ TEST_CASE("a sharp chunk is the same with a wider field, in any company, with an
 }
 
 TEST_CASE("edges of turned boxes are straight in streamed chunks of every level") {
-  // A box that every level sees, at an angle of its own.
+  // A box large enough for every level, at a random angle.
   for (uint32_t seed = 1; seed <= std::max(rounds(3), 3u); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -171,7 +171,7 @@ TEST_CASE("edges of turned boxes are straight in streamed chunks of every level"
     const WorldField world(settingsOf(text, kFinest, 3), std::pmr::get_default_resource());
     const std::pmr::vector<PlacedChunk> chunks = meshAll(world, sharpRequests(randomTree(random)), 2);
     CHECK(checkParts(partsOf(chunks)).closed());
-    // The eight corners are the farthest places: each has a vertex within a twentieth of its cell.
+    // The eight corners are the points farthest from the middle: each must have a vertex within a twentieth of a cell.
     const double reach = std::sqrt(20.0 * 20 + 15.0 * 15 + 18.0 * 18) * kUnitsPerMetre;
     std::vector<Int3> corners;
     double farthest = 0;

@@ -63,7 +63,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
     const std::string text = in_cave ? caveText() : passages();
     const WorldField field(settingsOf(text, 512, 3), std::pmr::get_default_resource());
     for (int level = 0; level < 2; ++level) {
-      // Of each vertex on a border, by its place: the coordinates that it has in either chunk.
+      // For each vertex on a border, by its place: its texture coordinates in each of the chunks.
       std::map<std::array<int64_t, 3>, std::map<size_t, std::vector<Wedge>>> shared;
       size_t chunk = 0, vertices = 0;
       for (const ChunkSurface& surface : surfacesFrom(field, level, in_cave ? 2 : -4)) {
@@ -86,7 +86,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
           }
           if (border) shared[place][chunk].push_back(wedge);
         }
-        // Once more, of a field that has derived nothing yet: the same bytes.
+        // Once more with a field of which nothing is derived yet: the bytes must be the same.
         const WorldField fresh(settingsOf(text, 512, 3), std::pmr::get_default_resource());
         const Result<Unwrapped> again =
             unwrapChunk(fresh, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
@@ -117,7 +117,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
       }
       REQUIRE(pairs > 100);
       REQUIRE(blends > 100);
-      // But where two shapes, or two charts, meet right there.
+      // Coordinates may differ where two shapes, or two charts, meet at the border.
       CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(pairs));
     }
   }
@@ -149,7 +149,7 @@ TEST_CASE("a seam's vertices have the coordinates and blends of the coarser chun
     size_t met = 0, same = 0, blends = 0;
     const int32_t low = in_cave ? 2 : -4;
     for (int32_t i = 0; i < 512; ++i) {
-      // Only where the chunk's high x face is one of a chunk of level 1.
+      // Only chunks whose high x face lies in a face of a chunk of level 1.
       const Int3 at{low + (i & 7), low + (i >> 3 & 7), low + (i >> 6)};
       if ((at.x & 1) == 0) continue;
       ChunkRequest fine;
@@ -228,7 +228,8 @@ TEST_CASE("where two materials meet one passes into the other over two cells, on
     std::vector<Int3> points;
     std::vector<TexturePoint> normals;
     for (int i = -40; i <= 40; ++i) {
-      // Below the face that the two boxes share: on it both are as near where they overlap, and the first one wins.
+      // The points lie just below the common face of the two boxes: on the face itself, both are equally near, and the
+      // first one would win.
       points.push_back({static_cast<int32_t>(-154 + i * cell / 16), 2600, 100});
       normals.push_back({0, 2, 0});
     }

@@ -101,7 +101,7 @@ TEST_CASE("Lipp: edits of parts hold where they are while rules and parameters a
     CHECK(metres((*balconies)[1].origin.y) == Approx(palace.storeyAt(1)).margin(0.002));
     for (const RuleInstance& one : *balconies) CHECK(metres(one.origin.z) == Approx(0.5 * palace.deep).margin(0.002));
 
-    // In the wall, where every bay has its window, and only what is edited differs.
+    // In the wall, every bay has a window, and only the edited parts differ from the plain building.
     const double wall = 0.5 * palace.deep - 0.1, gate = -0.5 * palace.height() + 1.2;
     CHECK_FALSE(isSolid(world, palace.bayAt(3) - 1, gate, wall));
     CHECK(isSolid(plain, palace.bayAt(3) - 1, gate, wall));

@@ -55,7 +55,7 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   size_t walked = 0, all = 0, corridors = 0, narrow = 0, floors = 0;
-  // Not every floor has a corridor: it goes on until one had.
+  // Not every floor has a corridor, so rounds continue until one had.
   for (unsigned round = 0; round < rounds(30) || (corridors == 0 && round < 60); ++round) {
     const double x = 8 + 10 * unit(random), z = 8 + 8 * unit(random);
     const auto drawn = random();
@@ -72,7 +72,7 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
     REQUIRE(rooms);
     const WalkedVoid inside = walkedIn(world, x, z);
     ++floors;
-    // A plan may have a room less deep than the walker, who then comes to none behind it either.
+    // A plan may have a room narrower than the walker, who then cannot reach rooms behind it either.
     if (!std::ranges::all_of(*rooms, [&](const Anchor& room) { return inside.fits(room.frame.origin); })) {
       ++narrow;
       continue;

@@ -60,8 +60,8 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
   REQUIRE(heaps);
   std::map<std::string, Int3> places;
   for (const RuleInstance& heap : *heaps) places[heap.path] = heap.origin;
-  std::map<std::string, std::vector<double>> away;  // of what stands upon each
-  std::vector<std::string> first;                   // of each cloud
+  std::map<std::string, std::vector<double>> away;  // distances from each heap to the heaps on it
+  std::vector<std::string> first;                   // the first heap of each cloud
   for (const auto& [path, place] : places) {
     const std::string below = path.substr(0, path.rfind('/'));
     const auto parent = places.find(below);
@@ -83,8 +83,8 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
     CHECK(share > 0.35 - 1e-3);
     CHECK(share < 0.6 + 1e-3);
   }
-  // Upon the first heap of a cloud stand others, and others upon these, which nothing stands upon; upon the heaps of
-  // its foot stands one level alone. Of a neighbour the box may meet no more than the first.
+  // A tall cloud has three levels of heaps: the first heap, heaps on it, and heaps on those; the small clouds at its
+  // foot have two. Of neighbouring clouds, the box may contain only the first heap.
   size_t grown = 0, tall = 0;
   for (const std::string& path : first) {
     if (away.count(path) == 0) continue;
@@ -121,7 +121,7 @@ TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[tab
   }
   CHECK(lost == 0);
   CHECK(won > 0);
-  // One cloud: what else reaches into a box is more from level to level.
+  // A single cloud, since at coarser levels more of the neighbouring clouds would reach into the box.
   const WorldField one(many.settings(), *many.cell(0, {0, 0, 0}), std::pmr::get_default_resource());
   const IntBox all{{-4096 * 1024, -4096 * 1024, -4096 * 1024}, {4096 * 1024, 4096 * 1024, 4096 * 1024}};
   std::vector<size_t> sizes;
@@ -147,7 +147,7 @@ Cut cutOf(double cover, double octaves, uint64_t seed) {
   REQUIRE(settings.parameters.set(*settings.program, "cover", cover));
   REQUIRE(settings.parameters.set(*settings.program, "octaves", octaves));
   const WorldField world(std::move(settings), std::pmr::get_default_resource());
-  // As many patches as it takes to tell the cover from chance, each by a program of its own.
+  // Enough patches to distinguish the cover from chance, each evaluated with its own program.
   constexpr int32_t kPatches = 20, kEdge = 400 * 1024, kStep = 8 * 1024, kLines = 4, kAlong = kEdge / kStep;
   std::vector<int32_t> x(kAlong), y(kAlong, 900 * 1024), z(kAlong), q(kAlong);
   EvalScratch scratch;
@@ -196,7 +196,7 @@ TEST_CASE("Cui: what drips hangs from ceilings, stands on floors, and joins the 
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t hanging = 0, standing = 0, joining = 0;
-  // Columns are rare: it goes on until there was one.
+  // Columns are rare, so rounds continue until one was found.
   for (unsigned round = 0; round < rounds(3) || (joining == 0 && round < 40); ++round) {
     const WorldField world(settingsOf(sample("table4/cui.sgm"), 512, random()), std::pmr::get_default_resource());
     const int32_t far = static_cast<int32_t>(random() % 2000) * 1024;

@@ -35,7 +35,7 @@ class Voxels {
  public:
   Voxels(const WorldField& world, uint32_t layer, Int3 low, int edge)
       : edge_(edge), rock_(static_cast<size_t>(edge * edge * edge)) {
-    // Block by block: each asks for the little that reaches there.
+    // Samples in blocks, so that each block's program has only the shapes nearby.
     constexpr int kBlock = 16;
     for (int z = 0; z < edge; z += kBlock)
       for (int y = 0; y < edge; y += kBlock)
@@ -139,7 +139,7 @@ TEST_CASE("Voxel: the same caves, to the bit, however the world is cut into cell
     const double rock = 0.44 + 0.01 * within(random, 0, 12), count = within(random, 0, 6),
                  radius = within(random, 1, 2);
     const Int3 far{within(random, -9000, 9000), within(random, -100, 100), within(random, -9000, 9000)};
-    // From half a voxel to four a cell of the mesh: as many samples as voxels, a half, a quarter.
+    // The mesh's cell is from half a voxel to four voxels.
     std::vector<ChunkRequest> requests;
     for (uint8_t level = 0; level < 4; ++level)
       requests.push_back({{level, {far.x >> level, far.y >> level, far.z >> level}}});
@@ -177,7 +177,7 @@ TEST_CASE("Voxel: the automaton does what its controls say", "[table4]") {
     CHECK(share < before);
     before = share;
   }
-  // Without a round all is chance: a voxel is alone by 1 in 64.
+  // Without rounds of the automaton, voxels are random: one in 64 has only neighbours of the other kind.
   const auto chance = voxels({{"rounds", 0}}).roughness();
   CHECK(std::abs(chance[0] - 1.0 / 64) < 0.004);
   CHECK(std::abs(chance[1] - 0.5) < 0.02);
@@ -193,7 +193,7 @@ TEST_CASE("Voxel: from each hall there is a way to each other", "[table4]") {
   const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = voxelCave(sample("table4/voxel.sgm"), seed);
-  // Two cells of the net along each axis, which its links join, and room around for the bends.
+  // Two cells of the net along each axis, which are connected by links, and a margin for their bends.
   const Int3 low{-16 * 1024, -16 * 1024, -16 * 1024};
   const Voxels cave(world, kNet, low, 160);
   std::vector<Int3> halls;
@@ -228,7 +228,7 @@ TEST_CASE("Voxel: caves that are dug and filled have no holes, nor where levels 
   EditLog log({1});
   const Int3 corner{5 * edge, 5 * edge, 5 * edge};
   for (int i = 0; i < 40; ++i) REQUIRE(log.add(randomBrush(random, IntBox{corner, corner}.grown(20'000), 3000)));
-  // One voxel of rock becomes air, and one of air rock.
+  // Edits one voxel from rock to air, and another one from air to rock.
   const Voxels voxels(world, kNet, corner, 12);
   std::array<std::optional<Int3>, 2> edited;
   for (int i = 0; i < 12 * 12 * 12; ++i) {
@@ -277,7 +277,7 @@ TEST_CASE("Voxel: in a layer without height the automaton is that of the paper, 
   size_t rock = 0;
   for (int z = 0; z < 48; ++z)
     for (int x = 0; x < 48; ++x) {
-      // Walls from y = 0 to 3 m; places are at -8 m and up.
+      // The walls go from y = 0 to 3 m, and index 0 is at y = -8 m.
       const bool wall = map.rock({x, 9, z});
       CHECK(wall == map.rock({x, 10, z}));
       CHECK_FALSE(map.rock({x, 7, z}));

@@ -48,7 +48,7 @@ TEST_CASE("every kind of shape has a thickness", "[thin]") {
   CHECK(thinIn(main + "meet { box(2m, 4cm, 2m); halfspace(below 1m); } }") == "Main 41 1");
   CHECK(thinIn(main + "displace 1cm*waves/1m { box(2m, 4cm, 2m); } }") == "Main 41 1");
   CHECK(thinIn(main + "morph(box(2m, 4cm, 2m), box(2m, 2cm, 2m), 0.5); }") == "Main 41 1");
-  // As thick as a cell, or thicker.
+  // Parts as thick as a cell or thicker.
   CHECK(thinIn(main + "box(2m, 13cm, 2m); morph(box(2m, 4cm, 2m), box(1m), 0.5); sum { blob(1m); blob(2cm); } }") ==
         "");
 }
@@ -59,7 +59,7 @@ TEST_CASE("a rule is told once, with its uses and its thinnest part", "[thin]") 
       "rule Pane(d) { box(1m, 1m, d); at(0m, 0m, 1m) box(1m, 1m, 2*d); }";
   CHECK(thinIn(panes) == "Pane 21 8");
   CHECK(thinIn(panes, 10) == "");
-  // The cells are those of the level that is meshed.
+  // The limit is the cell of the level that is meshed.
   CHECK(thinIn(panes, 10, 4) == "Pane 21 8");
   CHECK(thinIn("rule Main { repeat 3 at(2m, 0m, 0m) { Bar; Pole; } }\nrule Bar { at(0m, 1m, 0m) box(5cm, 5cm, 2m); }\n"
                "rule Pole { cylinder(3cm, 1m); }") == "Bar 52 3; Pole 62 3");
@@ -69,8 +69,8 @@ TEST_CASE("in many cells of a layer parts are counted by their shapes", "[thin]"
   const std::string cells = "domain infinite; layer l cell 12m reach 6m { start Main; }";
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); }", kCell, 0, cells) ==
         "Pane 41 about 125");
-  // Where a use has several thin shapes, or shapes of two statements look alike, each cell is derived to tell. Of 25
-  // uses more a part is in the box.
+  // If a use has several thin shapes, or shapes of two statements look alike, every cell is derived to count exactly.
+  // The count includes 25 uses of neighbouring cells, of which only a part lies in the box.
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { box(1m, 1m, 4cm); at(2m, 0m, 0m) box(1m, 1m, 4cm); }",
                kCell, 0, cells) == "Pane 41 150");
   CHECK(thinIn("rule Main { at(5m, 5m, 5m) Pane; }\nrule Pane { repeat 3 at(0m, 0m, 1m) box(1m, 1m, 4cm); }", kCell, 0,
@@ -83,20 +83,21 @@ TEST_CASE("what a level leaves out is not missed", "[thin]") {
 }
 
 TEST_CASE("what lies on something or in it shows with that", "[thin]") {
-  // A slab on a wall, a pipe in the ground, a slab within a block.
+  // Not reported: a slab on a wall, a pipe in the ground, a slab within a block.
   CHECK(thinIn("rule Main { box(4m); at(0m, 2m, 0m) box(3m, 4cm, 3m); }") == "");
   CHECK(thinIn("rule Main { box(9m); at(0m, 4.5m, 0m) cylinder(2cm, 6cm); }") == "");
   CHECK(thinIn("rule Main { box(9m); box(2m, 4cm, 2m); }") == "");
-  // Standing out by more than half of its length it is there by itself; and so are others of thin parts.
+  // Reported: a part that extends from its support by more than half of its length, and thin parts that only touch
+  // other thin parts.
   CHECK(thinIn("rule Main { box(4m); at(4m, 0m, 0m) box(5m, 4cm, 1m); }") == "Main 41 1");
   CHECK(thinIn("rule Main { repeat 9 at(0m, 0m, 9cm) box(3m, 1m, 3cm); }") == "Main 31 1");
-  // Cut away it is not there at all.
+  // A part that is cut away completely is not reported.
   CHECK(thinIn("rule Main { union { box(3m, 4cm, 3m); cut { box(9m); } } box(1m); }") == "");
 }
 
 TEST_CASE("a thin cut is missed as well", "[thin]") {
   CHECK(thinIn("rule Main { box(4m); cut { box(9m, 4cm, 3m); } }") == "cut Main 41 1");
-  // On a face of what it cuts it takes little away.
+  // A thin cut at the face of a solid removes little, so it is not reported.
   CHECK(thinIn("rule Main { box(4m); cut { at(0m, 2m, 0m) box(9m, 4cm, 9m); } }") == "");
   CHECK(thinIn("rule Main { cut { box(9m, 4cm, 3m); } }", kCell, 0, "domain finite solid box(60m); start Main;") ==
         "cut Main 41 1");

@@ -212,7 +212,7 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   REQUIRE(answer.way);
   const VoidWay& way = *answer.way;
   if (cave.lattice.solid(from) || cave.lattice.solid(to)) {
-    // One of the samples around it is the place's then.
+    // If a place lies in rock, the search starts at one of the samples around it, so the results are not compared.
     ++seen.rock;
     return;
   }
@@ -230,7 +230,8 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   CHECK(isWay(way, flooded, from, to, field.cell));
   const double shortest = flooded.shortest(from, to) * field.cell;
   CHECK(way.length >= shortest * (1 - 1e-9));
-  // In one chunk there is nothing to choose. Costs of steps are whole numbers, off by 5 in 100,000.
+  // With a single chunk, the search has no choice between chunks. Step costs are whole numbers, with an error of 5 in
+  // 100,000.
   if (cave.chunks == Int3{1, 1, 1}) CHECK(way.length <= shortest * 1.0001);
   seen.walked += way.length;
   seen.shortest += shortest;
@@ -267,7 +268,7 @@ TEST_CASE("random caves: voids and verdicts are those of a flood of all samples,
     CAPTURE(seed);
     Random random(seed);
     const Cave cave = randomCave(seed, random);
-    // What is strewn and spun is a sample wide, and closed to all larger agents.
+    // Scattered samples and thin tubes are a sample wide, closed for any larger agent.
     const int widths = seed % 2 == 0 && random.chance(0.9) ? 2 : 5;
     const double radius = std::array{0.0, 0.9, 1.0, 1.5, 2.3}[static_cast<size_t>(random.below(widths))];
     compare(cave.lattice.field(kCell), cave, random, radius, seen);
@@ -292,7 +293,7 @@ TEST_CASE("caves of grammars: voids and verdicts are those of a flood of all sam
     const WorldField world(settingsOf(is_hall ? halls : holes, 1024, seed), std::pmr::get_default_resource());
     Int3 first = random.in({{-9, -9, -9}, {9, 9, 9}});
     if (is_hall) {
-      // Most of that world is rock: around a place in a chamber.
+      // Most of that world is rock, so the region is chosen around a place in a chamber.
       const auto anchors = world.anchors({{0, 0, 0}, {192 * 1024, 192 * 1024, 192 * 1024}});
       REQUIRE(anchors);
       REQUIRE(!anchors->empty());
@@ -315,7 +316,7 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
     Random random(seed);
     const Cave cave = randomCave(seed % 2 == 0 ? kTubes : seed, random);
     const FloodedVoids any(cave.lattice, cave.region(), 0);
-    // Most places in a tube lie by its wall, where no agent is wide.
+    // Most places in a tube are near its wall, where only small agents fit.
     const FloodedVoids roomy(cave.lattice, cave.region(), 1.5);
     const FloodedVoids& chosen = seed % 2 == 0 ? roomy : any;
     const Int3 from = someSample(random, cave, chosen), to = someSample(random, cave, chosen);
@@ -332,12 +333,12 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
     CHECK(widest <= std::min(asked.from_clearance, asked.to_clearance) / kCell);
     ++passed;
     wide += widest > 1.5;
-    // The flood's squares round where those of the search do not.
+    // The flood and the search round squared distances differently.
     CHECK(FloodedVoids(cave.lattice, cave.region(), widest * (1 - 1e-9)).joined(from, to));
     CHECK_FALSE(FloodedVoids(cave.lattice, cave.region(), widest * (1 + 1e-9)).joined(from, to));
     CHECK(answered(field, questionOf(cave, from, to, std::nextafter(widest, 0))).way->verdict == WayVerdict::found);
     CHECK(answered(field, questionOf(cave, from, to, widest)).way->verdict != WayVerdict::found);
-    // Whatever was asked first.
+    // The answer does not depend on earlier questions.
     for (const double radius : {0.0, widest / 2, 30.0})
       CHECK(answered(field, questionOf(cave, from, to, radius, true)).way->widest == asked.widest);
   }
@@ -347,7 +348,7 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
 
 TEST_CASE("the widest agent's radius itself is too wide by the last bit, for every distance between samples",
           "[costly]") {
-  // The nearest solid sample is (a, b, c) away from the one place that is asked about, in cells of odd sizes too.
+  // The nearest solid sample is at the offset (a, b, c) from the place; also with odd cell sizes.
   size_t rounded_down = 0;
   for (const int32_t cell : {256, 333}) {
     for (int a = 1; a <= 5; ++a) {
@@ -383,7 +384,7 @@ TEST_CASE("a hall wide enough has its agent told exactly, up to 32 cells") {
     digBall(cave, {32, 32, 32}, radius);
     const VoidWay way =
         *answered(cave.lattice.field(kCell), questionOf(cave, {32, 32, 32}, {32, 33, 32}, 16, true)).way;
-    // By looking at all solid samples: both ends are free for what is smaller than the nearest one lets in.
+    // Compared with the distance to the nearest of all solid samples: an agent smaller than that is free at both ends.
     double nearest = 1e9;
     for (size_t i = 0; i < cave.lattice.samples(); ++i) {
       const Int3 p = cave.lattice.sampleAt(i);
@@ -424,7 +425,7 @@ TEST_CASE("a way for a radius is one for all that are smaller", "[costly]") {
 }
 
 TEST_CASE("a way that winds through every chunk of a spiral is walked to its end") {
-  // Walls a chunk's half apart with gaps at alternate ends.
+  // Walls half a chunk apart, with gaps at alternating ends.
   Cave cave({3, 3, 1});
   for (size_t i = 0; i < cave.lattice.samples(); ++i) {
     const Int3 p = cave.lattice.sampleAt(i);
@@ -473,7 +474,8 @@ TEST_CASE("places stand for the nearest void sample of the eight around them") {
   const SignField field = cave.lattice.field(kCell);
   VoidQuestion question = questionOf(cave, {16, 16, 16}, {16, 16, 16}, 0);
   question.ends->from = {16.4 * kCell, 15.6 * kCell, 16.0 * kCell};
-  question.ends->to = {16.0 * kCell, 22.6 * kCell, 16.0 * kCell};  // nearer to the rock's sample 23 than to 22
+  // Nearer to the rock at sample 23 than to that at sample 22.
+  question.ends->to = {16.0 * kCell, 22.6 * kCell, 16.0 * kCell};
   VoidAnswer answer = answered(field, question);
   REQUIRE(answer.way->verdict == WayVerdict::found);
   CHECK(answer.way->places.size() == 7);
@@ -585,7 +587,7 @@ class Told {
 };
 
 TEST_CASE("progress counts the chunks of each look and of the walk, and stops each of them") {
-  // A duct that winds through 5 by 20 chunks in one layer: 100 of them, more than are walked at one time.
+  // A duct that winds through 5 by 20 chunks in one layer: 100 chunks, more than the search holds at a time.
   Cave cave({5, 20, 1});
   for (int column = 0; column < 5; ++column) {
     for (int y = 4; y <= 636; ++y) digBall(cave, {16 + 32 * column, y, 16}, 2);
@@ -599,7 +601,7 @@ TEST_CASE("progress counts the chunks of each look and of the walk, and stops ea
   const Result<VoidAnswer> answer = findVoids(field, *jobs, question, told.counter());
   REQUIRE(answer);
   CHECK(isWay(*answer->way, FloodedVoids(cave.lattice, cave.region(), 1.5), {16, 4, 16}, {144, 636, 16}, kCell));
-  // The walk comes after the first look; its first 64 chunks are looked at twice.
+  // The search comes after the first look at all chunks; its first 64 chunks are looked at twice.
   const std::vector<uint64_t> totals = told.totals();
   REQUIRE(totals.size() >= 2);
   CHECK((totals[0] == 100 && totals[1] == 164));
@@ -641,15 +643,15 @@ TEST_CASE("the first progress comes long before a flat region is looked at, whic
       if (done == 1) before_first = sampled;
       return true;
     }));
-    // Every chunk once, those around the region too: no look comes back to what it has dropped.
+    // Every chunk is sampled once, and so are those around the region: no chunk is sampled again after it was dropped.
     CHECK(sampled == 26 * 26 * 3);
-    // 64 chunks of three rows, and what is around them.
+    // The 64 chunks in three rows, and those around them.
     CHECK(before_first <= 5 * 26 * 3);
   }
 }
 
 TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
-  // 3 by 3 by 300 chunks that all have a surface, whichever axis is the long one; sanitizers take minutes for each.
+  // 3 by 3 by 300 chunks that all have a surface, with each axis as the long one; each takes minutes under a sanitizer.
   const int axes = std::min(3, static_cast<int>(rounds(5)));
   for (int axis = 3 - axes; axis < 3; ++axis) {
     CAPTURE(axis);
@@ -663,7 +665,7 @@ TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
     SignField field;
     field.cell = kCell;
     field.memory = &memory;
-    // What is solid is the chunks' corners.
+    // Only the corners of chunks are solid.
     field.signs = [&](Int3) -> Result<ChunkSigns> {
       ChunkSigns signs{std::pmr::vector<uint64_t>(33 * 33, 0, &memory), false};
       for (const size_t row : {0u, 32u, 32u * 33, 32u * 34}) signs.rows[row] = uint64_t{1} << 32 | 1;
@@ -674,7 +676,8 @@ TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
     REQUIRE(answer);
     REQUIRE(answer->way->verdict == WayVerdict::found);
     CHECK(answer->way->length >= 9520.0 * kCell);
-    // 2,700 chunks have 23 MB of signs, and the steps in the 300 of the way are 11 MB.
+    // The signs of all 2,700 chunks have 23 MB, and the steps in the 300 chunks of the path 11 MB, so most must have
+    // been dropped.
     CHECK(memory.most() < 10u << 20);
   }
 }

@@ -40,8 +40,8 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     const DiskCacheStats cache = scene.world->stats().cache;
     if (again) {
       CHECK(hash == first);
-      // Both worlds end at the same frame. Each meshes coarser chunks on its way there, as its threads happen to run,
-      // and the second one stores those that the first has not met.
+      // Both worlds end with the same frame. On the way there, each meshes other coarse chunks, depending on its
+      // threads' timing, and the second one stores those that the first has not.
       const size_t drawn = drawnParts(engine);
       CHECK(drawn > 50);
       CHECK(cache.hits >= drawn);

@@ -217,7 +217,7 @@ TEST_CASE("worlds that have exchanged their edits are equal", "[threads]") {
   REQUIRE(one.world->importEdits(from_other));
   REQUIRE(other.world->importEdits(from_one));
   CHECK(one.world->editHash() == other.world->editHash());
-  const ContentHash before = *one.world->hashBodies(region, 0);  // nothing of it is drawn yet
+  const ContentHash before = *one.world->hashBodies(region, 0);  // no chunk of the region is drawn yet
   CHECK(before != plain);
   REQUIRE(one.world->waitIdle());
   CHECK(*one.world->hashBodies(region, 0) == before);
@@ -242,7 +242,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     for (int i = 0; i < 5; ++i) REQUIRE(scene.world->edit(dig(viewer, i, 0, 0, 2)));
     hash = scene.world->editHash();
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    // Written by the world's jobs alone.
+    // Only the world's jobs write the journal here.
     const auto size = std::filesystem::file_size(path);
     for (int updates = 0; updates < 100'000 && std::filesystem::file_size(path) == size; ++updates) {
       REQUIRE(scene.world->update(size_t{1} << 30));
@@ -250,7 +250,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
       workOrWait(scene);
     }
     CHECK(std::filesystem::file_size(path) > size);
-    REQUIRE(scene.world->edit(dig(viewer, 9, 0, 0, 2)));  // written at the world's end
+    REQUIRE(scene.world->edit(dig(viewer, 9, 0, 0, 2)));  // this edit is written when the world is destroyed
     CHECK(scene.world->editHash() != hash);
     hash = scene.world->editHash();
   }
@@ -260,7 +260,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     CHECK(scene.world->stats().edits > 0);
     const Result<std::unique_ptr<World>> second =
         World::create(lent(scene.field), *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
-    REQUIRE_FALSE(second);  // somebody has it open
+    REQUIRE_FALSE(second);  // another world has the journal open
     CHECK(second.error().code == Code::limit);
   }
   Scene other(*makeThreadPool(1), replaced(caveText(), "detail 4m", "detail 5m"));

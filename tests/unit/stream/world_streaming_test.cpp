@@ -22,7 +22,8 @@ double wallAlong(const Engine& engine, const std::array<double, 3>& from, double
       if (part > 0 && !(shown.seams >> (part - 1) & 1)) continue;
       const PackedRange& range = mesh.ranges[part];
       for (uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
-        // Corners around the axis, in its plane; the sides of the triangle on which it lies are alike.
+        // Corners of the triangle relative to the axis; the axis passes through it if all three signed areas have the
+        // same sign.
         std::array<std::array<double, 3>, 3> p{};
         for (size_t c = 0; c < 3; ++c) {
           const Int3 at = vertexUnits(shown.surface->grid, mesh.vertices[mesh.indices[i + c]]);
@@ -79,8 +80,8 @@ TEST_CASE("every frame of a wandering viewer is the closed frame of its octree")
 }
 
 TEST_CASE("a passage that a level leaves out ends in no larger a wall than is stated") {
-  // sgm.h, sgm_world_desc.finest_distance, in pixels of a screen whose focal length is 1 pixel.
-  const double width = 8, wider = 1;  // than the detail: a cell of level 1
+  // The error that sgm.h states at sgm_world_desc.finest_distance, in pixels of a screen whose focal length is 1 pixel.
+  const double width = 8, wider = 1;  // wider than the detail: a cell of level 1
   const std::string text = replaced(sample("passage.sgm"), "detail 4m", "detail 0.9990234375m");
   Scene scene(*makeThreadPool(2), text);
   const double cell = static_cast<double>(kStreamedCell) / kUnitsPerMetre;
@@ -99,7 +100,7 @@ TEST_CASE("a passage that a level leaves out ends in no larger a wall than is st
     for (const double side : {-1.0, 1.0}) {
       const double wall = wallAlong(engine, viewer.position, side) / kUnitsPerMetre;
       CAPTURE(at, side, wall);
-      // The drawn world itself ends farther away.
+      // The wall is nearer than the end of the drawn world.
       CHECK(wall < scene.settings.lod.view_distance / kUnitsPerMetre);
       CHECK(width / wall <= stated);
       largest = std::max(largest, width / wall);
@@ -129,7 +130,7 @@ TEST_CASE("a world at rest draws the same by whatever way its viewers came, with
     hashes.push_back(*hash);
     CHECK(hashes.back() == hashes.front());
   }
-  // Streamed or meshed by region.
+  // Streaming and meshing a region give the same hash.
   const WorldField field(settingsOf(caveText(), kStreamedCell, 3), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests;
   const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(field, region, 0, 1u << 20);
@@ -147,9 +148,10 @@ TEST_CASE("no update hands over more bytes than it may, and a small budget loses
   for (const size_t budget : {std::numeric_limits<size_t>::max(), size_t{200'000}, size_t{15'000}}) {
     CAPTURE(budget);
     Scene scene(*makeThreadPool(2));
-    Engine engine;  // which fails where a chunk does
+    Engine engine;  // it fails if a chunk fails
     REQUIRE(scene.world->setViewers({&viewer, 1}));
-    size_t updates = 0, beyond = 0, largest = 0;  // beyond: handed over since the last that owed nothing, less budgets
+    // beyond: bytes delivered since the last update without debt, minus the budgets.
+    size_t updates = 0, beyond = 0, largest = 0;
     while (!scene.world->stats().idle && ++updates < 100'000) {
       REQUIRE(scene.world->update(budget));
       const size_t bytes = engine.take(*scene.world);
@@ -198,7 +200,7 @@ TEST_CASE("a viewer that never rests sees something new, however little its upda
   Scene scene(*makeThreadPool(2));
   Engine engine;
   Viewer viewer = viewerAt(96, 96, 96);
-  // Each time somewhere else, and less than what that takes.
+  // The viewer moves before each update, whose budget is smaller than the changes that this causes.
   for (int updates = 0; updates < 50'000 && scene.world->stats().frame < 4; ++updates) {
     viewer.position[0] += 0.02 * kUnitsPerMetre;
     REQUIRE(scene.world->setViewers({&viewer, 1}));
@@ -276,7 +278,7 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
     workOrWait(scene);
   }
   CHECK(scene.world->stats().plans > 0);
-  // With those that stand in until finer ones are there.
+  // Including the coarser chunks that are drawn until the finer ones are ready.
   CHECK(scene.world->stats().queued < static_cast<size_t>(kMostExpectedLeaves * 9 / 8));
   const std::vector<Viewer> many(kMostViewers + 1, viewer);
   const Result<void> set = scene.world->setViewers(many);
@@ -344,7 +346,7 @@ TEST_CASE("while there is always something to mesh no jobs pile up that have not
   Engine engine;
   Viewer viewer = viewerAt(96, 96, 96);
   uint64_t meshed = 0;
-  bool always = true;  // there was something to mesh
+  bool always = true;  // whether there was always something to mesh
   for (int updates = 0; updates < 300; ++updates) {
     viewer.position[0] += 2.0 * kUnitsPerMetre;
     REQUIRE(scene.world->setViewers({&viewer, 1}));
@@ -428,7 +430,7 @@ TEST_CASE("surfaces may be let go of on any thread, after the world's end too", 
 }
 
 TEST_CASE("a chunk with more anchors than fit into what is reserved for it fails, and nothing else does") {
-  // All of them stand in the chunk at the origin.
+  // All shapes are in the chunk at the origin.
   const std::string text =
       "sgm 1; units m; start Main;\n"
       "rule Main { repeat 250 rot(y, 1deg) { repeat 250 rot(x, 1deg) { anchor spawn \"x\"; } } sphere(12m); }\n";

@@ -9,7 +9,7 @@
 using namespace sgm;
 
 TEST_CASE("a world that a Vulkan device meshes is closed as it streams, and comes to rest as the CPU's") {
-  // Few kinds of instructions: software Vulkan compiles its shaders anew for each.
+  // Few kinds of instructions, since software Vulkan compiles its shaders anew for each.
   const std::string balls =
       "sgm 1; units m; domain infinite; layer l cell 16m reach 1m { start Balls; }\n"
       "rule Balls { for x in 0..1 { for z in 0..1 { at(4m+8m*x, 8m, 4m+8m*z) sphere(2.6m); } } }";

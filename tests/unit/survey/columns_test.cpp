@@ -56,7 +56,7 @@ TEST_CASE("columns have the rooms that they pass through", "[survey]") {
   CHECK(columns.shownAt(both) == &upper);
   CHECK(columns.under.values[both] > 0);
   CHECK(columns.shown[columnAt(35, 34)] == kNone);
-  // The lower room alone is shown where nothing is above it.
+  // The lower room is shown only where there is no room above it.
   CHECK(columns.shownAt(columnAt(20, 32))->top == Approx(-5).margin(0.02));
   CHECK_FALSE(columns.under.values[columnAt(20, 32)] > 0);
   const MaterialSigns signs = signsFor(*world.settings().program);
@@ -85,12 +85,12 @@ TEST_CASE("a sheet has walls, water, what lies below, and the cut", "[survey]") 
     INFO(name);
     CHECK(hasMark(drawing, name));
   }
-  // The plan's area: the upper room, and the lower one beyond it.
+  // The area of the plan: the upper room, and the part of the lower one that extends beyond it.
   CHECK(figures.plan.area == Approx(20 * 12 + 8 * 18).epsilon(0.03));
   CHECK(figures.plan.lowest == Approx(-11).margin(0.1));
   CHECK(figures.plan.leads == 0);
   CHECK(figures.plan.water == std::set<double>{3.0});
-  // The section's: both rooms, less the pool.
+  // The area of the section: both rooms, without the pool.
   CHECK(figures.section.area == Approx(20 * 8 - 4 + 8 * 6).epsilon(0.1));
   for (const Mark& mark : drawing.marks)
     for (const Line& one : mark.lines)

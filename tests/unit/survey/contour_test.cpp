@@ -32,7 +32,7 @@ TEST_CASE("a contour of a cone is a circle that ends where it began", "[survey]"
   CHECK(lines[0].front() == lines[0].back());
   for (const Point& p : lines[0]) CHECK(std::hypot(p.x - 19.5, p.y - 19.5) == Approx(12).margin(0.1));
   CHECK(lengthOf(lines[0]) == Approx(2 * 3.14159 * 12).epsilon(0.01));
-  // Larger values lie to the right of who follows the line.
+  // Larger values are on the right, as seen along the line.
   CHECK(turned(lines[0]) > 0);
   CHECK(lengthOf(smoothed(lines[0])) == Approx(lengthOf(lines[0])).epsilon(0.01));
   CHECK(smoothed(lines[0]).front() == smoothed(lines[0]).back());
@@ -68,7 +68,7 @@ TEST_CASE("of four corners by turns the mean says which hang together", "[survey
   grid.at(0, 0) = grid.at(1, 1) = 3;
   const std::vector<Line> together = contours(grid, 0);
   REQUIRE(together.size() == 2);
-  // The low corners are cut off, each by itself.
+  // The two low corners are cut off by separate lines.
   CHECK(together[0].front().x + together[0].front().y != Approx(together[1].front().x + together[1].front().y));
   grid.at(0, 0) = grid.at(1, 1) = 0.5f;
   CHECK(contours(grid, 0).size() == 2);

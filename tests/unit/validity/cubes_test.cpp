@@ -55,7 +55,7 @@ struct TurnedCube {
     for (size_t k = 0; k < 3; ++k) {
       degrees[k] = between(random, 0, 360);
       sides[k] = between(random, 4, 7);
-      // Where shapes are snapped to.
+      // Positions are whole units, as shapes' positions are.
       centre[k] = std::round(between(random, -1, 1) * kUnitsPerMetre) / kUnitsPerMetre;
     }
     char grammar[512];
@@ -104,8 +104,8 @@ TEST_CASE("cubes at any angle deviate by a twentieth of a cell", "[validity][cub
 }
 
 TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp][costly]") {
-  // Such a sample is often a part of its own, a 256th of a cell across, which the edge must not go round. The first two
-  // wedges have edges that would.
+  // A sample that touches an edge often makes a tiny component of its own, 1/256 of a cell wide, which the sharp edge
+  // must not enclose. In the first two wedges, it did so.
   constexpr unsigned kFirst = 241;
   const Workshop shop;
   for (unsigned seed = kFirst; seed < kFirst + rounds(60); ++seed) {
@@ -113,7 +113,7 @@ TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp
     std::mt19937 random(seed);
     const double cell = kSolidCells[seed % 2], sample = std::floor(cell * kUnitsPerMetre) / kUnitsPerMetre;
     const Axes axes = turned(wedge.degrees);
-    // A sample lies up to three units within the edge, which goes along y.
+    // A sample lies up to three units inside the edge, which runs along y.
     const double within = between(random, 0, 3) / kUnitsPerMetre, half = between(random, 0.5, 2.5);
     measure::Point at = -within * axes[0] + between(random, -2, 2) * axes[1];
     for (int k = 0; k < 3; ++k) at[k] += sample * static_cast<double>(random() % 5);

@@ -111,7 +111,7 @@ void checkTable(bool sharp) {
         const MeshedRegion region = meshedRegion(world, shop, boxOf(row), sharp);
         CHECK(region.chunks <= kMostChunks);
         triangles += region.mesh.triangles.size();
-        // Of many seeds some have nothing in so small a place.
+        // With many seeds, some have nothing in such a small region.
         if (region.mesh.triangles.empty()) continue;
         const Faults faults = faultsOf(region.mesh, &region.cut, *shop.jobs);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -191,8 +191,8 @@ TEST_CASE("random solids are valid as marching cubes make them", "[validity][sol
 TEST_CASE("random solids are valid with sharp features", "[validity][solids][sharp][costly]") { checkSolids(true); }
 
 TEST_CASE("a speck that an edge grows round stays outside of the solid", "[validity][solids][sharp]") {
-  // Of a thousand random solids the one with a sample that touches the surface beside an edge: a ball round it is a
-  // part of its own, a 256th of a cell across, and the edge, which is right to a 25th of a cell, passed beyond it.
+  // This seed has a sample that touches the surface beside an edge: the ball around the sample is a component of its
+  // own, 1/256 of a cell wide, and the sharp edge, which is exact to 1/25 of a cell, passed beyond it.
   const Workshop shop;
   std::mt19937 random(312);
   const WorldField world(worldOf(compiled(randomSolid(random)), 0.5, 1), std::pmr::get_default_resource());

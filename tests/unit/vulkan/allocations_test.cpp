@@ -9,7 +9,7 @@ using namespace sgm::vulkan;
 TEST_CASE("once warm, recording, submitting and waiting take no memory of the host's", "[vulkan]") {
   if (!haveDevice()) return;
   OwnDevice options;
-  options.software = true;  // and nobody watches: the validation layer takes much
+  options.software = true;  // without the validation layer, which allocates much itself
   const auto device = Device::open(options);
   REQUIRE(device);
   const uint32_t constants[] = {0, 1};

@@ -38,7 +38,8 @@ TEST_CASE("the ring hands out as many recordings as it has", "[vulkan]") {
     REQUIRE(!third);
     CHECK(third.error().code == Code::limit);
   }
-  // Both went unsubmitted and are free again; more submissions than recordings take their turns.
+  // Both recordings were dropped without being submitted, so they are free again; more submissions than recordings
+  // reuse them in turn.
   uint64_t last = 0;
   for (int i = 0; i < 20; ++i) {
     auto commands = (*ring)->begin();

@@ -36,7 +36,7 @@ TEST_CASE("an engine's device is used under its lock and left as it was", "[vulk
     CHECK(engine.unlocks == round + 1);
     CHECK(engine.held == 0);
   }
-  // It is still the engine's.
+  // The device still belongs to the engine.
   CHECK(engine.calls.vkDeviceWaitIdle(engine.device) == VK_SUCCESS);
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("an engine's device that will not do is refused with what it lacks", "
   refused(Code::invalid_argument, "queue family 77", [](B& lent) { lent.family = 77; });
   refused(Code::unsupported, "1.1", [](B& lent) { lent.api_version = VK_API_VERSION_1_1; });
   refused(Code::unsupported, "timelineSemaphore", [](B& lent) { lent.timeline_semaphores = false; });
-  // A resolver that knows no functions: a loader of another world.
+  // A resolver that knows no functions, like one of another loader.
   refused(Code::unsupported, "lacks functions", [](B& lent) {
     lent.get_instance_proc_addr = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
   });
@@ -115,7 +115,7 @@ TEST_CASE("the validation layer is heard", "[vulkan]") {
   const auto device = Device::open(watched());
   REQUIRE(device);
   VkBufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // of no bytes and for no use
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // an invalid buffer: of size 0 and without usage
   VkBuffer buffer = VK_NULL_HANDLE;
   if ((*device)->calls().vkCreateBuffer((*device)->handle(), &info, nullptr, &buffer) == VK_SUCCESS) {
     (*device)->calls().vkDestroyBuffer((*device)->handle(), buffer, nullptr);
@@ -144,7 +144,7 @@ TEST_CASE("a shader that reaches beyond its buffer is heard", "[vulkan]") {
   const uint32_t constants[] = {0, 1};
   const auto shader = Pipeline::create(**device, affineShader(constants));
   REQUIRE(shader);
-  // What the layer knows of are whole VkBuffers: a block for each.
+  // The validation layer checks bounds only of whole VkBuffers, so each of our buffers gets a block of its own.
   MemoryOptions small;
   small.first_block = small.largest_block = 64 * sizeof(int32_t);
   Memory memory(**device, small);

@@ -42,10 +42,10 @@ bool mayBeMadeGood(const std::string& function) {
   const std::set<std::string> functions{"vkCreateBuffer",
                                         "vkAllocateMemory",
                                         "vkBindBufferMemory",
-                                        "vkMapMemory",  // a smaller block will do
+                                        "vkMapMemory",  // a smaller block is tried next
                                         "vkWaitSemaphores",
-                                        "vkDeviceWaitIdle",                       // before all is destroyed
-                                        "vkEnumerateDeviceExtensionProperties"};  // no budget is known then
+                                        "vkDeviceWaitIdle",  // called before everything is destroyed
+                                        "vkEnumerateDeviceExtensionProperties"};  // then the memory budget is unknown
   return functions.count(function) != 0;
 }
 
@@ -105,7 +105,8 @@ void failEverywhere(Run run, Wanted wanted, Quiet quiet) {
 TEST_CASE("every call may fail on a device of our own", "[vulkan]") {
   if (!haveDevice()) return;
   const auto log = std::make_shared<MessageLog>();
-  // The first call of each: the others fail on an engine's device, which need not be opened anew each time.
+  // Only the first call of each function fails here; later calls fail in the test with an engine's device, which need
+  // not be opened each time.
   failEverywhere([&] { return runOnOwn(log); }, [](unsigned nth) { return nth == 1; },
                  [&] { return log->texts().empty(); });
 }
@@ -244,7 +245,7 @@ TEST_CASE("nothing is destroyed while it is in use, whatever the last wait says"
   REQUIRE(ring);
   auto commands = (*ring)->begin();
   REQUIRE(commands);
-  for (uint32_t i = 0; i < 20; ++i) {  // long enough to be in use when the wait fails at once
+  for (uint32_t i = 0; i < 20; ++i) {  // work long enough to be running when the wait fails at once
     commands->fill(*buffer, i);
     commands->barrier(kTransfer, kTransfer);
   }

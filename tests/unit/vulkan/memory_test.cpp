@@ -57,7 +57,7 @@ TEST_CASE("the driver's budget is kept where the driver tells it", "[vulkan]") {
     if (large) continue;
     CHECK(large.error().code == Code::out_of_memory);
     CHECK(large.error().message.find("1048576") != std::string::npos);
-    // The usual block is far too large, and a smaller one will do.
+    // A block of the usual size is too large here, so a smaller one is used.
     CHECK(memory.buffer(MemoryKind::device, 1 << 18));
     CHECK(memory.statistics().reserved <= 1 << 19);
   }
@@ -75,7 +75,8 @@ TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
       if (taken.empty() || random() % 5 < 3) {
         const uint64_t bytes = 1 + random() % (size / (1 + random() % 64));
         const auto offset = ranges.take(bytes);
-        // What is free between two taken ranges, looked at one by one: the first of the shortest that will do.
+        // A simple reference implementation: scans all free ranges between taken ones, and returns the first of the
+        // shortest that suffice.
         const uint64_t needed = (bytes + granule - 1) / granule * granule;
         std::optional<uint64_t> best;
         uint64_t shortest = UINT64_MAX, end = 0;
@@ -122,28 +123,28 @@ TEST_CASE("each kind of memory is looked for where it is", "[vulkan]") {
   const auto choose = [](const std::vector<VkMemoryPropertyFlags>& types, MemoryKind kind, bool unified) {
     return chooseMemoryType(memoryOf(types), ~0u, kind, unified);
   };
-  // A graphics card with a window onto its memory, as drivers list them.
+  // A graphics card, a part of whose memory is visible to the host, with the memory types as drivers list them.
   const std::vector<VkMemoryPropertyFlags> card{0, kNear, kSeen, kSeen | kCached, kNear | kSeen};
   CHECK(choose(card, MemoryKind::device, false) == 1);
   CHECK(choose(card, MemoryKind::upload, false) == 2);
   CHECK(choose(card, MemoryKind::readback, false) == 3);
-  // Host and device share all memory.
+  // A device that shares all memory with the host.
   const std::vector<VkMemoryPropertyFlags> shared{kNear, kNear | kSeen, kNear | kSeen | kCached};
   CHECK(choose(shared, MemoryKind::device, true) == 1);
   CHECK(choose(shared, MemoryKind::upload, true) == 1);
   CHECK(choose(shared, MemoryKind::readback, true) == 2);
-  // One type for everything, as software devices have it.
+  // A single memory type, as on software devices.
   for (const MemoryKind kind : {MemoryKind::device, MemoryKind::upload, MemoryKind::readback}) {
     CHECK(choose({kNear | kSeen | kCached}, kind, true) == 0);
   }
-  // Cached and not coherent is better to read from than coherent and not cached.
+  // For reading back, memory that is cached but not coherent is better than coherent and uncached memory.
   const VkMemoryPropertyFlags stale = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | kCached;
   CHECK(choose({kNear, kSeen, stale}, MemoryKind::readback, false) == 2);
   CHECK(choose({kNear, kSeen, stale}, MemoryKind::upload, false) == 1);
-  // Nothing cached, and nothing that the host sees.
+  // A device without cached memory, and one without memory visible to the host.
   CHECK(choose({kNear, kSeen}, MemoryKind::readback, false) == 1);
   CHECK(choose({kNear}, MemoryKind::upload, false) == -1);
-  // Memory with rules of its own.
+  // Memory types with other requirements, such as protected memory, are not chosen.
   CHECK(choose({kNear | VK_MEMORY_PROPERTY_PROTECTED_BIT}, MemoryKind::device, false) == -1);
   CHECK(chooseMemoryType(memoryOf(card), 1u << 4, MemoryKind::device, false) == 4);
   CHECK(chooseMemoryType(memoryOf(card), 0, MemoryKind::device, false) == -1);
@@ -236,10 +237,10 @@ TEST_CASE("too much memory is refused, and what is there stays", "[vulkan]") {
   REQUIRE(!over);
   CHECK(over.error().code == Code::limit);
   CHECK(over.error().message.find("262144") != std::string::npos);
-  // Not all of the next block has room under the cap, but what is asked for has.
+  // The cap does not allow another full block, but one of the requested size.
   auto rest = memory.buffer(MemoryKind::device, 150'000);
   CHECK(rest);
-  // A block that nobody uses makes room for one of another kind.
+  // An unused block is released to make room for one of another kind.
   rest = Buffer();
   rest = memory.buffer(MemoryKind::device, 100'000);
   CHECK(rest);

@@ -94,7 +94,7 @@ TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "
   REQUIRE(fs::exists(file));
   const std::vector<std::byte> saved = readAll(file);
   CHECK(unpackPipelineCache(device.device->info(), saved));
-  // What the file holds already is not written again.
+  // If the file already has everything, it is not written again.
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
   fs::last_write_time(file, long_ago);
   CHECK(run());
@@ -104,7 +104,7 @@ TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "
   writeAll(file, damaged);
   CHECK(!run());
   CHECK(run());
-  writeAll(file, packPipelineCache(driverData(someDevice())));  // another device's under this one's name
+  writeAll(file, packPipelineCache(driverData(someDevice())));  // data of another device in this device's file
   CHECK(!run());
   writeAll(file, {});
   CHECK(!run());
