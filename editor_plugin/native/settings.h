@@ -13,7 +13,7 @@ struct Settings {
   int64_t seed = 0;
   std::map<std::string, double> parameters;  // values of parameters that differ from the grammar's defaults
   int64_t backend = 0;                       // a value of sgm_backend
-  double cell_size = 0.5, finest_distance = 32, view_distance = 300;  // metres
+  double cell_size = 0.5, finest_distance = 32, view_distance = 300;  // all in metres
   int64_t coarsest_level = -1;                                        // -1: depends on view_distance
   bool by_distance = false, sharp = false, morph = true, measure = true;
   int64_t mesh_memory = 256;  // MiB

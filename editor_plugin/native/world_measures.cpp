@@ -27,7 +27,7 @@ uint64_t defectsOf(const sgm_chunk_sums& sums) {
 
 /// Positions of all drawn triangles, exact to fractions of a unit, relative to the first chunk's corner.
 struct Soup {
-  std::vector<double> positions;  // metres
+  std::vector<double> positions;  // x, y and z of each vertex, in metres
   std::vector<uint32_t> indices;
 };
 

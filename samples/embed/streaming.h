@@ -13,7 +13,7 @@
 #include "handles.h"
 #include "scene.h"
 
-using Place = std::array<double, 3>;  ///< metres
+using Place = std::array<double, 3>;  ///< a position in metres
 
 /// The results of a flight.
 struct Flight {

@@ -43,7 +43,9 @@ class CavePath {
   }
 
  private:
-  static constexpr double kStep = 1, kRoom = 1.1, kFarthest = 48, kAhead = 4;  // metres
+  // In metres: step of the search and minimum free length, space needed around the camera, length of rays, and distance
+  // of the place ahead that the camera looks at.
+  static constexpr double kStep = 1, kRoom = 1.1, kFarthest = 48, kAhead = 4;
   static constexpr int kHeadings = 24;
 
   static Place along(const Place& from, const Place& way, double distance) {

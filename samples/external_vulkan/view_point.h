@@ -8,13 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 
-using Place = std::array<double, 3>;       ///< metres
+using Place = std::array<double, 3>;       ///< a position in metres, or a direction
 using Matrix = std::array<float, 16>;      ///< column-major, as in shaders
-using UnitPlace = std::array<int32_t, 3>;  ///< units
+using UnitPlace = std::array<int32_t, 3>;  ///< a position in the library's units
 
 struct ViewPoint {
   static constexpr float kFov = 1.2f;    ///< vertical, radians
-  static constexpr float kNear = 0.05f;  ///< metres
+  static constexpr float kNear = 0.05f;  ///< distance of the near plane in metres
 
   Place at{};
   Place forward{};  ///< unit length, not vertical

@@ -26,7 +26,7 @@ using namespace sgm::measure;
 struct Place {
   const char* grammar;
   int32_t cell;
-  Int3 at;  ///< metres
+  Int3 at;  ///< position in metres
   bool sharp;
 };
 constexpr int kAround = 2;  ///< number of chunks on each side of the place

@@ -18,7 +18,7 @@ namespace {
 
 using namespace sgm;
 
-constexpr int32_t kCell = 256;  // units
+constexpr int32_t kCell = 256;  // edge of a grid cell, in units
 
 // A field with forty leaf shapes of several kinds: a smooth group with noise on it, a sum, and single shapes.
 GrammarChunk makeField() {

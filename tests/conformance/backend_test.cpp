@@ -226,7 +226,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
   struct Place {
     const char* grammar;
     int32_t cell;
-    Int3 from, to;  ///< metres
+    Int3 from, to;  ///< corners of the meshed region, in metres
   };
   static constexpr Place kPlaces[] = {{"arches.sgm", 256, {-8, 0, -8}, {8, 8, 8}},
                                       {"building.sgm", 256, {-16, -2, -16}, {16, 30, 16}},

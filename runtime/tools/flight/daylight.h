@@ -17,7 +17,7 @@ namespace sgm::cli {
 
 /// The first solid surface on a ray.
 struct RayEnd {
-  double distance = 0;  ///< metres
+  double distance = 0;  ///< metres from the ray's start
   Metres3 normal{0};    ///< points out of the solid
   uint32_t material = 0;
   bool inside = false;  ///< true if the ray starts in the solid

@@ -10,7 +10,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr int kMargin = 8;                                 // pixels
+constexpr int kMargin = 8;                                 // pixels between the pictures of a sheet
 constexpr std::array<uint8_t, 4> kSheet{24, 24, 26, 255};  // background between the pictures
 
 /// Colours of the levels of detail, from fine to coarse; further levels repeat them.

@@ -13,7 +13,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostUses = 50'000;
-constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // units
+constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // limits of the grid's cell edge, in units
 constexpr int32_t kCellsAcross = 12;   // minimum number of grid cells across a use, unless the cells would be too small
 constexpr int64_t kRegionCells = 352;  // number of grid cells along the region's longest edge
 

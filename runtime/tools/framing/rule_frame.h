@@ -36,7 +36,7 @@ Result<std::vector<RuleUse>> usesIn(const WorldField& world, const FramedRule& w
 /// A region around a use, and the edge of the grid cells that suit its size.
 struct FrameRegion {
   IntBox region;
-  int32_t cell = 0;  ///< units
+  int32_t cell = 0;  ///< edge of a grid cell, in units
 };
 
 /// Chooses the region around the use nearest to the world's origin, among the uses of at least median size. Errors:

@@ -12,7 +12,7 @@ uint32_t bytesOf(std::string_view rest) {
   return std::min(bytes, static_cast<uint32_t>(rest.size()));
 }
 
-constexpr uint32_t kBetweenMarks = 256;  // bytes
+constexpr uint32_t kBetweenMarks = 256;  // distance in bytes between places whose UTF-16 position is stored
 
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';

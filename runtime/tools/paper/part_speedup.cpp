@@ -29,7 +29,7 @@ std::string whoIs(const StageRow& row) {
 
 // Figures 1 and 2.
 
-constexpr double kCell = 0.5;  // metres
+constexpr double kCell = 0.5;  // edge of a grid cell, in metres
 
 /// The measurement for one number of position points.
 struct PointsRun {

@@ -54,7 +54,7 @@ struct StageRow {
 
 struct StageResult {
   const StageModel* model = nullptr;
-  int32_t cell = 0;  ///< units
+  int32_t cell = 0;  ///< edge of a grid cell, in units
   IntBox extent;     ///< bounds of all chunks that meet the cube
   uint64_t chunks = 0, triangles = 0;
   /// Number of evaluated instructions of field programs: for each program after pruning to a brick, its length times

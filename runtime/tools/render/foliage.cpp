@@ -21,7 +21,7 @@ constexpr float kBladeWidth = 0.0052f;            ///< metres, width of a blade 
 constexpr float kTallest = 0.23f;                 ///< metres, length of the tallest blades
 constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres by which leaves extend out of a crown's surface, and into
                                                   ///< it
-constexpr float kLeafLength = 0.062f;             ///< metres
+constexpr float kLeafLength = 0.062f;             ///< length of a leaf in metres
 constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves if growthAt() is lower
 constexpr size_t kMostSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
 constexpr float kSteepest = 0.72f;                ///< minimum upward component of a lawn's normal

@@ -94,7 +94,7 @@ class LightTracer {
   /// The visible surface in a pixel. The ray passes through gaps in tree crowns.
   MetSurface seenAt(uint32_t x, uint32_t y) const {
     constexpr int kMostGaps = 6;
-    constexpr float kBehind = 0.02f;  // metres
+    constexpr float kBehind = 0.02f;  // metres behind a gap at which the ray continues
     const vec3 direction = directionAt(x, y);
     vec3 from(frame_.eye);
     MetSurface place = meet(from, direction);

@@ -16,7 +16,7 @@ namespace sgm {
 /// A regular lattice of points over a box.
 struct Lattice {
   glm::vec3 corner{0};  ///< position of the first point, metres from the scene's origin
-  float spacing = 1;    ///< metres
+  float spacing = 1;    ///< distance in metres between neighbouring points on every axis
   glm::ivec3 size{0};   ///< number of points on each axis, at least 2
 
   size_t count() const { return size_t(size.x) * size_t(size.y) * size_t(size.z); }

@@ -112,8 +112,8 @@ constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0
 /// Adds the mesh's edges as ribbons that face the camera and have a constant width in the picture.
 void addWires(const Region& region, const RenderCamera& camera, RegionScene& drawn) {
   constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: half width, and displacement towards the camera
-  constexpr float kShare = 0.035f;                // maximal share of the visible edge, to each side: small triangles
-                                                  // stay light
+  // Maximum share of a visible edge that a wire covers on each side, so that small triangles stay light.
+  constexpr float kShare = 0.035f;
   const WorldMesh& mesh = region.meshed.mesh;
   std::vector<std::array<uint32_t, 2>> edges;
   for (size_t i = 0; i < mesh.indices.size(); ++i) {

@@ -16,12 +16,12 @@ constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
 constexpr double kMostLevels = 14;
 constexpr double kSteep = 0.75;       // slope from which floors get hachures (rise over run)
 constexpr double kCeilingStep = 1.6;  // slope from which ceilings count as steps (rise over run)
-constexpr double kFloorAbove = 1.8;   // metres
+constexpr double kFloorAbove = 1.8;   // metres that the floor must continue to rise uphill of a hachure
 constexpr double kHachureGap = 6;     // pixels along a contour from one hachure to the next
 constexpr int kMainEvery = 5;         // number of contours from one main contour to the next
 // Minimum distance in pixels between contours; on cliffs only main contours are drawn.
 constexpr double kLeastApart = 4;
-constexpr double kLongestHachure = 7;  // pixels
+constexpr double kLongestHachure = 7;  // maximum length of a hachure in pixels
 constexpr double kFlowstone = 6;       // m2; larger areas of flowstone are outlined
 
 double niceInterval(double range) {

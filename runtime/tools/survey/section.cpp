@@ -13,8 +13,8 @@ namespace {
 constexpr Ink kBeyond{240, 240, 240}, kOutline{150, 150, 150}, kGuide{215, 215, 215};
 constexpr double kStrip = 9;       // pixels, height of the strip of water that is drawn under its surface
 constexpr int kAround = 4;         // samples of margin around the drawn part
-constexpr double kTickGap = 7;     // pixels
-constexpr double kTick = 6;        // pixels
+constexpr double kTickGap = 7;     // pixels along an outline between two ticks, which mark the rock's side
+constexpr double kTick = 6;        // length of a tick in pixels
 constexpr double kHeightGap = 36;  // minimum distance in pixels between two height labels
 
 void drawGuides(const Slice& slice, const Crop& crop, const Placement& place, Drawing& drawing) {

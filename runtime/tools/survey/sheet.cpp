@@ -11,7 +11,7 @@
 namespace sgm::survey {
 namespace {
 
-constexpr double kMargin = 40, kFooter = 110, kCaption = 24, kBetween = 56, kHeights = 34;  // pixels
+constexpr double kMargin = 40, kFooter = 110, kCaption = 24, kBetween = 56, kHeights = 34;  // pixels: margins and gaps
 constexpr double kTitle = 15, kText = 8, kAbove = 20;
 constexpr double kAroundPlan = 2;  // metres of margin around the drawn part
 

@@ -9,7 +9,7 @@
 namespace sgm::survey {
 
 struct SheetWish {
-  int width = 1600, height = 1200;  ///< pixels
+  int width = 1600, height = 1200;  ///< size of the sheet in pixels
   bool plan = true;                 ///< draws a plan; if false, the section alone
   std::string title;                ///< text such as "cave.sgm"
   std::string subtitle;             ///< text with seed and region

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBlock = 32;  // samples along an edge of a block, for which one field program is compiled
 constexpr float kDeepest = 2;
-constexpr double kWorldEnd = 2'097'151;  // metres
+constexpr double kWorldEnd = 2'097'151;  // largest distance from the world's origin on an axis, in metres
 
 /// The part of the line within the columns' extent; nullopt if they do not meet.
 std::optional<CutLine> clippedTo(const Columns& columns, const CutLine& line) {

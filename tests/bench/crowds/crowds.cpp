@@ -32,7 +32,8 @@ namespace crowds {
 namespace {
 
 constexpr uint64_t kBudget = uint64_t{1} << 20;
-constexpr double kDrawnRadius = 32, kDrawnCell = 4;  // metres
+// metres: a mover counts as served if the drawn cells within this radius are at most this large.
+constexpr double kDrawnRadius = 32, kDrawnCell = 4;
 
 struct Options {
   std::string grammar, row;

@@ -33,7 +33,7 @@ using MeshOwner = Owner<sgm_mesh, sgm_mesh_release>;
 void must(sgm_result result, const sgm_error& error);
 
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
-using Place = std::array<double, 3>;                         ///< metres
+using Place = std::array<double, 3>;                         ///< a position in metres
 
 /// Distance in metres from a place to a chunk's box; 0 inside the box.
 double distanceTo(const Key& key, const Place& place, double finest_cell_m);

@@ -334,7 +334,7 @@ TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do",
       const auto meshes = (*batch)->take();
       REQUIRE_FALSE(meshes);
       CHECK(meshes.error().code == Code::cancelled);
-      // The same without a cancellation.
+      // The same batch without a cancellation is meshed completely.
       auto whole = (*idle)->submit(batchOf(2));
       REQUIRE(whole);
       (*whole)->wait();

@@ -49,8 +49,8 @@ std::string described(const ChunkMeasures& measures) {
 struct Excerpt {
   const char* grammar;
   int32_t cell;
-  Int3 at;         ///< metres
-  int32_t around;  ///< metres
+  Int3 at;         ///< middle of the place, in metres
+  int32_t around;  ///< distance from the middle to each side, in metres
   bool sharp = false;
 };
 constexpr Excerpt kExcerpts[] = {

@@ -23,7 +23,7 @@ struct FlyOptions : WorldOptions {
   bool check = false, unpaced = false, compare = false;
   bool measure = false;  ///< measures every meshed chunk
   int top_level = 6;
-  double finest = 24, finest_margin = 6, view = 600;  ///< metres
+  double finest = 24, finest_margin = 6, view = 600;  ///< distances in metres; see the command's help
   uint64_t mesh_mb = 256;
   uint64_t pictures = 0;
   std::string out = "flight.png";

@@ -13,12 +13,12 @@
 namespace sgm::cli {
 
 struct MeasureOptions : WorldOptions {
-  double weld = 0;  ///< metres
+  double weld = 0;  ///< distance in metres up to which vertices of a file are merged; 0: only equal positions
   uint32_t bins = 33;
   std::string mode = "corrected";
-  double curvature_length = 1;  ///< metres
+  double curvature_length = 1;  ///< radius in metres of the ball that is at 3/4 of the range of curvatures
   bool unique_edges = false;
-  std::optional<double> cubes;  ///< metres
+  std::optional<double> cubes;  ///< edge in metres of the cubes by which the volume is measured as well; empty: none
   bool no_self_intersections = false;
   bool strict = false;                             ///< fails if the mesh is not valid
   std::vector<std::string> of_grammars, of_files;  ///< given options that only grammars or only files have
