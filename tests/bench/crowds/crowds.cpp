@@ -32,7 +32,7 @@ namespace crowds {
 namespace {
 
 constexpr uint64_t kBudget = uint64_t{1} << 20;
-// metres: a mover counts as served if the drawn cells within this radius are at most this large.
+// In metres: a mover counts as served if all cells drawn within kDrawnRadius are at most kDrawnCell wide.
 constexpr double kDrawnRadius = 32, kDrawnCell = 4;
 
 struct Options {
