@@ -30,7 +30,7 @@ struct Failing {
 
 /// Number of C++ heap allocations that succeed on this thread before all further ones fail; below 0: none fails.
 inline thread_local int64_t heap_left = -1;
-/// Number of allocations on all threads together that succeed before the next ones fail, and the number of these.
+/// Number of allocations on all threads together that still succeed, and the number of those after them that fail.
 inline std::atomic<int64_t> heap_left_everywhere{INT64_MAX}, heap_failures{INT64_MAX};
 
 inline void* heapAllocate(size_t size, size_t alignment) {
