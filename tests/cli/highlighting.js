@@ -67,7 +67,12 @@ function check(holds, what) {
   check(tokens > 5000, `only ${tokens} tokens in the samples`);
 
   const source = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/keywords.cpp'), 'utf8');
-  for (const word of table(source, 'kKeywords')) {
+  // The words of statements are reserved, except for clause words.
+  const statements = fs.readFileSync(path.join(project, 'runtime/grammar/syntax/stmts.def'), 'utf8');
+  const words = [...statements.matchAll(/^SGM_STMT\(\w+, "(\w+)"/gm)].map((m) => m[1]);
+  check(words.length > 25, `only ${words.length} words of statements`);
+  const clauses = new Set(table(source, 'kClauseWords'));
+  for (const word of [...table(source, 'kOtherKeywords'), ...words.filter((word) => !clauses.has(word))]) {
     const scope = scopeOf(`${word} ;`, word);
     check(/^(keyword|constant\.language)/.test(scope), `the keyword ${word} has the scope ${scope}`);
   }

@@ -26,9 +26,15 @@ run bash copy/samples/manual.sh changed
 [[ $status == 1 && $out == first ]] || failed 'a changed example is not seen'
 
 words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/syntax/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
+# The words of statements are reserved, except for clause words.
+keywords() {
+  words kOtherKeywords
+  sed -n 's/^SGM_STMT([a-z_]*, "\([a-z]\+\)".*/\1/p' "$SOURCE/runtime/grammar/syntax/stmts.def" | grep -vxF "$(words kClauseWords)"
+}
+(($(keywords | wc -l) >= 60)) || failed "only $(keywords | wc -l) keywords"
 names() { grep -o "{\"[a-z0-9]*\", $1::" "$SOURCE/runtime/grammar/syntax/builtins.cpp" | grep -o '"[a-z0-9]*"' | tr -d '"' | sort -u; }
 text=$(sed 's#//.*##' examples/*.sgm)
-for word in $(words kKeywords) $(words kMeasures) $(words kBoxParts) $(names Primitive) $(names Builtin); do
+for word in $(keywords) $(words kMeasures) $(words kBoxParts) $(names Primitive) $(names Builtin); do
   grep -qw "$word" <<<"$text" || failed "no example has the word $word"
 done
 # Units and suffixes that occur only in tables need not occur in an example.
@@ -38,7 +44,7 @@ done
 # The manual's lists are equal to those of the compiler and of the pictures.
 same() { [[ $(sort -u <<<"$2") == "$(sort -u <<<"$3")" ]] || failed "the manual's list of $1 is another: $(diff <(sort -u <<<"$2") <(sort -u <<<"$3"))"; }
 section() { sed -n "/^## $1\$/,/^## /p" "$manual"; }
-same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr ' ' '\n')" "$(words kKeywords; words kUnavailable)"
+same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr ' ' '\n')" "$(keywords; words kUnavailable)"
 same shapes "$(section Shapes | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -o '`[a-z]*(' | tr -d '`(')" "$(names Primitive)"
 same functions "$(section Values | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -oE '`(c\.)?[a-z0-9]+\(' | sed 's/[`(]//g; s/^c\.//')" "$(names Builtin)"
 same materials "$(section Rules | tr '\n' ' ' | sed 's/.*know these looks://; s/; each with a tint.*//' | grep -o '`[a-z_]*`' | tr -d '`')" \

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/plain_text.h"
+#include "grammar/syntax/ast.h"
 #include "grammar/syntax/builtins.h"
 
 namespace sgm {
@@ -178,6 +179,11 @@ constexpr std::array<Help, 154> kHelp = {{
     {"within", "of gap: points with a longer one are left out"},
 }};
 static_assert(std::is_sorted(kHelp.begin(), kHelp.end(), [](const Help& a, const Help& b) { return a.word < b.word; }));
+
+constexpr bool hasHelp(std::string_view word) {
+  return word.empty() || std::ranges::binary_search(kHelp, word, {}, &Help::word);
+}
+static_assert(std::ranges::all_of(kStmtInfos, hasHelp, &StmtInfo::word), "a word of stmts.def has no help");
 
 std::string form(std::string_view name, std::span<const BuiltinParam> params, bool variadic) {
   std::string text(name);

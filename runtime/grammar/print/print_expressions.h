@@ -23,9 +23,7 @@ class LinePrinter {
   void xforms(std::string& out, IdRange range) const;
   /// Prints the part before a statement's body, without a space at the end; without a body, the whole statement.
   void head(std::string& out, const StmtNode& node) const;
-  /// Whether it is a split, a comp, a treemap or a wfc.
-  static bool hasParts(const StmtNode& node);
-  /// Prints the part before the statement of part i of one of these, with a space at the end.
+  /// Prints the part before the statement of part i of a split, a comp, a treemap or a wfc, with a space at the end.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
   /// Whether a repeated group begins before part i, or ends after it.
   bool opensGroup(const StmtNode& node, uint32_t i) const;

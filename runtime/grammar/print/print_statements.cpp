@@ -251,7 +251,7 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
     return;
   }
   head(out, node);
-  if (hasParts(node)) {
+  if (infoOf(node.kind).has_parts) {
     out += " { ";
     for (uint32_t i = 0; i < node.children.count; ++i) {
       if (opensGroup(node, i)) out += "{ ";
@@ -265,11 +265,6 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
   if (node.body == kNoId) return;
   out += ' ';
   statement(out, node.body);
-}
-
-bool LinePrinter::hasParts(const StmtNode& node) {
-  return node.kind == StmtKind::split || node.kind == StmtKind::comp || node.kind == StmtKind::treemap ||
-         node.kind == StmtKind::wfc;
 }
 
 bool LinePrinter::opensGroup(const StmtNode& node, uint32_t i) const {

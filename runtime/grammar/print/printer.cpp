@@ -335,7 +335,7 @@ class ModulePrinter {
     if (node.kind == StmtKind::block) return blockInLines(node, depth);
     if (node.kind == StmtKind::fit) return zonesInLines(node, depth);
     line_.head(out_, node);
-    if (LinePrinter::hasParts(node)) return partsInLines(node, depth);
+    if (infoOf(node.kind).has_parts) return partsInLines(node, depth);
     if (node.body == kNoId) return;
     out_ += ' ';
     statement(node.body, depth);

@@ -8,6 +8,7 @@
 #include <deque>
 #include <memory_resource>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grammar/syntax/builtins.h"
@@ -102,50 +103,40 @@ struct ArgNode {
   Span span;
 };
 
+/// The statements: stmts.def describes each.
 enum class StmtKind : uint8_t {
-  block,      ///< children; material and tag apply to its whole content, including statements before them
-  call,       ///< expr: a call of a rule or a primitive
-  unite,      ///< union [smooth amount] body
-  cut,        ///< cut [smooth amount] body: subtracts the body from what precedes in the block; from the domain if
-              ///< directly in the body of a layer's start rule (through loops, transforms, detail and plain blocks)
-  meet,       ///< meet [smooth amount] body: the intersection of the body's own statements, added to the block
-  sum,        ///< sum body: compact-kernel sum of the leaves
-  morph,      ///< children[0], children[1] (call or block), expr: t, power; at t = 0 the first, at t = 1 the second
-  displace,   ///< expr (length), amount: declared bound of |expr|, which clamps it, or kNoId; body
-  warp,       ///< expr (vector of lengths), amount: like displace, for each component; body
-  transform,  ///< xforms, applied left to right from the outside in; body
-  repeat,     ///< expr: count; xforms: applied i times to copy i; body
-  for_each,   ///< slot: loop variable; expr: a range, faces or segments; body
-  scatter,    ///< extra: Ast::scatters; body
-  let,        ///< slot = expr, from here to the end of the block
-  field,      ///< extra: Program::fields, evaluated in this frame where it is used
-  mat,        ///< extra: Program::materials
-  tag,        ///< extra: Program::tags
-  anchor,     ///< extra: kind, extra2: name; both Program::names
-  split,      ///< extra: axis 0 1 2; parts: along it, each with its child; amount: how far its borders snap, or kNoId
-  snap,       ///< extra: axis 0 1 2; expr: distance of the planes; amount: of the first one from the low end, or kNoId
-  comp,       ///< parts: faces and edges of the scope's box, each with its child
-  treemap,    ///< extra: Ast::treemaps; parts: its rooms and other derived parts, each with its child
-  link,       ///< of a treemap: name and name2: rooms; extra: Ast::links
-  detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
-  footprint,  ///< slot: a plan, from here to the end of the block; extra: Ast::footprints
-  extrude,    ///< expr: height; plan; body: a block or kNoId
-  roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
-  inner,      ///< in an override's block: the replaced content; extra: its index there
-  fit,        ///< name: an import of an asset; extra: Ast::fits
-  wfc,        ///< expr: a length or a vector, the edges of tiles; extra: Ast::waves; parts: tiles, each with its child
-  border,     ///< of a wfc: extra: Ast::tiles, the sockets that its sides must meet
+#define SGM_STMT(kind, word, role, members) kind,
+#include "grammar/syntax/stmts.def"
 };
 
-/// Whether a statement only adds its body's content: elsewhere, several times, or not at every level.
-constexpr bool placesBody(StmtKind kind) {
-  return kind == StmtKind::transform || kind == StmtKind::repeat || kind == StmtKind::for_each ||
-         kind == StmtKind::scatter || kind == StmtKind::detail || kind == StmtKind::snap;
-}
+/// What a statement does with its body, and where it may stand.
+enum class StmtRole : uint8_t {
+  plain,
+  placing,  ///< only adds its body's content: elsewhere, several times, or not at every level
+  part,     ///< stands among the parts of another statement, and in no block
+};
 
+/// A line of stmts.def.
+struct StmtInfo {
+  std::string_view word;  ///< that begins it; empty if it begins with something else
+  StmtRole role = StmtRole::plain;
+  bool has_parts = false;  ///< it has parts with a child for each
+};
+
+/// In the order of StmtKind.
+inline constexpr auto kStmtInfos = std::to_array<StmtInfo>({
+#define PARTS || true
+#define SGM_STMT(kind, word, role, members) {word, StmtRole::role, false members},
+#include "grammar/syntax/stmts.def"
+});
+
+constexpr const StmtInfo& infoOf(StmtKind kind) { return kStmtInfos[static_cast<size_t>(kind)]; }
+constexpr bool placesBody(StmtKind kind) { return infoOf(kind).role == StmtRole::placing; }
+
+/// stmts.def says which statement uses which member for what.
 struct StmtNode {
   StmtKind kind = StmtKind::block;
-  bool power = false;        ///< morph: by exponent
+  bool power = false;        ///< of a morph
   bool layer_level = false;  ///< resolved, cut and inner: cuts the domain if its rule is a layer's start
   uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
   uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
@@ -154,13 +145,14 @@ struct StmtNode {
   ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
   ExprId plan = kNoId;    ///< extrude, roof: a name
   StmtId body = kNoId;
-  uint32_t slot = kNoId;  ///< resolved: let, for_each, footprint
-  uint32_t extra = kNoId, extra2 = kNoId;
-  NameId name = kNoId;   ///< as written: loop variable, let, footprint, mat, tag, anchor kind
-  NameId name2 = kNoId;  ///< as written: anchor name
-  IdRange children;      ///< into Ast::ids (StmtId)
-  IdRange xforms;        ///< into Ast::xforms
-  IdRange parts;         ///< into Ast::parts: as many as children
+  uint32_t slot = kNoId;                   ///< resolved: let, for_each, footprint
+  uint32_t extra = kNoId, extra2 = kNoId;  ///< resolved, mat: Program::materials, tag: Program::tags, anchor: kind and
+                                           ///< name in Program::names
+  NameId name = kNoId;                     ///< as written: loop variable, let, footprint, mat, tag, anchor kind
+  NameId name2 = kNoId;                    ///< as written: anchor name
+  IdRange children;                        ///< into Ast::ids (StmtId)
+  IdRange xforms;                          ///< into Ast::xforms
+  IdRange parts;                           ///< into Ast::parts: as many as children
   Span span;
 };
 

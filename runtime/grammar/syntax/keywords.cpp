@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <array>
 
+#include "grammar/syntax/ast.h"
+
 namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 60> kKeywords = {
-    "anchor", "and",   "as",      "at",      "by",      "comp",     "cut",   "depth",     "detail", "displace",
-    "domain", "else",  "expect",  "extrude", "false",   "field",    "fit",   "footprint", "for",    "if",
-    "import", "in",    "inner",   "layer",   "let",     "link",     "lod",   "mat",       "meet",   "minsize",
-    "mirror", "morph", "morphic", "not",     "or",      "override", "param", "query",     "repeat", "report",
-    "roof",   "rot",   "rule",    "scale",   "scatter", "seed",     "size",  "snap",      "split",  "start",
-    "sum",    "tag",   "then",    "treemap", "true",    "union",    "units", "warp",      "wfc",    "when"};
+/// Reserved words that begin no statement.
+constexpr std::array<std::string_view, 33> kOtherKeywords = {
+    "and",    "as",    "at",   "by",      "depth",  "domain",  "else",  "expect", "false",    "if",    "import",
+    "in",     "layer", "lod",  "minsize", "mirror", "morphic", "not",   "or",     "override", "param", "query",
+    "report", "rot",   "rule", "scale",   "seed",   "size",    "start", "then",   "true",     "units", "when"};
 constexpr std::array<std::string_view, 54> kClauseWords = {
     "above",    "air",     "amp",    "animated", "axes",    "block",   "border", "box",    "cell",   "clear", "cm",
     "corridor", "density", "disc",   "door",     "down",    "edge",    "empty",  "facade", "finite", "flat",  "from",
@@ -31,7 +31,27 @@ constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components
 constexpr std::array<std::string_view, 9> kBoxParts = {"front",  "right", "back",  "left",  "top",
                                                        "bottom", "side",  "edges", "inside"};
 
-static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
+/// Words of stmts.def that are reserved; the others are clause words.
+constexpr bool isReserved(std::string_view statement_word) {
+  return !statement_word.empty() &&
+         std::find(kClauseWords.begin(), kClauseWords.end(), statement_word) == kClauseWords.end();
+}
+
+constexpr size_t kReservedStatements = static_cast<size_t>(
+    std::count_if(kStmtInfos.begin(), kStmtInfos.end(), [](const StmtInfo& info) { return isReserved(info.word); }));
+
+/// The words of statements and the others, sorted.
+constexpr auto kKeywords = [] {
+  std::array<std::string_view, kReservedStatements + kOtherKeywords.size()> words;
+  auto next = std::copy(kOtherKeywords.begin(), kOtherKeywords.end(), words.begin());
+  for (const StmtInfo& info : kStmtInfos)
+    if (isReserved(info.word)) *next++ = info.word;
+  std::sort(words.begin(), words.end());
+  return words;
+}();
+
+static_assert(std::is_sorted(kOtherKeywords.begin(), kOtherKeywords.end()));
+static_assert(std::adjacent_find(kKeywords.begin(), kKeywords.end()) == kKeywords.end());
 static_assert(std::is_sorted(kClauseWords.begin(), kClauseWords.end()));
 static_assert(std::is_sorted(kUnavailable.begin(), kUnavailable.end()));
 

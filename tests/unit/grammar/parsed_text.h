@@ -1,0 +1,59 @@
+#pragma once
+// Texts that are parsed and not checked, so that names are as they were written.
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "catch.h"
+#include "grammar/parse/parser.h"
+#include "random_program.h"
+
+namespace sgm::test {
+
+struct Parsed {
+  std::unique_ptr<Program> program;
+  ModuleSyntax syntax;
+};
+
+/// Empty if the text has errors.
+inline Parsed parsed(std::string_view text) {
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  Parsed result;
+  result.program = std::make_unique<Program>(memory);
+  result.program->modules.emplace_back(memory).text = text;
+  NameTable names(result.program->ast);
+  const CompileLimits limits;
+  DiagnosticSink sink(limits.diagnostics);
+  sink.addFile("test.sgm");
+  result.syntax = Parser(*result.program, names, 0, limits, sink).run();
+  if (sink.errorCount() > 0) result.program.reset();
+  return result;
+}
+
+/// The texts of all grammars of the tree that can be read, and of some random programs.
+inline const std::vector<std::string>& grammarTexts() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> texts;
+    for (const char* folder : {"/samples", "/runtime/grammar/std", "/runtime/tools/paper/grammars",
+                               "/tests/bench/grammars", "/editor_plugin/demo/grammars"}) {
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(SGM_SOURCE_DIR) + folder)) {
+        if (entry.path().extension() != ".sgm") continue;
+        std::ifstream file(entry.path(), std::ios::binary);
+        std::stringstream bytes;
+        bytes << file.rdbuf();
+        texts.push_back(bytes.str());
+      }
+    }
+    REQUIRE(texts.size() > 80);
+    for (uint64_t seed = 1; seed <= 100; ++seed) texts.push_back(randomProgram(seed));
+    return texts;
+  }();
+  return all;
+}
+
+}  // namespace sgm::test
