@@ -27,28 +27,23 @@ struct Entry {
   }
 };
 
+/// Hashes content: what a node refers to in place of where that lies. A shape's own numbers come first, and then its
+/// points, voxels, expressions and children.
 class Signer {
  public:
   explicit Signer(const CellContent& cell) : program_(cell.program), chunk_(*cell.chunk), exprs_(chunk_.exprs.size()) {
     // Operands precede the expressions that use them.
-    for (size_t i = 0; i < exprs_.size(); ++i) exprs_[i] = hashOf(chunk_.exprs[i]);
+    for (size_t i = 0; i < exprs_.size(); ++i) {
+      Content content(*this);
+      visitMembers(chunk_.exprs[i], content);
+      exprs_[i] = content.hash();
+    }
   }
 
   Signature sign(const Shape& s) const {
-    Hasher h;
-    h.add(uint64_t{static_cast<uint8_t>(s.kind)} | uint64_t{s.material} << 8 | uint64_t{s.tag} << 24);
-    h.add(hashText(program_.materials[s.material]));
-    h.add(hashText(program_.tags[s.tag]));
-    h.add(s.detail);
-    h.add(s.coarsest);
-    h.add(s.amount);
-    h.add(s.inner_radius);
-    for (float v : s.size) h.add(v);
-    h.add(s.frame);
-    addPoints(h, s.first_point, s.point_count);
-    if (s.block != kNone) addVoxels(h, chunk_.blocks[s.block]);
-    const uint32_t read = s.expr == kNone ? 0 : s.kind == ShapeKind::warp ? 3 : 1;
-    for (uint32_t i = 0; i < read; ++i) h.add(exprs_[s.expr + i]);
+    ShapeContent content(*this);
+    visitMembers(s, content);
+    content.addReferences(s.kind);
     Signature signature;
     if (s.child_count > 0) {
       signature.finest_cell = std::numeric_limits<int32_t>::max();
@@ -56,13 +51,13 @@ class Signer {
     }
     for (uint32_t i = 0; i < s.child_count; ++i) {
       const Signature child = sign(chunk_.shapes[chunk_.children[s.first_child + i]]);
-      h.add(child.hash);
+      content.value(child.hash);
       signature.finest_cell = std::min(signature.finest_cell, child.finest_cell);
       signature.coarsest_cell = std::max(signature.coarsest_cell, child.coarsest_cell);
     }
     if (s.detail != 0) signature.coarsest_cell = std::min(signature.coarsest_cell, s.detail);
     signature.finest_cell = std::max(signature.finest_cell, s.coarsest);
-    signature.hash = h.value();
+    signature.hash = content.hash();
     return signature;
   }
 
@@ -72,47 +67,76 @@ class Signer {
   }
 
   Entry entryOf(const Anchor& anchor) const {
-    Hasher h;
-    h.add(anchor.frame);
-    h.add(uint64_t{anchor.kind} | uint64_t{anchor.name} << 16 | uint64_t{anchor.tag} << 32);
-    h.add(hashText(program_.names[anchor.kind]));
-    h.add(hashText(program_.names[anchor.name]));
-    h.add(hashText(program_.tags[anchor.tag]));
+    Content content(*this);
+    visitMembers(anchor, content);
     ChangedShape place{{anchor.frame.origin, anchor.frame.origin}};
     place.anchor = true;
-    return {anchor.key, false, h.value(), place};
+    return {anchor.key, false, content.hash(), place};
   }
 
  private:
-  void addPoints(Hasher& h, uint32_t first, uint32_t count) const {
-    h.add(count);
-    for (uint32_t i = 0; i < count; ++i) h.add(chunk_.points[first + i]);
-  }
+  class Content {
+   public:
+    explicit Content(const Signer& signer) : signer_(signer) {}
 
-  void addVoxels(Hasher& h, const VoxelBlock& block) const {
-    h.add(block.anchor);
-    h.add(block.edge);
-    h.add(block.first);
-    h.add(block.count);
-    for (size_t i = 0; i < block.words(); ++i) h.add(chunk_.voxels[block.first_word + i]);
-  }
-
-  uint64_t hashOf(const Expr& e) const {
-    Hasher h;
-    h.add(uint64_t{static_cast<uint8_t>(e.op)});
-    for (const uint32_t operand : {e.a, e.b, e.c}) h.add(operand == kNone ? 0 : exprs_[operand]);
-    h.add(e.value);
-    h.add(e.anchor);
-    for (float v : e.row) h.add(v);
-    if (e.noise != kNone) {
-      const NoiseSpec& noise = chunk_.noises[e.noise];
-      h.add(noise.origin);
-      h.add(noise.period);
-      h.add(uint64_t{noise.octaves} | uint64_t{noise.seed} << 32);
+    template <class T>
+    void value(const T& v) {
+      hasher_.add(v);
     }
-    addPoints(h, e.first_point, e.point_count);
-    return h.value();
-  }
+    void names(uint16_t kind, uint16_t name, uint16_t tag) {
+      value(uint64_t{kind} | uint64_t{name} << 16 | uint64_t{tag} << 32);
+      text(signer_.program_.names[kind]);
+      text(signer_.program_.names[name]);
+      text(signer_.program_.tags[tag]);
+    }
+    void key(PathKey) {}  // entries with other keys are others
+    void operand(uint32_t operand) { value(operand == kNone ? 0 : signer_.exprs_[operand]); }
+    void noise(uint32_t noise) {
+      if (noise != kNone) visitMembers(signer_.chunk_.noises[noise], *this);
+    }
+    void points(uint32_t first, uint32_t count) {
+      value(count);
+      for (uint32_t i = 0; i < count; ++i) value(signer_.chunk_.points[first + i]);
+    }
+    uint64_t hash() const { return hasher_.value(); }
+
+   protected:
+    void text(std::string_view text) { value(hashText(text)); }
+
+    const Signer& signer_;
+
+   private:
+    Hasher hasher_;
+  };
+
+  class ShapeContent : public Content {
+   public:
+    using Content::Content;
+
+    void labels(ShapeKind kind, uint16_t material, uint16_t tag) {
+      value(uint64_t{static_cast<uint8_t>(kind)} | uint64_t{material} << 8 | uint64_t{tag} << 24);
+      text(signer_.program_.materials[material]);
+      text(signer_.program_.tags[tag]);
+    }
+    void children(uint32_t, uint32_t) {}  // sign() adds them
+    void points(uint32_t first, uint32_t count) { first_point_ = first, point_count_ = count; }
+    void expr(uint32_t root) { expr_ = root; }
+    void block(uint32_t block) { block_ = block; }
+
+    void addReferences(ShapeKind kind) {
+      Content::points(first_point_, point_count_);
+      if (block_ != kNone) {
+        const VoxelBlock& block = signer_.chunk_.blocks[block_];
+        visitMembers(block, *this);
+        for (size_t i = 0; i < block.words(); ++i) value(signer_.chunk_.voxels[block.first_word + i]);
+      }
+      const uint32_t read = expr_ == kNone ? 0 : kind == ShapeKind::warp ? 3 : 1;
+      for (uint32_t i = 0; i < read; ++i) value(signer_.exprs_[expr_ + i]);
+    }
+
+   private:
+    uint32_t first_point_ = 0, point_count_ = 0, expr_ = kNone, block_ = kNone;
+  };
 
   const Program& program_;
   const GrammarChunk& chunk_;

@@ -5,31 +5,33 @@
 namespace sgm {
 namespace {
 
-void addShape(Hasher& h, const Shape& s) {
-  h.add(uint64_t{static_cast<uint8_t>(s.kind)} | uint64_t{s.material} << 8 | uint64_t{s.tag} << 24);
-  h.add(uint64_t{s.first_child} | uint64_t{s.child_count} << 32);
-  h.add(uint64_t{s.first_point} | uint64_t{s.point_count} << 32);
-  h.add(s.expr);
-  h.add(s.detail);
-  h.add(s.coarsest);
-  h.add(s.amount);
-  h.add(s.inner_radius);
-  for (float v : s.size) h.add(v);
-  h.add(s.frame);
-  if (s.block != kNone) h.add(s.block);
-}
+/// Hashes members as they are in memory: references by their places.
+class PlaceHasher {
+ public:
+  template <class T>
+  void value(const T& v) {
+    hasher_.add(v);
+  }
+  void labels(ShapeKind kind, uint16_t material, uint16_t tag) {
+    value(uint64_t{static_cast<uint8_t>(kind)} | uint64_t{material} << 8 | uint64_t{tag} << 24);
+  }
+  void names(uint16_t kind, uint16_t name, uint16_t tag) {
+    value(uint64_t{kind} | uint64_t{name} << 16 | uint64_t{tag} << 32);
+  }
+  void key(PathKey key) { value(key.value); }
+  void children(uint32_t first, uint32_t count) { value(uint64_t{first} | uint64_t{count} << 32); }
+  void points(uint32_t first, uint32_t count) { value(uint64_t{first} | uint64_t{count} << 32); }
+  void expr(uint32_t root) { value(root); }
+  void operand(uint32_t operand) { value(operand); }
+  void noise(uint32_t noise) { value(noise); }
+  void block(uint32_t block) {
+    if (block != kNone) value(block);
+  }
+  uint64_t hash() const { return hasher_.value(); }
 
-void addExpr(Hasher& h, const Expr& e) {
-  h.add(uint64_t{static_cast<uint8_t>(e.op)});
-  h.add(e.a);
-  h.add(e.b);
-  h.add(e.c);
-  h.add(e.value);
-  h.add(e.anchor);
-  for (float v : e.row) h.add(v);
-  h.add(e.noise);
-  h.add(uint64_t{e.first_point} | uint64_t{e.point_count} << 32);
-}
+ private:
+  Hasher hasher_;
+};
 
 }  // namespace
 
@@ -58,40 +60,27 @@ void translate(GrammarChunk& chunk, Int3 offset) {
 }
 
 uint64_t hashChunk(const GrammarChunk& chunk) {
-  Hasher h;
-  h.add(chunk.layer);
-  h.add(chunk.cell);
-  h.add(uint64_t{chunk.shapes.size()});
-  for (const Shape& s : chunk.shapes) addShape(h, s);
-  for (uint32_t c : chunk.children) h.add(c);
-  h.add(uint64_t{chunk.exprs.size()});
-  for (const Expr& e : chunk.exprs) addExpr(h, e);
-  for (const NoiseSpec& n : chunk.noises) {
-    h.add(n.origin);
-    h.add(n.period);
-    h.add(uint64_t{n.octaves} | uint64_t{n.seed} << 32);
-  }
-  for (const Int3& p : chunk.points) h.add(p);
-  for (const VoxelBlock& b : chunk.blocks) {
-    h.add(b.anchor);
-    h.add(b.edge);
-    h.add(b.first);
-    h.add(b.count);
-  }
-  for (const uint64_t word : chunk.voxels) h.add(word);
-  h.add(uint64_t{chunk.groups.size()});
+  PlaceHasher h;
+  h.value(chunk.layer);
+  h.value(chunk.cell);
+  h.value(uint64_t{chunk.shapes.size()});
+  for (const Shape& s : chunk.shapes) visitMembers(s, h);
+  for (uint32_t c : chunk.children) h.value(c);
+  h.value(uint64_t{chunk.exprs.size()});
+  for (const Expr& e : chunk.exprs) visitMembers(e, h);
+  for (const NoiseSpec& n : chunk.noises) visitMembers(n, h);
+  for (const Int3& p : chunk.points) h.value(p);
+  for (const VoxelBlock& b : chunk.blocks) visitMembers(b, h);
+  for (const uint64_t word : chunk.voxels) h.value(word);
+  h.value(uint64_t{chunk.groups.size()});
   for (const Group& g : chunk.groups) {
-    h.add(uint64_t{g.root} | uint64_t{g.cut ? 1u : 0u} << 32);
-    h.add(g.bounds.lo);
-    h.add(g.bounds.hi);
-    h.add(g.key.value);
+    h.value(uint64_t{g.root} | uint64_t{g.cut ? 1u : 0u} << 32);
+    h.value(g.bounds.lo);
+    h.value(g.bounds.hi);
+    h.key(g.key);
   }
-  for (const Anchor& a : chunk.anchors) {
-    h.add(a.frame);
-    h.add(uint64_t{a.kind} | uint64_t{a.name} << 16 | uint64_t{a.tag} << 32);
-    h.add(a.key.value);
-  }
-  return h.value();
+  for (const Anchor& a : chunk.anchors) visitMembers(a, h);
+  return h.hash();
 }
 
 }  // namespace sgm

@@ -194,4 +194,63 @@ struct GrammarChunk {
         notes(memory) {}
 };
 
+// The members of each of these, listed once for all that hash or compare them. A list names every member of its struct:
+// a new one does not compile until the list has it. The visitor gets what refers to other parts of the chunk by names
+// of its own, so that it may take the place of that content in memory, or the content.
+
+template <class V>
+void visitMembers(const Shape& shape, V& v) {
+  const auto& [kind, material, tag, first_child, child_count, expr, first_point, point_count, block, detail, coarsest,
+               amount, inner_radius, size, frame] = shape;
+  v.labels(kind, material, tag);
+  v.children(first_child, child_count);
+  v.points(first_point, point_count);
+  v.expr(expr);
+  v.value(detail);
+  v.value(coarsest);
+  v.value(amount);
+  v.value(inner_radius);
+  for (const float edge : size) v.value(edge);
+  v.value(frame);
+  v.block(block);
+}
+
+template <class V>
+void visitMembers(const Expr& node, V& v) {
+  const auto& [op, a, b, c, value, anchor, row, noise, first_point, point_count] = node;
+  v.value(uint64_t{static_cast<uint8_t>(op)});
+  for (const uint32_t operand : {a, b, c}) v.operand(operand);
+  v.value(value);
+  v.value(anchor);
+  for (const float part : row) v.value(part);
+  v.noise(noise);
+  v.points(first_point, point_count);
+}
+
+template <class V>
+void visitMembers(const NoiseSpec& spec, V& v) {
+  const auto& [origin, period, octaves, seed] = spec;
+  v.value(origin);
+  v.value(period);
+  v.value(uint64_t{octaves} | uint64_t{seed} << 32);
+}
+
+/// Without the place of its voxels, which are visited apart.
+template <class V>
+void visitMembers(const VoxelBlock& block, V& v) {
+  const auto& [anchor, edge, first, count, first_word] = block;
+  v.value(anchor);
+  v.value(edge);
+  v.value(first);
+  v.value(count);
+}
+
+template <class V>
+void visitMembers(const Anchor& anchor, V& v) {
+  const auto& [frame, kind, name, tag, key] = anchor;
+  v.value(frame);
+  v.names(kind, name, tag);
+  v.key(key);
+}
+
 }  // namespace sgm
