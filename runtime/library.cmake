@@ -3,8 +3,9 @@
 include(GNUInstallDirs)
 
 set(SGM_MODULES base asset asset_read grammar_text grammar_std grammar_syntax grammar_range grammar_parse grammar_print
-  grammar_check grammar_reach grammar derive derive_layout derive_interpret field mesh measure texture backend backend_cpu
-  cuda cuda_backend backend_open world chunk query region store_cache stream_edits stream_plan stream_make stream store api)
+  grammar_identity grammar_check grammar_reach grammar derive derive_layout derive_interpret field mesh measure texture
+  backend backend_cpu cuda cuda_backend backend_open world chunk query region store_cache stream_edits stream_plan
+  stream_make stream store api)
 if(SGM_VULKAN)
   list(APPEND SGM_MODULES vulkan backend_vulkan)
 endif()

@@ -65,6 +65,15 @@ bool getExtra(std::span<const std::byte> bytes, const ChunkPartInputs& inputs, C
   return in.left() == 0;
 }
 
+std::optional<std::vector<std::byte>> bakedInputs(std::optional<std::vector<std::byte>> identity, bool sharp) {
+  if (!identity) return std::nullopt;
+  ByteWriter out(*identity);
+  out.put(kMeshingVersion);
+  out.put(kChunkCodecVersion);
+  out.put(static_cast<uint8_t>(sharp));
+  return identity;
+}
+
 }  // namespace
 
 bool asksFor(const ChunkRequest& request, int part) {
@@ -72,13 +81,11 @@ bool asksFor(const ChunkRequest& request, int part) {
 }
 
 std::optional<std::vector<std::byte>> bakedWorldInputs(const WorldField& world, bool sharp) {
-  std::optional<std::vector<std::byte>> bytes = world.identity();
-  if (!bytes) return std::nullopt;
-  ByteWriter out(*bytes);
-  out.put(kMeshingVersion);
-  out.put(kChunkCodecVersion);
-  out.put(static_cast<uint8_t>(sharp));
-  return bytes;
+  return bakedInputs(world.identity(), sharp);
+}
+
+std::optional<std::vector<std::byte>> formerBakedWorldInputs(const WorldField& world, bool sharp) {
+  return bakedInputs(world.formerIdentity(), sharp);
 }
 
 std::optional<ChunkPartInputs> ChunkPartInputs::of(const WorldField& world, const ChunkRequest& request,

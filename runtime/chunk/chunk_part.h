@@ -31,6 +31,8 @@ bool asksFor(const ChunkRequest& request, int part);
 /// Returns the inputs that all baked parts of a world have in common, for BakedParts::worldOf: equal inputs give equal
 /// parts. nullopt if the world has no identity (WorldField::identity). sharp: with sharp features.
 std::optional<std::vector<std::byte>> bakedWorldInputs(const WorldField& world, bool sharp);
+/// The same inputs as version 0.2 wrote them (WorldField::formerIdentity).
+std::optional<std::vector<std::byte>> formerBakedWorldInputs(const WorldField& world, bool sharp);
 
 /// Everything that the parts of a request depend on. Immutable.
 class ChunkPartInputs {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "base/hash.h"
 #include "grammar/check/check.h"
 #include "grammar/check/layer_contents.h"
 #include "grammar/check/recursion.h"
 #include "grammar/check/warnings.h"
 #include "grammar/check_file.h"
+#include "grammar/identity/hash_meaning.h"
 #include "grammar/parse/imports.h"
 #include "grammar/parse/parse_module.h"
 #include "grammar/print/printer.h"
@@ -78,10 +78,7 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   if (unread == 0) {
     // Print before the checker resolves names, which rewrites calls.
     program->canonical = printModule(*program, syntax[0]);
-    program->hash = hashText("sgm 1");
-    for (const ModuleSyntax& module : syntax)
-      program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
-    for (const Asset& asset : program->assets) program->hash = hashCombine(program->hash, asset.hash);
+    program->hash = hashMeaning(*program, syntax);
   }
   // The parsed part is checked even after errors, so that one run reports all problems.
   if (!sink.full()) {

@@ -63,16 +63,20 @@ ChunkRequest requestOf(const Bakery& bakery, const ChunkKey& chunk) {
 
 }  // namespace
 
-Result<ContentId> worldKey(const WorldField& world, bool sharp) {
+Result<ContentId> worldKey(const Folder& store, const WorldField& world, bool sharp) {
   const std::optional<std::vector<std::byte>> bytes = bakedWorldInputs(world, sharp);
   if (!bytes) return Error{Code::invalid_argument, "a world without an identity cannot be baked"};
-  return idOf(*bytes);
+  const ContentId key = idOf(*bytes);
+  std::error_code error;
+  if (std::filesystem::exists(store.world(key), error)) return key;
+  const ContentId former = idOf(*formerBakedWorldInputs(world, sharp));
+  return std::filesystem::exists(store.world(former), error) ? former : key;
 }
 
 Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jobs, const BakedRegion& region,
                         bool sharp, const Folder& store, std::pmr::memory_resource* memory) {
   if (Result<void> good = check(region); !good) return good.error();
-  const Result<ContentId> key = worldKey(world, sharp);
+  const Result<ContentId> key = worldKey(store, world, sharp);
   if (!key) return key.error();
   const ContentId job = jobKey(*key, region);
   return Bakery{world, backend, jobs, region, sharp, *key, job, store.baking(job), nullptr, memory};

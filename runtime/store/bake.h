@@ -25,9 +25,10 @@ struct Bakery {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// Returns a hash that identifies all baked content of a world: its identity, and how it is meshed and encoded. Error:
-/// invalid_argument if the world has no identity.
-Result<ContentId> worldKey(const WorldField& world, bool sharp);
+/// Returns a hash that identifies all baked content of a world: its identity, and how it is meshed and encoded. If
+/// version 0.2 baked the world into the store, returns the key under which it did. Error: invalid_argument if the world
+/// has no identity.
+Result<ContentId> worldKey(const Folder& store, const WorldField& world, bool sharp);
 /// Returns a hash that identifies the region in addition to the world.
 ContentId jobKey(const ContentId& world, const BakedRegion& region);
 

@@ -38,12 +38,12 @@ class StoreSource final : public BakedParts {
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return idOf(inputs); }
 
-  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
+  std::optional<BakedPart> get(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach,
                                std::pmr::memory_resource* memory) override {
     bool damaged = false;
     for (const auto& store : stores_) {
       if (reach == Reach::near && store->files().isFar()) continue;
-      Result<std::optional<FoundPart>> found = store->find(world, chunk, part, memory);
+      Result<std::optional<FoundPart>> found = findIn(*store, world, chunk, part, memory);
       damaged = damaged || (!found && found.error().code != Code::busy);
       if (!found || !*found) continue;
       const std::lock_guard lock(mutex_);
@@ -60,10 +60,10 @@ class StoreSource final : public BakedParts {
     return std::nullopt;
   }
 
-  void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) override {
+  void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) override {
     // Rejects the part in all stores, because it is the same in each.
     for (const auto& store : stores_) {
-      if (reach == Reach::far || !store->files().isFar()) store->reject(world, chunk, part);
+      if (reach == Reach::far || !store->files().isFar()) store->reject(keyIn(*store, world), chunk, part);
     }
     const std::lock_guard lock(mutex_);
     --stats_.hits;
@@ -85,11 +85,22 @@ class StoreSource final : public BakedParts {
   }
 
  private:
+  /// Returns the key under which a store may have the world. Precondition: the store was searched for the world.
+  static DiskKey keyIn(OpenStore& store, const BakedWorld& world) {
+    return world.former_key && store.lacks(world.key) ? world.former_key() : world.key;
+  }
+  static Result<std::optional<FoundPart>> findIn(OpenStore& store, const BakedWorld& world, const ChunkKey& chunk,
+                                                 int part, std::pmr::memory_resource* memory) {
+    Result<std::optional<FoundPart>> found = store.find(world.key, chunk, part, memory);
+    if (!found || *found) return found;
+    const DiskKey key = keyIn(store, world);
+    return key == world.key ? std::move(found) : store.find(key, chunk, part, memory);
+  }
   /// Reports that no store has data of a world. Only the first such world is reported: animated parameters request
   /// many.
-  void tellIfLacking(const DiskKey& world) {
+  void tellIfLacking(const BakedWorld& world) {
     if (has_told_lack_ || !log_ || stores_.empty()) return;
-    const auto lacks = [&](const auto& store) { return store->lacks(world); };
+    const auto lacks = [&](const auto& store) { return store->lacks(keyIn(*store, world)); };
     if (!std::all_of(stores_.begin(), stores_.end(), lacks) || has_told_lack_.exchange(true)) return;
     std::string places;
     for (const auto& store : stores_) places += (places.empty() ? "'" : ", '") + store->files().nameOf("") + "'";

@@ -97,8 +97,9 @@ Result<void> openJournal(WorldCore& core) {
   const std::optional<std::vector<std::byte>> identity = field->identity();
   if (!identity) return Error{Code::unsupported, "a world without a grammar cannot have an edit journal"};
   const WorldFieldSettings& of = field->settings();
+  const FormerGrammar former = [&] { return checksum(*field->formerIdentity()); };
   const Result<std::string> opened =
-      core.edits.open(core.settings.journal, {checksum(*identity), of.seed, of.finest_cell});
+      core.edits.open(core.settings.journal, {checksum(*identity), of.seed, of.finest_cell}, former);
   if (!opened) return opened.error();
   if (!opened->empty() && core.settings.on_warning) core.settings.on_warning(*opened);
   return {};

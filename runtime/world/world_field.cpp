@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "derive/chunk_ops.h"
 #include "derive/coarse_chunk.h"
+#include "grammar/identity/former_hash.h"
 #include "world/layers_below.h"
 
 namespace sgm {
@@ -50,9 +51,18 @@ WorldField::WorldField(WorldFieldSettings settings, std::shared_ptr<const Derive
 
 std::optional<std::vector<std::byte>> WorldField::identity() const {
   if (alone_) return std::nullopt;
+  return identityWith(settings_.program->hash);
+}
+
+std::optional<std::vector<std::byte>> WorldField::formerIdentity() const {
+  if (alone_) return std::nullopt;
+  return identityWith(formerHash(*settings_.program));
+}
+
+std::vector<std::byte> WorldField::identityWith(uint64_t grammar) const {
   std::vector<std::byte> bytes;
   ByteWriter out(bytes);
-  out.put(settings_.program->hash);
+  out.put(grammar);
   out.put(uint64_t{settings_.parameters.values.size()});
   for (double value : settings_.parameters.values) out.put(value);
   out.put(settings_.seed);

@@ -60,6 +60,9 @@ class WorldField {
   /// Returns bytes that identify the field: they change with everything that changes a result, but not with the layout
   /// and comments of the grammar. nullopt if the field was made of a single cell, whose content has no name.
   std::optional<std::vector<std::byte>> identity() const;
+  /// The bytes that identify the field in files of version 0.2. The first call for a program parses it again
+  /// (formerHash).
+  std::optional<std::vector<std::byte>> formerIdentity() const;
 
   /// Copies the derived cells of another field that this field would derive alike, because the parameters that they
   /// have read do not differ. Copies none if the program, seed or shift differ.
@@ -152,6 +155,9 @@ class WorldField {
 
   /// Derives a cell without the cache. cell_edge: as in CellKey.
   Result<GrammarChunk> derive(uint32_t layer, Int3 cell, int32_t cell_edge) const;
+
+  /// The identity with this hash of the grammar.
+  std::vector<std::byte> identityWith(uint64_t grammar) const;
 
   WorldFieldSettings settings_;
   std::shared_ptr<const DerivedCell> alone_;

@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
       const double begun = bench::now();
       for (int part = 0; part < kChunkParts; ++part) {
         if (!asksFor(request, part)) continue;
-        const auto part_there = source->get(key, request.key, part, Reach::far, memory);
+        const auto part_there = source->get({key}, request.key, part, Reach::far, memory);
         if (!part_there || !decodeChunkPart(part_there->bytes, part, inputs, memory, BytesAre::whole)) return 1;
       }
       decoding.push_back(bench::now() - begun);

@@ -13,6 +13,7 @@ namespace sgm {
 std::string printModule(const Program& program, const ModuleSyntax& syntax);
 
 /// Prints one line that is equal for files of equal meaning: no comments, no superfluous parentheses, numbers by value.
+/// It judges hashMeaning (identity/hash_meaning.h) in tests, and its hash is the identity of programs of version 0.2.
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax);
 
 /// "watertight", "components", ...

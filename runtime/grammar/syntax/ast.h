@@ -136,7 +136,7 @@ constexpr bool placesBody(StmtKind kind) { return infoOf(kind).role == StmtRole:
 /// stmts.def says which statement uses which member for what.
 struct StmtNode {
   StmtKind kind = StmtKind::block;
-  bool power = false;        ///< of a morph
+  bool power = false;        ///< morph: by exponent
   bool layer_level = false;  ///< resolved, cut and inner: cuts the domain if its rule is a layer's start
   uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
   uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
@@ -145,14 +145,13 @@ struct StmtNode {
   ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
   ExprId plan = kNoId;    ///< extrude, roof: a name
   StmtId body = kNoId;
-  uint32_t slot = kNoId;                   ///< resolved: let, for_each, footprint
-  uint32_t extra = kNoId, extra2 = kNoId;  ///< resolved, mat: Program::materials, tag: Program::tags, anchor: kind and
-                                           ///< name in Program::names
-  NameId name = kNoId;                     ///< as written: loop variable, let, footprint, mat, tag, anchor kind
-  NameId name2 = kNoId;                    ///< as written: anchor name
-  IdRange children;                        ///< into Ast::ids (StmtId)
-  IdRange xforms;                          ///< into Ast::xforms
-  IdRange parts;                           ///< into Ast::parts: as many as children
+  uint32_t slot = kNoId;  ///< resolved: let, for_each, footprint
+  uint32_t extra = kNoId, extra2 = kNoId;
+  NameId name = kNoId;   ///< as written: loop variable, let, footprint, mat, tag, anchor kind
+  NameId name2 = kNoId;  ///< as written: anchor name
+  IdRange children;      ///< into Ast::ids (StmtId)
+  IdRange xforms;        ///< into Ast::xforms
+  IdRange parts;         ///< into Ast::parts: as many as children
   Span span;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fixed.h"
+#include "base/lazy_number.h"
 #include "grammar/syntax/ast.h"
 #include "grammar/text/diagnostics.h"
 
@@ -253,6 +254,7 @@ class Program {
   /// Of the meaning of all files: independent of layout, comments, superfluous parentheses, and of asset content other
   /// than shapes and materials.
   uint64_t hash = 0;
+  LazyNumber former_hash;  ///< of formerHash (identity/former_hash.h)
 
   std::string_view text(NameId id) const { return id == kNoId ? std::string_view() : std::string_view(ast.names[id]); }
   const ExprNode& expr(ExprId id) const { return ast.exprs[id]; }

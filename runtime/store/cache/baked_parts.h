@@ -1,6 +1,7 @@
 #pragma once
 // The interface of sources of baked chunk parts, independent of where these are stored.
 
+#include <functional>
 #include <optional>
 
 #include "store/cache/disk_cache.h"
@@ -21,6 +22,14 @@ struct BakedPart {
   bool is_far = false;  ///< true: the part came from a server, so that it is worth storing in a disk cache
 };
 
+/// The keys under which stores may have the parts of a world.
+struct BakedWorld {
+  DiskKey key;
+  /// Gives the key of worlds baked by version 0.2, which may take milliseconds; called only for stores that have
+  /// nothing under `key`. Null: none.
+  std::function<DiskKey()> former_key{};
+};
+
 /// Where get() searches: only on this machine (near), which takes the time of a disk access, or also on servers (far).
 enum class Reach : uint8_t { near, far };
 
@@ -35,12 +44,12 @@ class BakedParts {
   /// Returns a baked part: the output of encodeChunkPart for that world without edits, in `memory`. A body of level 0
   /// has its anchors and voids; a seam leads to the next coarser level. Verified by a hash of all bytes. nullopt if the
   /// part is missing, unreadable or invalid. Throws std::bad_alloc.
-  virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
+  virtual std::optional<BakedPart> get(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
   /// Call this if the result of get() with this reach was invalid. Counts a damaged miss instead of the hit; get() will
   /// not return that part again.
-  virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) = 0;
+  virtual void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) = 0;
 
   /// True if some parts may be on servers: then searches take time, so a disk cache should be searched first. Never
   /// changes.

@@ -51,7 +51,8 @@ Bytes headOf(const WorldIdentity& world) {
 }
 
 /// Checks that the bytes begin a journal of this world. Precondition: there are at least kHeadBytes bytes.
-Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, const WorldIdentity& world) {
+Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, const WorldIdentity& world,
+                       const FormerGrammar& former) {
   ByteReader in(bytes);
   const auto bad = [&](const std::string& why) { return journalError(Code::bad_input, path, why); };
   if (in.get<uint64_t>() != kJournalMagic) return bad("it is not an edit journal");
@@ -62,11 +63,12 @@ Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, c
   const WorldIdentity of{0, 0, in.get<int32_t>()};
   const auto grammar = in.get<uint64_t>(), seed = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksum(bytes.first(kHeadBytes - 8))) return bad("its header is damaged");
+  const auto isOtherGrammar = [&] { return grammar != world.grammar && (!former || grammar != former()); };
   // The grammar's hash is compared last, because it includes the seed and the cell.
-  const char* differs = seed != world.seed         ? "seed"
-                        : of.cell != world.cell    ? "finest cell"
-                        : grammar != world.grammar ? "grammar, other parameters or other host fields"
-                                                   : nullptr;
+  const char* differs = seed != world.seed      ? "seed"
+                        : of.cell != world.cell ? "finest cell"
+                        : isOtherGrammar()      ? "grammar, other parameters or other host fields"
+                                                : nullptr;
   if (differs) return bad("it belongs to another world, with another " + std::string(differs));
   return {};
 }
@@ -186,7 +188,8 @@ Result<fs::path> setAside(const fs::path& path, std::span<const std::byte> bytes
 
 }  // namespace
 
-Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdentity& world) {
+Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdentity& world,
+                                        const FormerGrammar& former) {
   std::error_code why;
   const fs::path followed = fs::weakly_canonical(given, why), path = why ? given : followed;
   Result<File> file = openLocked(path);
@@ -204,7 +207,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
     *bytes = head;
   }
   if (bytes->size() < kHeadBytes) return journalError(Code::bad_input, path, "it is not an edit journal");
-  if (Result<void> ours = checkHead(path, *bytes, world); !ours) return ours.error();
+  if (Result<void> ours = checkHead(path, *bytes, world, former); !ours) return ours.error();
 
   size_t whole = kHeadBytes;
   const std::span<const std::byte> all(*bytes);

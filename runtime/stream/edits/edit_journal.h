@@ -3,6 +3,7 @@
 // checksum.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -17,6 +18,9 @@ struct WorldIdentity {
   int32_t cell = 0;  ///< edge of the finest cell in units
 };
 
+/// Returns the hash of the grammar that version 0.2 wrote as WorldIdentity::grammar. A call may take milliseconds.
+using FormerGrammar = std::function<uint64_t()>;
+
 struct OpenedJournal;
 
 /// Thread-safe. All operations that were flushed are read when the file is opened again, even after a crash of the
@@ -25,9 +29,12 @@ class EditJournal {
  public:
   /// Opens or creates the file. If the file is damaged, it is renamed, and a new file continues with the content before
   /// the damage. If most operations are no longer essential (essentialEdits), the file is rewritten without them.
+  /// former: called only if the file's hash of the grammar is not `world.grammar`; its result is accepted as well, and
+  /// the file keeps that hash until it is rewritten. May be null.
   /// Errors: io if the file cannot be read or written, or the disk is full; bad_input if it is not a journal, or is of
   /// another version or world (the file is not changed); limit if the file is already open, or larger than a gigabyte.
-  static Result<OpenedJournal> open(const std::filesystem::path& path, const WorldIdentity& world);
+  static Result<OpenedJournal> open(const std::filesystem::path& path, const WorldIdentity& world,
+                                    const FormerGrammar& former = {});
 
   EditJournal(const EditJournal&) = delete;
   EditJournal& operator=(const EditJournal&) = delete;

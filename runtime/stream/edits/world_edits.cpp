@@ -15,8 +15,9 @@ WorldEdits::WorldEdits(std::shared_ptr<const WorldField> field, const EditSettin
                        std::pmr::memory_resource* memory)
     : log_(settings, memory), field_(std::move(field)) {}
 
-Result<std::string> WorldEdits::open(const std::filesystem::path& path, const WorldIdentity& world) {
-  Result<OpenedJournal> opened = EditJournal::open(path, world);
+Result<std::string> WorldEdits::open(const std::filesystem::path& path, const WorldIdentity& world,
+                                     const FormerGrammar& former) {
+  Result<OpenedJournal> opened = EditJournal::open(path, world, former);
   if (!opened) return opened.error();
   const std::lock_guard lock(mutex_);
   const Result<void> merged = merge([&] { return log_.merge(opened->operations); });

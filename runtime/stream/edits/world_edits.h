@@ -40,9 +40,10 @@ class WorldEdits {
   WorldEdits(std::shared_ptr<const WorldField> field, const EditSettings& settings, std::pmr::memory_resource* memory);
 
   /// Adds the operations of a journal, and uses it for writing from now on. Returns a message for the log
-  /// (OpenedJournal::message). Call once, before all other functions. Errors: those of EditJournal::open and
-  /// EditLog::merge.
-  Result<std::string> open(const std::filesystem::path& path, const WorldIdentity& world);
+  /// (OpenedJournal::message). Call once, before all other functions. former: see EditJournal::open. Errors: those of
+  /// EditJournal::open and EditLog::merge.
+  Result<std::string> open(const std::filesystem::path& path, const WorldIdentity& world,
+                           const FormerGrammar& former = {});
 
   /// These functions do the same as those of EditLog.
   Result<EditId> add(const Brush& brush);

@@ -20,8 +20,8 @@ struct FoundBaked {
   bool is_far;
 };
 
-std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, const ChunkPartInputs& inputs, int part,
-                                     Reach reach, std::pmr::memory_resource* memory) {
+std::optional<FoundBaked> fetchBaked(BakedParts& baked, const BakedWorld& world, const ChunkPartInputs& inputs,
+                                     int part, Reach reach, std::pmr::memory_resource* memory) {
   const ChunkRequest& request = inputs.request();
   const auto stored = baked.get(world, request.key, part, reach, memory);
   if (!stored) return std::nullopt;
@@ -45,7 +45,7 @@ void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const 
 }
 
 /// Searches the disk cache and the stores; the cache first if a store is on a server, else the stores first.
-std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
+std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const BakedWorld& world,
                                 const ChunkPartInputs& inputs, int part, Reach reach,
                                 std::pmr::memory_resource* memory) {
   const bool cache_first = cache != nullptr && baked != nullptr && baked->isFar();
@@ -115,8 +115,13 @@ using Parts = decltype(FoundParts::parts);
 Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach reach) {
   const ChunkRequest& request = inputs.request();
   Parts found;
-  DiskKey world;
-  if (mesher.baked != nullptr) world = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
+  BakedWorld world;
+  if (mesher.baked != nullptr) {
+    world.key = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
+    world.former_key = [&mesher, sharp = request.sharp] {
+      return mesher.baked->worldOf(*formerBakedWorldInputs(mesher.world, sharp));
+    };
+  }
   for (int part = 0; part < kChunkParts; ++part) {
     if (!asksFor(request, part)) continue;
     found[static_cast<size_t>(part)] = lookUp(mesher.cache, mesher.baked, world, inputs, part, reach, mesher.memory);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "catch.h"
-#include "grammar/parse/parser.h"
+#include "grammar/parse/parse_module.h"
 #include "random_program.h"
 
 namespace sgm::test {
@@ -30,7 +30,7 @@ inline Parsed parsed(std::string_view text) {
   const CompileLimits limits;
   DiagnosticSink sink(limits.diagnostics);
   sink.addFile("test.sgm");
-  result.syntax = Parser(*result.program, names, 0, limits, sink).run();
+  result.syntax = parseModule(*result.program, names, 0, limits, sink);
   if (sink.errorCount() > 0) result.program.reset();
   return result;
 }

@@ -62,7 +62,7 @@ class FarFolder final : public BakedParts {
   std::atomic<size_t> asked = 0, answers = 0, asked_by_jobs = 0;
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return parts_->worldOf(inputs); }
-  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
+  std::optional<BakedPart> get(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach,
                                std::pmr::memory_resource* memory) override {
     if (reach == Reach::near) return std::nullopt;
     ++asked;
@@ -83,7 +83,7 @@ class FarFolder final : public BakedParts {
     if (found) found->is_far = true;
     return found;
   }
-  void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) override {
+  void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) override {
     parts_->reject(world, chunk, part, reach);
   }
   bool isFar() const override { return true; }

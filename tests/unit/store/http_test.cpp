@@ -88,9 +88,9 @@ TEST_CASE("what lies in a folder is asked of no server, whichever comes first", 
   const ChunkRequest& request = baked.requests[0];
   const DiskKey world = far->worldOf(*bakedWorldInputs(baked.baking.world, false));
   std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
-  CHECK(!far->get(world, request.key, 0, Reach::near, memory));
+  CHECK(!far->get({world}, request.key, 0, Reach::near, memory));
   CHECK(server.requests == 0);
-  CHECK(far->get(world, request.key, 0, Reach::far, memory));
+  CHECK(far->get({world}, request.key, 0, Reach::far, memory));
 }
 
 TEST_CASE("what a server gave once is kept in the disk cache", "[store]") {

@@ -103,7 +103,7 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, J
   if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const WorldField world(opened.settings, memory);
-  const Result<store::ContentId> key = store::worldKey(world, options.sharp);
+  const Result<store::ContentId> key = store::worldKey(folder, world, options.sharp);
   if (!key) return complain(key.error());
   std::error_code error;
   if (!fs::exists(folder.world(*key), error)) {
