@@ -66,7 +66,9 @@ Command addBench(CLI::App& root) {
   group->require_subcommand(1);
   const Command chunks = addBenchChunks(*group), paper = addBenchPaper(*group);
   group->footer("Example:\n  sgm bench paper --size 64 --runs 3");
-  return [group, chunks, paper] { return group->got_subcommand("chunks") ? chunks() : paper(); };
+  return [group, chunks, paper](const Words& words) {
+    return group->got_subcommand("chunks") ? chunks(words) : paper(words);
+  };
 }
 
 Command addPaper(CLI::App& root) {

@@ -127,9 +127,9 @@ Command addStore(CLI::App& root) {
   group->footer(
       "sgm bake makes stores.\n"
       "Example:\n  sgm store verify store");
-  return [group, commands] {
+  return [group, commands](const Words& words) {
     for (const auto& [name, command] : commands) {
-      if (group->got_subcommand(name)) return command();
+      if (group->got_subcommand(name)) return command(words);
     }
     return Exit::usage;
   };
