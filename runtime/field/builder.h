@@ -1,23 +1,20 @@
 #pragma once
-// Builds field programs, group by group. Only this class defines the parameter words of each op and allocates
-// registers.
+// Builds field programs, group by group. Only these classes define the parameter words of each op.
 
 #include <span>
 
 #include "base/result.h"
 #include "derive/shape.h"
 #include "field/lattice.h"
+#include "field/op_sequence.h"
+#include "field/parameter_writer.h"
 #include "field/program.h"
 
 namespace sgm {
 
-/// The result of an op in the group under construction.
-struct Value {
-  uint32_t id = kNone;
-};
-
-/// Not thread-safe. Lengths are in units unless noted; all numbers must be finite, and sizes positive. Primitives and
-/// coordinates read the current place, a position: the sample's, or the result of the innermost warp (pushWarp).
+/// The program of the groups so far, and the ops of the group under construction. Not thread-safe. Lengths are in units
+/// unless noted; all numbers must be finite, and sizes positive. Primitives and coordinates read the current place, a
+/// position: the sample's, or the result of the innermost warp (pushWarp).
 class ProgramBuilder {
  public:
   /// finest_cell: in units, at least 1; sets the scale of the quantised samples Q. solid, label: of the domain, which
@@ -60,26 +57,10 @@ class ProgramBuilder {
   Value ternary(Op op, Value a, Value b, Value c);      ///< op: mix, morph
   Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falling if upper < lower
 
-  /// A round union, or a sum with a compact kernel, over any number of operands: begin the accumulator, add each
-  /// operand, end it. No other functions may read an accumulator.
-  struct Accumulator {
-    Value nearest, sum;
-    float k = 0;
-  };
-  Accumulator beginRound(float k);
-  void addRound(const Accumulator& acc, Value d);
-  Value endRound(const Accumulator& acc);
-  Accumulator beginSum();
-  /// weight: never negative, because pruning drops an operand whose weight is nowhere above 0.
-  void addSum(const Accumulator& acc, Value weight);
-  /// threshold: the sum of weights at the surface. length: the factor in units that turns the dimensionless difference
-  /// from the threshold into a distance.
-  Value endSum(const Accumulator& acc, float threshold, float length);
-
   /// Evaluates the values that follow at the position p + round(1024 (x, y, z)), until popWarp(). p: the current place;
   /// x, y, z: in metres.
-  void pushWarp(Value x, Value y, Value z);
-  void popWarp();
+  void pushWarp(Value x, Value y, Value z) { ops_.pushWarp(x, y, z); }
+  void popWarp() { ops_.popWarp(); }
 
   /// Ends the group. Groups must be emitted in order of layer, and adds before cuts within a layer; a smooth group must
   /// be the only one of its layer. smooth: width of the blend in units, at most 2^20; 0: none. Error: limit if the
@@ -89,26 +70,43 @@ class ProgramBuilder {
   FieldProgram finish() { return std::move(program_); }
 
  private:
-  struct Step {
-    Op op;
-    uint32_t dst = kNone, a = kNone, b = kNone, c = kNone;
-    uint8_t place = 0;
-    uint32_t params = 0;
-  };
+  friend class RoundUnion;
+  friend class KernelSum;
 
-  uint32_t beginPrimitive(Int3 centre, uint32_t label);
-  uint32_t beginFramed(const Frame& frame, uint32_t label);
-  Value emit(Op op, uint32_t params, Value a = {}, Value b = {}, Value c = {});
-  void put(float f);
-  void put(int32_t i);
-  void put(Int3 p);
-  uint32_t mark() const { return static_cast<uint32_t>(program_.params.size()); }
+  ParameterWriter words() { return ParameterWriter(program_.params); }
 
   FieldProgram program_;
-  std::pmr::vector<Step> steps_;
-  uint32_t next_value_ = 0;
-  uint8_t place_ = 0;
-  bool too_deep_ = false;
+  OpSequence ops_;
+};
+
+/// A round union over any number of operands: the two values that accumulate them. No other functions may read these
+/// values. The builder must outlive the union, and the union must end within its group.
+class RoundUnion {
+ public:
+  /// k: the radius of the rounding in units.
+  RoundUnion(ProgramBuilder& builder, float k);
+  void add(Value d);
+  Value end();
+
+ private:
+  ProgramBuilder* builder_;
+  float k_;
+  Value sum_, nearest_;
+};
+
+/// A sum with a compact kernel over any number of operands: the two values that accumulate them, as in RoundUnion.
+class KernelSum {
+ public:
+  explicit KernelSum(ProgramBuilder& builder);
+  /// weight: never negative, because pruning drops an operand whose weight is nowhere above 0.
+  void add(Value weight);
+  /// threshold: the sum of weights at the surface. length: the factor in units that turns the dimensionless difference
+  /// from the threshold into a distance.
+  Value end(float threshold, float length);
+
+ private:
+  ProgramBuilder* builder_;
+  Value sum_, nearest_;
 };
 
 }  // namespace sgm

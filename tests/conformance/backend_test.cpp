@@ -169,7 +169,7 @@ TEST_CASE(
   for (const float time : kTimes) {
     for (uint32_t reader = 0; reader < kReaders; ++reader) {
       ProgramBuilder b(512, false, makeLabel(1, 0));
-      const auto sum = b.beginSum();
+      KernelSum sum(b);
       Value t = b.constant(time), kernel, shape;
       for (uint16_t i = 0; i < 12; ++i) {
         const Int3 at{static_cast<int32_t>(between(-5000, 5000)), static_cast<int32_t>(between(-5000, 5000)),
@@ -180,13 +180,13 @@ TEST_CASE(
         const Value ball = b.sphere(at, r, makeLabel(2, i));
         shape = b.ternary(Op::morph, ball, b.superquadric(frame, r, 0.5f * r, r, 4, makeLabel(3, i)), t);
         kernel = b.kernelWeight(shape, 0.6f * r);
-        b.addSum(sum, kernel);
+        sum.add(kernel);
       }
       // A value that is also read elsewhere cannot be merged into the sum.
-      if (reader == 1) b.addSum(sum, kernel);
-      if (reader == 2) b.addSum(sum, b.binary(Op::multiply, kernel, kernel));
-      if (reader == 3) b.addSum(sum, b.binary(Op::maximum, t, b.constant(0.01f)));
-      Value root = b.endSum(sum, 0.2263f, 1500);
+      if (reader == 1) sum.add(kernel);
+      if (reader == 2) sum.add(b.binary(Op::multiply, kernel, kernel));
+      if (reader == 3) sum.add(b.binary(Op::maximum, t, b.constant(0.01f)));
+      Value root = sum.end(0.2263f, 1500);
       if (reader == 4) root = b.binary(Op::cut, root, b.ternary(Op::mix, shape, root, t));
       REQUIRE(b.group(root, IntBox::everything(), 0, false));
       NamedJob& one = jobs.emplace_back();

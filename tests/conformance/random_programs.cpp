@@ -289,22 +289,22 @@ class Generator {
   }
 
   Value round(int depth) {
-    const auto acc = builder_.beginRound(size() * 0.3f);
-    for (int n = 1 + pick(6); n > 0; --n) builder_.addRound(acc, shape(depth - 1));
-    return builder_.endRound(acc);
+    RoundUnion acc(builder_, size() * 0.3f);
+    for (int n = 1 + pick(6); n > 0; --n) acc.add(shape(depth - 1));
+    return acc.end();
   }
 
   Value sum(int depth) {
-    const auto acc = builder_.beginSum();
+    KernelSum acc(builder_);
     for (int n = 1 + pick(8); n > 0; --n) {
       if (pick(3) != 0) {
-        builder_.addSum(acc, primitive(Op::blob));
+        acc.add(primitive(Op::blob));
       } else {
         const Value distance = shape(depth - 1);
-        builder_.addSum(acc, builder_.kernelWeight(distance, size()));
+        acc.add(builder_.kernelWeight(distance, size()));
       }
     }
-    return builder_.endSum(acc, 0.2263f, size());
+    return acc.end(0.2263f, size());
   }
 
   IntBox influence() {

@@ -59,18 +59,18 @@ class ListMaker {
     Value root;
     switch (within(0, 3)) {
       case 0: {
-        auto sum = builder_.beginSum();
+        KernelSum sum(builder_);
         some([&](int kind) {
-          builder_.addSum(sum, kind < 3 ? builder_.blobWeight(place(), size(), static_cast<uint32_t>(kind))
-                                        : builder_.kernelWeight(primitive(kind), size()));
+          sum.add(kind < 3 ? builder_.blobWeight(place(), size(), static_cast<uint32_t>(kind))
+                           : builder_.kernelWeight(primitive(kind), size()));
         });
-        root = builder_.endSum(sum, 0.25f, size());
+        root = sum.end(0.25f, size());
         break;
       }
       case 1: {
-        auto round = builder_.beginRound(size());
-        some([&](int kind) { builder_.addRound(round, primitive(kind)); });
-        root = builder_.endRound(round);
+        RoundUnion round(builder_, size());
+        some([&](int kind) { round.add(primitive(kind)); });
+        root = round.end();
         break;
       }
       default:

@@ -80,9 +80,9 @@ TEST_CASE("what a mix or a morph goes by is a parameter where it is constant", "
     Tapes tapes;
     ProgramBuilder b = builder();
     const Value constant = b.constant(0.25f);
-    const auto sum = b.beginSum();
-    b.addSum(sum, b.kernelWeight(ball(b, 0), 500));
-    tapes.of(b, b.binary(Op::minimum, morph(b, b.endSum(sum, 0.2f, 1000)), constant));
+    KernelSum sum(b);
+    sum.add(b.kernelWeight(ball(b, 0), 500));
+    tapes.of(b, b.binary(Op::minimum, morph(b, sum.end(0.2f, 1000)), constant));
     CHECK_FALSE(tapes.first(Op::morph).by_constant);
   }
 }
@@ -91,10 +91,10 @@ TEST_CASE("what a sum adds is a part of the addition, unless others read it", "[
   const auto summed = [](float time, int readers_of) {
     Tapes tapes;
     ProgramBuilder b = builder();
-    const auto sum = b.beginSum();
+    KernelSum sum(b);
     const Value shape = morph(b, b.constant(time)), weight = b.kernelWeight(shape, 500);
-    b.addSum(sum, weight);
-    Value root = b.endSum(sum, 0.2f, 1000);
+    sum.add(weight);
+    Value root = sum.end(0.2f, 1000);
     if (readers_of == 1) root = b.binary(Op::minimum, root, weight);
     if (readers_of == 2) root = b.binary(Op::minimum, root, shape);
     tapes.of(b, root);

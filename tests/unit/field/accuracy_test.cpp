@@ -189,15 +189,15 @@ FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
       break;
     }
     case Op::round_end: {
-      const auto acc = b.beginRound(std::abs(number()));
-      for (int i = 0; i < 9; ++i) b.addRound(acc, constant());
-      v = b.endRound(acc);
+      RoundUnion acc(b, std::abs(number()));
+      for (int i = 0; i < 9; ++i) acc.add(constant());
+      v = acc.end();
       break;
     }
     case Op::sum_end: {
-      const auto acc = b.beginSum();
-      for (int i = 0; i < 9; ++i) b.addSum(acc, b.constant(share()));
-      v = b.endSum(acc, 0.2263f, std::abs(number()));
+      KernelSum acc(b);
+      for (int i = 0; i < 9; ++i) acc.add(b.constant(share()));
+      v = acc.end(0.2263f, std::abs(number()));
       break;
     }
     default: {

@@ -1,0 +1,44 @@
+#pragma once
+// Emits the expressions of a grammar chunk.
+
+#include <memory_resource>
+#include <vector>
+
+#include "derive/shape.h"
+#include "field/builder.h"
+
+namespace sgm {
+
+/// The expressions of one grammar chunk that were emitted in the current group at the current place. Each one is
+/// emitted once per group and place; further uses read its register.
+class ExprCompiler {
+ public:
+  /// cell: edge of the level's cells in units, which limits the octaves of noise.
+  ExprCompiler(const GrammarChunk& chunk, int32_t cell, ProgramBuilder& builder, std::pmr::memory_resource* memory)
+      : chunk_(chunk), cell_(cell), builder_(builder), known_(chunk.exprs.size(), memory) {}
+
+  /// Begins a group, in which no expression was emitted yet.
+  void beginGroup() { epoch_ = ++epochs_; }
+  /// Begins a place, where expressions must be read again, and returns the previous one for returnTo().
+  uint64_t beginPlace();
+  void returnTo(uint64_t place) { epoch_ = place; }
+
+  Value emit(uint32_t index);
+
+ private:
+  uint32_t octavesAt(const NoiseSpec& noise) const;
+
+  struct Known {
+    uint64_t epoch = 0;
+    Value value;
+  };
+
+  const GrammarChunk& chunk_;
+  int32_t cell_;
+  ProgramBuilder& builder_;
+  std::pmr::vector<Known> known_;
+  uint64_t epochs_ = 0;
+  uint64_t epoch_ = 0;  ///< the current group and place
+};
+
+}  // namespace sgm

@@ -1,0 +1,53 @@
+#pragma once
+// Ops on values: the form of a group until it is complete and its values get registers.
+
+#include <memory_resource>
+#include <vector>
+
+#include "base/result.h"
+#include "derive/shape.h"
+#include "field/program.h"
+
+namespace sgm {
+
+/// The result of an op in the group under construction.
+struct Value {
+  uint32_t id = kNone;
+};
+
+/// The ops of one group under construction, and the place that the next op reads. params: index of an op's first
+/// parameter word. Not thread-safe.
+class OpSequence {
+ public:
+  explicit OpSequence(std::pmr::memory_resource* memory) : steps_(memory) {}
+
+  /// Returns a value that no op has written yet.
+  Value reserve() { return {next_value_++}; }
+  /// Appends an op, and returns its result.
+  Value emit(Op op, uint32_t params, Value a = {}, Value b = {}, Value c = {});
+  /// Appends an op that adds an operand to the two values of an accumulator.
+  void accumulate(Op op, uint32_t params, Value nearest, Value operand, Value sum);
+
+  /// The next ops read the place that is warped by x, y, z, until popWarp().
+  void pushWarp(Value x, Value y, Value z);
+  void popWarp() { --place_; }
+
+  /// Appends the ops to `instrs`, on registers, clears the sequence, and returns the register of the root. Error: limit
+  /// if the ops need more registers or places than exist; then `instrs` stays as it was.
+  Result<uint8_t> moveTo(std::pmr::vector<Instr>& instrs, Value root);
+
+ private:
+  struct Step {
+    Op op;
+    uint32_t dst = kNone, a = kNone, b = kNone, c = kNone;
+    uint8_t place = 0;
+    uint32_t params = 0;
+  };
+
+  std::pmr::vector<Step> steps_;
+  uint32_t next_value_ = 0;
+  uint8_t place_ = 0;
+  bool too_deep_ = false;
+};
+
+}  // namespace sgm

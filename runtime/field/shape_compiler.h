@@ -1,0 +1,77 @@
+#pragma once
+// Emits the shapes of a grammar chunk.
+
+#include <memory_resource>
+#include <optional>
+#include <span>
+
+#include "base/result.h"
+#include "derive/shape.h"
+#include "field/builder.h"
+#include "field/expr_compiler.h"
+#include "field/shape_labels.h"
+
+namespace sgm {
+
+/// The place in the tree of shapes of one grammar chunk that is being compiled: the warps and the sweep around it.
+class ShapeCompiler {
+ public:
+  /// box: contains every position that will be sampled; cell_number: as in ShapeLabels::Source; shapes: null, or the
+  /// table in which labels get numbers of shapes.
+  ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
+                ProgramBuilder& builder, std::pmr::memory_resource* memory)
+      : chunk_(chunk),
+        cell_number_(cell_number),
+        read_(box),
+        cell_(cell),
+        shapes_(shapes),
+        builder_(builder),
+        memory_(memory),
+        exprs_(chunk, cell, builder, memory) {}
+
+  /// Emits a shape; nullopt if the level drops the whole shape as too small.
+  Result<std::optional<Value>> root(uint32_t shape) {
+    exprs_.beginGroup();
+    return emit(shape, 0);
+  }
+
+ private:
+  using Emitted = Result<std::optional<Value>>;
+
+  static Emitted some(Value v) { return std::optional<Value>(v); }
+  std::span<const uint32_t> children(const Shape& s) const {
+    return std::span(chunk_.children).subspan(s.first_child, s.child_count);
+  }
+  bool dropped(const Shape& s) const;
+  /// Returns a shape's material and tag, or its number in the table of shapes; the pieces of one sweep share a number.
+  uint32_t labelOf(uint32_t index);
+
+  Emitted emit(uint32_t index, int depth);
+  /// Emits a hard union or intersection, operand by operand. If an operand of an intersection is dropped, the whole
+  /// intersection is.
+  Emitted chain(const Shape& s, Op op, int depth, bool all);
+  Emitted subtract(const Shape& s, int depth);
+  /// Emits the round union of the children. Intersection and subtraction use it by negation: an intersection negates
+  /// all operands, a subtraction only the first: -(round union of -a, b, c, ...).
+  Emitted round(const Shape& s, int depth, bool negated, bool only_first);
+  Emitted sum(const Shape& s, int depth);
+  /// True if a ball's weight is 0 at every position that will be sampled, so that leaving it out changes no bit. Always
+  /// false under a warp, where positions differ.
+  bool weighsNothing(const Shape& ball) const;
+  Emitted morph(const Shape& s, int depth);
+  Value voxels(const Shape& s, uint32_t label);
+  Emitted warp(const Shape& s, int depth);
+
+  const GrammarChunk& chunk_;
+  uint32_t cell_number_;
+  IntBox read_;    ///< contains every position that will be sampled
+  int warps_ = 0;  ///< number of warps around the current shape
+  int32_t cell_;
+  ShapeLabels* shapes_;
+  std::optional<uint32_t> sweep_;  ///< label of the sweep whose piece is compiled now; nullopt outside of sweeps
+  ProgramBuilder& builder_;
+  std::pmr::memory_resource* memory_;
+  ExprCompiler exprs_;
+};
+
+}  // namespace sgm
