@@ -12,10 +12,6 @@ namespace sgm {
 
 namespace {
 
-constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t{1} << 24;
-
-IntBox moved(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
-
 /// True if lo <= p < hi on each axis.
 bool holds(const IntBox& box, Int3 p) { return box.contains(p) && p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z; }
 
@@ -86,7 +82,7 @@ Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& der
   const ProfileScope scope(profiler(), zone::kDerive);
   // Probes start in the cell and end within its reach, and queries stay within its reach, so this box contains all of
   // them.
-  const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
+  const IntBox around = movedBy(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);
   if (below.error()) return *below.error();
@@ -136,21 +132,8 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
   return cache_.get({layer, at, 0}, [&] { return derive(layer, at, 0); });
 }
 
-CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
-  // A cell that was derived for one level also serves the next coarser one. It is never made from a cell for finer
-  // levels: the content of a chunk must not depend on the state of the cache.
-  constexpr int kLevelsTogether = 2;
-  int32_t kept = settings_.finest_cell;
-  while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // Even the finest level may not show all of a cell: with cells of 50 cm, houses have no glazing bars. But layers
-  // above see these finer parts, too, and so request the whole cell.
-  const Layer& info = settings_.program->layers[layer];
-  if (!info.by_level || cell_edge < settings_.finest_cell || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
-  return {layer, at, kept};
-}
-
 Result<std::shared_ptr<const DerivedCell>> WorldField::cellFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
-  const CellKey key = keyFor(layer, at, cell_edge);
+  const CellKey key = cellKey(*settings_.program, settings_.finest_cell, layer, at, cell_edge);
   return cache_.get(key, [&] { return derive(layer, at, key.cell_edge); });
 }
 
@@ -159,11 +142,11 @@ Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const Int
   std::vector<RuleInstance> found;
   for (uint32_t layer = 0; layer < deriving.size(); ++layer) {
     if (!deriving[layer]) continue;
-    const Result<void> walked = walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) -> Result<void> {
+    const Result<void> walked = cellsAround(layer, box, [&](Int3 at) -> Result<void> {
       Result<std::vector<RuleInstance>> derived =
-          overLayersBelow<std::vector<RuleInstance>>(layer, key.cell, [&](const LowerLayers& below) {
-            return deriveInstances(*settings_.program, settings_.parameters, settings_.seed, layer, key.cell, rule,
-                                   below, DeriveLimits{}, memory_);
+          overLayersBelow<std::vector<RuleInstance>>(layer, at, [&](const LowerLayers& below) {
+            return deriveInstances(*settings_.program, settings_.parameters, settings_.seed, layer, at, rule, below,
+                                   DeriveLimits{}, memory_);
           });
       if (!derived) return derived.error();
       for (RuleInstance& instance : *derived) {
@@ -185,54 +168,10 @@ Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const Int
   return found;
 }
 
-Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by,
-                                   const std::function<Result<void>(const CellKey&)>& visit) const {
-  const Program& program = *settings_.program;
-  const Layer& info = program.layers[layer];
-  // In a grammar without layers, everything is one cell.
-  if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
-  const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
-                                  saturate(-int64_t{settings_.shift.z})});
-  std::array<int64_t, 3> first{}, last{};
-  const int64_t most = by == CellsBy::shapes ? kMaxCellsOfChunk : kMaxCellsWalked;
-  int64_t count = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<size_t>(axis);
-    const int64_t edge = info.cell[axis];
-    ShapeSpan span = by == CellsBy::shapes ? shapeSpan(program, info, axis) : reachSpan(program, info, axis);
-    if (by == CellsBy::ownership && edge > 0) span = {0, edge - 1};
-    if (edge == 0) {
-      if (home.hi[axis] < span.lo || home.lo[axis] > span.hi) return {};
-      continue;
-    }
-    // Cells that would lie partly outside of the world are not derived.
-    const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
-                  world_last = floorDiv(INT32_MAX, edge) - 1;
-    first[a] = std::max(-floorDiv(span.hi - home.lo[axis], edge), world_first);
-    last[a] = std::min(floorDiv(home.hi[axis] - span.lo, edge), world_last);
-    if (last[a] < first[a]) return {};
-    count *= last[a] - first[a] + 1;
-    if (count > most) {
-      const std::string what = "more than " + std::to_string(most) + " cells of the layer `" +
-                               std::string(program.text(info.name)) + "` reach into ";
-      return Error{Code::limit, by == CellsBy::shapes
-                                    ? what + "one chunk; make the layer's cells larger, or mesh at a finer level"
-                                    : what + "the box; choose a smaller box, or make the layer's cells larger"};
-    }
-  }
-  for (int64_t z = first[2]; z <= last[2]; ++z) {
-    for (int64_t y = first[1]; y <= last[1]; ++y) {
-      for (int64_t x = first[0]; x <= last[0]; ++x) {
-        if (Result<void> visited = visit({layer, {saturate(x), saturate(y), saturate(z)}}); !visited) return visited;
-      }
-    }
-  }
-  return {};
-}
-
 Result<void> WorldField::cellsAround(uint32_t layer, const IntBox& box,
                                      const std::function<Result<void>(Int3 cell)>& visit) const {
-  return walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) { return visit(key.cell); });
+  return walkCells(*settings_.program, settings_.shift, layer, box, CellsBy::reach,
+                   [&](const CellKey& key) { return visit(key.cell); });
 }
 
 FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const {
@@ -279,10 +218,11 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     keys.clear();
-    const Result<void> walked = walkCells(layer, reached, CellsBy::shapes, [&](const CellKey& key) -> Result<void> {
-      keys.push_back(keyFor(key.layer, key.cell, field.cell));
-      return {};
-    });
+    const Result<void> walked = walkCells(
+        *settings_.program, settings_.shift, layer, reached, CellsBy::shapes, [&](const CellKey& key) -> Result<void> {
+          keys.push_back(cellKey(*settings_.program, settings_.finest_cell, key.layer, key.cell, field.cell));
+          return {};
+        });
     if (!walked) return walked.error();
     if (const Result<void> brought = bring(keys, at_hand); !brought) return brought.error();
     for (const CellKey& key : keys) use(at_hand.at(key));
@@ -345,16 +285,17 @@ Result<void> WorldField::forEachCell(const IntBox& box, CellsBy by, const std::f
   if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
     if (!wanted(settings_.program->layers[layer])) continue;
-    const Result<void> walked = walkCells(layer, box, by, [&](const CellKey& key) -> Result<void> {
-      if (at_hand != nullptr) {
-        if (const auto found = at_hand->find(key); found != at_hand->end())
-          return visit(found->second->chunk), Result<void>{};
-      }
-      Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
-      if (!derived) return derived.error();
-      visit((*derived)->chunk);
-      return {};
-    });
+    const Result<void> walked =
+        walkCells(*settings_.program, settings_.shift, layer, box, by, [&](const CellKey& key) -> Result<void> {
+          if (at_hand != nullptr) {
+            if (const auto found = at_hand->find(key); found != at_hand->end())
+              return visit(found->second->chunk), Result<void>{};
+          }
+          Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
+          if (!derived) return derived.error();
+          visit((*derived)->chunk);
+          return {};
+        });
     if (!walked) return walked.error();
   }
   return {};

@@ -12,6 +12,7 @@
 #include "derive/interpret/derive.h"
 #include "field/evaluate.h"
 #include "world/cell_cache.h"
+#include "world/cell_walk.h"
 #include "world/edit_snapshot.h"
 
 namespace sgm {
@@ -39,7 +40,8 @@ struct ShapeField {
   ShapeLabels labels;
 };
 
-/// Thread-safe. Results are a pure function of the settings; only the cache has state.
+/// The settings of a world's field, and a cache of its derived cells. Thread-safe. Results are a pure function of the
+/// settings; only the cache changes.
 class WorldField {
  public:
   /// memory must outlive the field and everything that it returns.
@@ -124,14 +126,6 @@ class WorldField {
                                                            uint64_t* parameters = nullptr) const;
 
  private:
-  /// Returns the cache's key of a cell for levels whose cells have this edge, in units.
-  CellKey keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const;
-  /// How the cells that matter in a box are selected: by the proven extent of their shapes, by their declared reach, or
-  /// by the points that they own.
-  enum class CellsBy { shapes, reach, ownership };
-  /// Calls visit for each cell of a layer that matters in the box, in order z, y, x, until the first error.
-  Result<void> walkCells(uint32_t layer, const IntBox& box, CellsBy by,
-                         const std::function<Result<void>(const CellKey&)>& visit) const;
   /// The cells from which a program was compiled.
   struct GatheredCells {
     uint64_t parameters = 0;  ///< mask of the parameters that the cells have read
