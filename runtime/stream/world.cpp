@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <random>
 #include <unordered_set>
 
 #include "base/checksum.h"
-#include "base/plain_text.h"
 #include "mesh/hash.h"
+#include "stream/world_checks.h"
 #include "stream/world_core.h"
 
 namespace sgm {
@@ -42,43 +41,9 @@ class TimedCall {
   Clock::time_point begun_ = Clock::now();
 };
 
-std::string metres(double units) { return generalText(units / kUnitsPerMetre) + " m"; }
-
-Result<void> checkLod(const LodSettings& lod) {
-  if (lod.top < 0 || lod.top > kMaxLevel) {
-    return Error{Code::invalid_argument, "the coarsest level is not between 0 and " + std::to_string(kMaxLevel)};
-  }
-  if (!(lod.finest_distance > 0) || !(lod.view_distance > 0) || !std::isfinite(lod.finest_distance) ||
-      !std::isfinite(lod.view_distance)) {
-    return Error{Code::invalid_argument, "the finest and the view distance must be finite and above 0"};
-  }
-  const LodViewer one;
-  if (expectedLeaves({&one, 1}, lod) <= kMostExpectedLeaves) return {};
-  LodSettings near = lod;
-  near.finest_distance = lod.finest_cell;
-  const bool views_too_far = expectedLeaves({&one, 1}, near) > kMostExpectedLeaves / 2;
-  return Error{Code::limit, views_too_far ? "a view distance of " + metres(lod.view_distance) +
-                                                " needs too many chunks of level " + std::to_string(lod.top) +
-                                                ": raise the coarsest level, or lower the view distance"
-                                          : "a finest distance of " + metres(lod.finest_distance) +
-                                                " needs too many chunks of level 0: lower it, or use larger cells"};
-}
-
 uint64_t randomAuthor() {
   std::random_device device;
   return (uint64_t{device()} << 32 | device()) | 1;  // never 0, which means "none"
-}
-
-/// Checks the host fields. The disk cache and stores distinguish fields by identity, so they require one of each host
-/// field.
-Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
-  if (settings.journal.empty() && settings.cache.empty() && settings.baked == nullptr) return {};
-  for (const HostField& host : field.settings().hosts) {
-    if (host.identity != 0) continue;
-    return Error{Code::invalid_argument,
-                 "a host field has the identity 0: its data on disk could not be told apart from another field's"};
-  }
-  return {};
 }
 
 /// Creates the threads that wait for servers. If none can be started, only nearby stores are used.
@@ -112,13 +77,7 @@ World::World(std::unique_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move
 Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
                                              const WorldSettings& settings, std::pmr::memory_resource* memory,
                                              std::shared_ptr<PlanTurns> turns) {
-  if (Result<void> good = checkLod(settings.lod); !good) return good.error();
-  const size_t least = largestChunk(settings) * (jobs.concurrency() + 2);
-  if (settings.mesh_bytes < least) {
-    return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small for streaming: " +
-                                  std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};
-  }
-  if (Result<void> good = checkHosts(*field, settings); !good) return good.error();
+  if (Result<void> good = checkWorld(*field, settings, jobs.concurrency()); !good) return good.error();
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
   std::unique_ptr<JobSystem> lookers;
@@ -201,7 +160,7 @@ void World::advance(size_t bytes, size_t colliders) {
   // faster than passing surfaces, steps would grow, and none would ever complete. But edits must be in the next frame
   // or the one after it.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
-      staged_->to->edits == step->to->edits && bytesLeft(*staged_) <= bytesLeft(*step)) {
+      staged_->to->edits == step->to->edits && handed_.bytesLeft(*staged_) <= handed_.bytesLeft(*step)) {
     step = staged_;
   }
   if (step != nullptr && stage(step)) {
@@ -228,7 +187,7 @@ void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFra
     events_.reserve(events_.size() + staged_->changes.size());
     for (const FrameChange& change : staged_->changes) {
       const ChunkKey& key = change.chunk.key;
-      if (change.kind != FrameChange::Kind::shown || drawn.contains(key) || handed_.erase(key) == 0) continue;
+      if (change.kind != FrameChange::Kind::shown || drawn.contains(key) || !handed_.remove(key)) continue;
       events_.push_back({WorldEvent::Kind::removed, key, nullptr, 0, 0, 0, {}});
     }
   }
@@ -236,28 +195,15 @@ void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFra
   staged_changes_ = 0;
 }
 
-bool World::wasHanded(const DrawnChunk& chunk) const {
-  const auto handed = handed_.find(chunk.key);
-  return handed != handed_.end() && handed->second == chunk.surface;
-}
-
-size_t World::bytesLeft(const FrameStep& step) const {
-  size_t bytes = 0;
-  for (const FrameChange& change : step.changes) {
-    if (change.chunk.surface != nullptr && !wasHanded(change.chunk)) bytes += change.chunk.surface->mesh.bytes();
-  }
-  return bytes;
-}
-
 bool World::handOver(const FrameStep& step) {
   // reserved first: surfaces that count as passed must be reported
   events_.reserve(events_.size() + step.changes.size() - staged_changes_);
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
-    if (chunk.surface == nullptr || wasHanded(chunk)) continue;
+    if (chunk.surface == nullptr || handed_.has(chunk)) continue;
     const size_t size = chunk.surface->mesh.bytes();
     if (!credit_.admits(size)) return false;
-    handed_[chunk.key] = chunk.surface;
+    handed_.add(chunk);
     events_.push_back({WorldEvent::Kind::ready, chunk.key, chunk.surface, 0, 0, 0, {}});
     credit_.take(size);
   }
@@ -283,7 +229,7 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step) {
   // All changes are emitted or none: after this reservation, nothing can fail.
   events_.reserve(events_.size() + step->changes.size());
   for (const FrameChange& change : step->changes) {
-    if (change.kind == FrameChange::Kind::removed) handed_.erase(change.chunk.key);
+    if (change.kind == FrameChange::Kind::removed) handed_.remove(change.chunk.key);
     events_.push_back({kindOf(change.kind),
                        change.chunk.key,
                        nullptr,
@@ -338,16 +284,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
 }
 
 Result<void> World::setField(std::shared_ptr<const WorldField> field) {
-  const double cell = field->settings().finest_cell, own = core_->settings.lod.finest_cell;
-  if (cell != own) {
-    return Error{Code::invalid_argument, "the field's finest cell is " + metres(cell) + ", but the world's is " +
-                                             metres(own) +
-                                             ": create the field with the world's cell, or create another world"};
-  }
-  if (field->isAlone() || this->field()->isAlone()) {
-    return Error{Code::unsupported, "a world without a grammar cannot be compared with another"};
-  }
-  if (Result<void> good = checkHosts(*field, core_->settings); !good) return good;
+  if (Result<void> good = checkSuccessor(*field, *this->field(), core_->settings); !good) return good;
   core_->fields.want(std::move(field));
   return {};
 }

@@ -13,7 +13,6 @@
 #include <memory>
 #include <mutex>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "backend/backend.h"
@@ -24,6 +23,7 @@
 #include "stream/byte_credit.h"
 #include "stream/edits/world_edits.h"
 #include "stream/field_switch.h"
+#include "stream/handed_surfaces.h"
 #include "stream/make/collider.h"
 #include "stream/plan/plan_turns.h"
 #include "stream/plan/planner.h"
@@ -77,7 +77,8 @@ class WorldCore;
 
 inline constexpr size_t kMostViewers = 256;
 
-/// Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
+/// The engine's side of a streamed world: the events of the frame step that is being handed over, and the surfaces that
+/// the engine has. Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
 class World {
  public:
   /// Creates a world, and reads the journal if the settings name one. backend, jobs and memory must outlive the world;
@@ -169,9 +170,6 @@ class World {
   /// Emits removal of surfaces that were passed for the staged step, but are not part of the new frame; then stages
   /// `step`.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
-  bool wasHanded(const DrawnChunk& chunk) const;
-  /// Returns the total size of the step's surfaces that were not passed to the engine yet.
-  size_t bytesLeft(const FrameStep& step) const;
   /// Passes surfaces of the step to the engine while the byte credit allows. Returns true if all have been passed.
   bool handOver(const FrameStep& step);
   /// Passes surfaces of a step and, once all were passed, its changes; then returns true.
@@ -186,7 +184,7 @@ class World {
   ByteCredit credit_;
   std::shared_ptr<const FrameStep> staged_;
   size_t staged_changes_ = 0;  ///< number of changes of staged_ whose surfaces have been passed to the engine
-  std::unordered_map<ChunkKey, std::shared_ptr<const ChunkSurface>, ChunkKeyHash> handed_;
+  HandedSurfaces handed_;
 };
 
 }  // namespace sgm

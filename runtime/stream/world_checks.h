@@ -1,0 +1,20 @@
+#pragma once
+// Checks whether a world can be streamed with its settings.
+
+#include <cstddef>
+
+#include "base/result.h"
+#include "stream/world_settings.h"
+#include "world/world_field.h"
+
+namespace sgm {
+
+/// Checks a new world. threads: number of threads that mesh it. Errors: invalid_argument; limit (mesh_bytes is too
+/// small, or the distances are too large: the message gives values that work).
+Result<void> checkWorld(const WorldField& field, const WorldSettings& settings, size_t threads);
+
+/// Checks whether a field may replace a world's current one. Errors: invalid_argument (another finest cell, or host
+/// fields that checkWorld() rejects); unsupported (a field without a grammar).
+Result<void> checkSuccessor(const WorldField& next, const WorldField& current, const WorldSettings& settings);
+
+}  // namespace sgm
