@@ -1,5 +1,6 @@
 #pragma once
-// Builds field programs, group by group. Only these classes define the parameter words of each op.
+// Builds field programs, group by group. Only this class defines the parameter words of each op and allocates
+// registers.
 
 #include <span>
 

@@ -77,8 +77,7 @@ class WorldCore;
 
 inline constexpr size_t kMostViewers = 256;
 
-/// The engine's side of a streamed world: the events of the frame step that is being handed over, and the surfaces that
-/// the engine has. Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
+/// Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
 class World {
  public:
   /// Creates a world, and reads the journal if the settings name one. backend, jobs and memory must outlive the world;

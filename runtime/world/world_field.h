@@ -40,8 +40,7 @@ struct ShapeField {
   ShapeLabels labels;
 };
 
-/// The settings of a world's field, and a cache of its derived cells. Thread-safe. Results are a pure function of the
-/// settings; only the cache changes.
+/// Thread-safe. Results are a pure function of the settings; only the cache has state.
 class WorldField {
  public:
   /// memory must outlive the field and everything that it returns.

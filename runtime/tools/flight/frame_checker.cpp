@@ -15,7 +15,7 @@ void countUse(uint64_t forward, uint64_t backward, EdgeCounts& counts) {
   counts.nonmanifold += forward > 1 || backward > 1;
 }
 
-/// Calls use(from, to), both indices, for every edge of the triangles without repeated vertices.
+/// Calls use(from, to) with vertex indices for every edge of each triangle that has no repeated vertex.
 template <class Use>
 void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
   for (size_t i = 0; i < indices.size(); i += 3) {

@@ -1,7 +1,7 @@
 #pragma once
-// Checks whether the surface drawn in a frame is closed. It processes changes chunk by chunk, so it can check every
-// frame of a flight. It compares exact vertex keys, formed only from the public interface's meshes, never hashes; for
-// faults of triangles it also uses positions (mesh/triangle_faults.h).
+// Checks whether the surface drawn in a frame is closed. The checker processes changes chunk by chunk, so it can check
+// every frame of a flight. It compares exact vertex keys, formed only from the public interface's meshes, and never
+// hashes; for faults of triangles it also uses positions (mesh/triangle_faults.h).
 
 #include <sgm/sgm.h>
 
@@ -27,15 +27,15 @@ class FrameChecker {
   FrameChecker(const FrameChecker&) = delete;
   FrameChecker& operator=(const FrameChecker&) = delete;
 
-  /// Draws a chunk, instead of its previous mesh. Error: invalid_argument if the mesh is malformed; then nothing
-  /// changes.
+  /// Adds a drawn chunk, or replaces its previous mesh. Error: invalid_argument if the mesh is malformed; the checker
+  /// is then unchanged.
   Result<void> draw(const sgm_mesh_view& mesh, const DrawnParts& parts);
-  /// Changes the drawn seams of a chunk; its mesh stays. Error: invalid_argument if the chunk is not drawn.
+  /// Changes which seams of a chunk are drawn; its mesh stays. Error: invalid_argument if the chunk is not drawn.
   Result<void> redraw(const sgm_chunk_key& key, const DrawnParts& parts);
-  /// False if the chunk is not drawn.
+  /// Removes a drawn chunk. Returns false if the chunk is not drawn.
   bool erase(const sgm_chunk_key& key);
 
-  /// The report on the current state. Takes constant time, since each change updates it.
+  /// The report on the current state. Takes constant time, since each change updates the report.
   const FrameReport& check() const { return report_; }
   /// Checks everything from scratch (whole_check.h).
   WholeReport checkWhole() const { return checkAll(chunks_); }
@@ -56,7 +56,7 @@ class FrameChecker {
   };
   struct Place {
     bool drawn = false;
-    uint32_t below = 0;  ///< drawn chunks that it contains
+    uint32_t below = 0;  ///< number of drawn chunks that this chunk's cube contains
   };
 
   void show(CheckedChunk& chunk, size_t number);
@@ -72,8 +72,10 @@ class FrameChecker {
   CheckedChunks chunks_;
   std::vector<uint32_t> free_ids_;
   uint32_t next_id_ = 0;
-  std::vector<uint32_t> first_;   ///< scratch, as inside_
-  std::vector<uint64_t> inside_;  ///< edges by numbers in the body, the lower one first; last bit: reversed
+  std::vector<uint32_t> first_;  ///< scratch memory, used within one call
+  /// Scratch memory: edges inside a body, as both vertex numbers, the lower one first; the last bit is set if the edge
+  /// was reversed.
+  std::vector<uint64_t> inside_;
   PairScratch pairs_{std::pmr::new_delete_resource()};
   FrameReport report_;
 };
