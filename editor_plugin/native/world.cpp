@@ -70,7 +70,7 @@ void World::leave() {
 void World::setGrammar(Object grammar) {
   if (grammar == grammar_.object()) return;
   const Name changed("changed");
-  const Variant heard = Variant::callable(self(), Name("_grammar_changed"));
+  const Variant heard = callable(self(), Name("_grammar_changed"));
   if (!grammar_.isNil() && grammar_.call("is_connected", changed, heard).truth()) {
     grammar_.call("disconnect", changed, heard);
   }

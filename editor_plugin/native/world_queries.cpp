@@ -231,7 +231,7 @@ double World::monitor(const std::string& key) const { return statistics().value.
 void World::addMonitors() {
   const Variant performance(engine().global_get_singleton(Name("Performance").get()));
   const std::string owner = "SG+M " + own("get_name").to<std::string>();
-  const Variant ask = Variant::callable(self(), Name("_monitor"));
+  const Variant ask = callable(self(), Name("_monitor"));
   for (const Monitor& m : kMonitors) {
     const std::string id = owner + "/" + m.title;
     // Another world of that name already provides this monitor.

@@ -36,9 +36,7 @@ uint32_t usageOf(int type) {
 }
 
 Instance& of(void* instance) { return *static_cast<Instance*>(instance); }
-std::string textOf(const void* name) {
-  return Variant::fromTyped(GDEXTENSION_VARIANT_TYPE_STRING_NAME, name).to<std::string>();
-}
+std::string textOf(const void* name) { return fromTyped(GDEXTENSION_VARIANT_TYPE_STRING_NAME, name).to<std::string>(); }
 
 /// Runs a callback for the engine, which cannot handle C++ exceptions.
 template <class Function>

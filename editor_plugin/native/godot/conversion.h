@@ -24,18 +24,12 @@ struct Conversion {
   static T from(const Variant& value) { return value.to<T>(); }
   static Variant into(const T& value) { return Variant(value); }
 };
-#define SGM_GODOT_CONVERSION(T, TYPE)                              \
-  template <>                                                      \
-  struct Conversion<T> {                                           \
-    static constexpr int type = GDEXTENSION_VARIANT_TYPE_##TYPE;   \
-    static T from(const Variant& value) { return value.to<T>(); }  \
-    static Variant into(const T& value) { return Variant(value); } \
-  };
-SGM_GODOT_CONVERSION(bool, BOOL)
-SGM_GODOT_CONVERSION(int64_t, INT)
-SGM_GODOT_CONVERSION(double, FLOAT)
-SGM_GODOT_CONVERSION(std::string, STRING)
-#undef SGM_GODOT_CONVERSION
+template <>
+struct Conversion<std::string> {
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_STRING;
+  static std::string from(const Variant& value) { return value.to<std::string>(); }
+  static Variant into(const std::string& value) { return Variant(value); }
+};
 template <GDExtensionVariantType number>
 struct Conversion<Typed<number>> {
   static constexpr int type = number;

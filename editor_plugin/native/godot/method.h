@@ -1,7 +1,8 @@
 #pragma once
-// Adapts a C++ member function to the engine's two calling conventions: with Variants, and with pointers to engine
-// types.
+// C++ functions as methods that the engine calls, with Variants or with its own types in place: member functions of a
+// class, and free functions whose first argument is an object of the class.
 
+#include <functional>
 #include <new>
 
 #include "conversion.h"
@@ -10,13 +11,13 @@
 namespace sgm_godot {
 
 struct MethodShape {
-  std::vector<int> arguments;  // Variant types of the arguments
-  int result = -1;             // Variant type of the result; -1: none
+  std::vector<int> arguments;  // types
+  int result = -1;             // type; -1: none
 };
 
+/// C: the class, const if the function takes a const object.
 template <class C, class R, class... A>
 struct MethodParts {
-  using Class = C;
   static constexpr bool returns = !std::is_void_v<R>;
 
   static MethodShape shape() {
@@ -30,9 +31,9 @@ struct MethodParts {
     auto& object = *static_cast<C*>(static_cast<Instance*>(instance));
     try {
       if constexpr (returns) {
-        return Conversion<Bare<R>>::into((object.*method)(Conversion<Bare<A>>::from(arguments[I])...));
+        return Conversion<Bare<R>>::into(std::invoke(method, object, Conversion<Bare<A>>::from(arguments[I])...));
       } else {
-        (object.*method)(Conversion<Bare<A>>::from(arguments[I])...);
+        std::invoke(method, object, Conversion<Bare<A>>::from(arguments[I])...);
       }
     } catch (const std::bad_alloc&) {
       logOutOfMemory("out of memory");
@@ -40,7 +41,7 @@ struct MethodParts {
     return {};
   }
 
-  /// `userdata`: a vector of Variants with the default values of the last arguments.
+  /// `userdata`: a vector of Variants, the defaults of the last arguments.
   template <auto method>
   static void call(void* userdata, void* instance, const void* const* given, int64_t count, void* result,
                    GDExtensionCallError* error) {
@@ -75,10 +76,10 @@ struct MethodParts {
     std::array<Variant, sizeof...(A) + 1> arguments;
     constexpr std::array<int, sizeof...(A) + 1> types{Conversion<Bare<A>>::type..., 0};
     for (size_t i = 0; i < sizeof...(A); ++i) {
-      arguments[i] = Variant::fromTyped(static_cast<GDExtensionVariantType>(types[i]), given[i]);
+      arguments[i] = fromTyped(static_cast<GDExtensionVariantType>(types[i]), given[i]);
     }
     const Variant made = invoke<method>(instance, arguments.data(), std::index_sequence_for<A...>());
-    if constexpr (returns) made.toTyped(static_cast<GDExtensionVariantType>(Conversion<Bare<R>>::type), result);
+    if constexpr (returns) writeTyped(made, static_cast<GDExtensionVariantType>(Conversion<Bare<R>>::type), result);
   }
 
   template <auto method>
@@ -91,5 +92,7 @@ template <class C, class R, class... A>
 MethodParts<C, R, A...> partsOf(R (C::*)(A...));
 template <class C, class R, class... A>
 MethodParts<C, R, A...> partsOf(R (C::*)(A...) const);
+template <class C, class R, class... A>
+MethodParts<C, R, A...> partsOf(R (*)(C&, A...));
 
 }  // namespace sgm_godot

@@ -1,7 +1,5 @@
 #include "variant.h"
 
-#include <cmath>
-
 #include "log.h"
 
 namespace sgm_godot {
@@ -11,52 +9,12 @@ using Type = GDExtensionVariantType;
 
 }  // namespace
 
-Transform Transform::after(const Transform& first) const {
-  Transform result;
-  for (int i = 0; i < 3; ++i) {
-    const Vector3& r = rows[i];
-    result.rows[i] = first.rows[0] * r.x + first.rows[1] * r.y + first.rows[2] * r.z;
-  }
-  result.origin = apply(first.origin);
-  return result;
-}
-
-Vector3 Transform::turn(Vector3 v) const {
-  const auto dot = [&](const Vector3& r) { return r.x * v.x + r.y * v.y + r.z * v.z; };
-  return {dot(rows[0]), dot(rows[1]), dot(rows[2])};
-}
-
-Vector3 Transform::apply(Vector3 v) const { return turn(v) + origin; }
-
-Transform Transform::inverse() const {
-  const Vector3 a = column(0), b = column(1), c = column(2);
-  const auto cross = [](Vector3 u, Vector3 v) {
-    return Vector3{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
-  };
-  const Vector3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-  const float determinant = a.x * bc.x + a.y * bc.y + a.z * bc.z;
-  Transform result;
-  if (determinant == 0 || !std::isfinite(determinant)) return result;
-  const float s = 1 / determinant;
-  result.rows[0] = bc * s;
-  result.rows[1] = ca * s;
-  result.rows[2] = ab * s;
-  result.origin = result.turn(origin) * -1.0f;
-  return result;
-}
-
 Name::Name(std::string_view text) {
   engine().string_name_new_with_utf8_chars_and_len(bytes_, text.data(), static_cast<int64_t>(text.size()));
 }
 Name::~Name() { engine().destructor[GDEXTENSION_VARIANT_TYPE_STRING_NAME](bytes_); }
 
-Variant::Variant(bool value) {
-  GDExtensionBool typed = value ? 1 : 0;
-  engine().from_type[GDEXTENSION_VARIANT_TYPE_BOOL](bytes_, &typed);
-}
-Variant::Variant(int64_t value) { engine().from_type[GDEXTENSION_VARIANT_TYPE_INT](bytes_, &value); }
-Variant::Variant(double value) { engine().from_type[GDEXTENSION_VARIANT_TYPE_FLOAT](bytes_, &value); }
-Variant::Variant(std::string_view text) {
+void Variant::writeText(std::string_view text) {
   alignas(8) unsigned char string[8];
   engine().string_new_with_utf8_chars_and_len(string, text.data(), static_cast<int64_t>(text.size()));
   engine().from_type[GDEXTENSION_VARIANT_TYPE_STRING](bytes_, string);
@@ -80,55 +38,39 @@ Variant Variant::ofType(Type type) {
   return result;
 }
 
-Variant Variant::callable(Object object, const Name& method) {
+Variant callable(Object object, const Name& method) {
   const Variant owner(object), name(method);
   const void* arguments[] = {owner.raw(), name.raw()};
   Variant result;
   GDExtensionCallError error{};
-  engine().variant_construct(GDEXTENSION_VARIANT_TYPE_CALLABLE, result.bytes_, arguments, 2, &error);
+  engine().variant_construct(GDEXTENSION_VARIANT_TYPE_CALLABLE, result.raw(), arguments, 2, &error);
   return result;
 }
 
-Variant Variant::fromTyped(Type type, const void* value) {
+Variant fromTyped(Type type, const void* value) {
   Variant result;
   if (type == GDEXTENSION_VARIANT_TYPE_NIL) {
-    engine().variant_new_copy(result.bytes_, value);
+    engine().variant_new_copy(result.raw(), value);
   } else {
-    engine().from_type[type](result.bytes_, const_cast<void*>(value));
+    engine().from_type[type](result.raw(), const_cast<void*>(value));
   }
   return result;
 }
 
-void Variant::toTyped(Type type, void* value) const {
+void writeTyped(const Variant& variant, Type type, void* place) {
   if (type == GDEXTENSION_VARIANT_TYPE_NIL) {
-    engine().variant_destroy(value);
-    engine().variant_new_copy(value, bytes_);
+    engine().variant_destroy(place);
+    engine().variant_new_copy(place, variant.raw());
     return;
   }
-  // `value` points to an existing empty value of the type, which may own memory: destroy it first.
-  if (engine().destructor[type] != nullptr) engine().destructor[type](value);
-  engine().to_type[type](value, const_cast<unsigned char*>(bytes_));
+  // The empty value at `place` may own memory.
+  if (engine().destructor[type] != nullptr) engine().destructor[type](place);
+  engine().to_type[type](place, const_cast<void*>(variant.raw()));
 }
 
 template <>
 bool Variant::to<bool>() const {
   return truth();
-}
-template <>
-int64_t Variant::to<int64_t>() const {
-  int64_t value = 0;
-  if (engine().variant_can_convert_strict(type(), GDEXTENSION_VARIANT_TYPE_INT)) {
-    engine().to_type[GDEXTENSION_VARIANT_TYPE_INT](&value, const_cast<unsigned char*>(bytes_));
-  }
-  return value;
-}
-template <>
-double Variant::to<double>() const {
-  double value = 0;
-  if (engine().variant_can_convert_strict(type(), GDEXTENSION_VARIANT_TYPE_FLOAT)) {
-    engine().to_type[GDEXTENSION_VARIANT_TYPE_FLOAT](&value, const_cast<unsigned char*>(bytes_));
-  }
-  return value;
 }
 template <>
 std::string Variant::to<std::string>() const {
@@ -212,7 +154,7 @@ Packed<T>::Packed(size_t size) : size_(size) {
     if (array.size() != static_cast<int64_t>(size)) throw std::bad_alloc();
     engine().to_type[PackedType<T>::type](bytes_, const_cast<void*>(array.raw()));
   }
-  // Only now is the array referenced once, so that obtaining a pointer for writing does not copy it.
+  // Only now is this the array's one owner, so that writing does not copy it.
   if (size != 0) data_ = PackedType<T>::first(bytes_);
 }
 template <class T>
@@ -221,7 +163,7 @@ Packed<T>::~Packed() {
 }
 template <class T>
 Variant Packed<T>::take() const {
-  return Variant::fromTyped(PackedType<T>::type, bytes_);
+  return fromTyped(PackedType<T>::type, bytes_);
 }
 
 template <class T>
