@@ -8,7 +8,7 @@
 #include "grammar_files.h"
 #include "plugin.h"
 #include "viewer.h"
-#include "world.h"
+#include "world/world.h"
 
 namespace sgm_godot {
 namespace {

@@ -219,6 +219,15 @@ Dictionary Grammar::domain() const {
 
 void Grammar::setFilesAreText(bool on) { plugin().files_are_text = on; }
 
+std::vector<std::string> materialNames(const sgm_grammar* grammar) {
+  std::vector<std::string> names;
+  for (uint32_t i = 0; i < sgm_grammar_material_count(grammar); ++i) {
+    const std::string name = sgm_grammar_material(grammar, i);
+    names.push_back(name.empty() ? "default" : name);
+  }
+  return names;
+}
+
 void Grammar::registerClass(ClassRecord& record) {
   record.name = "SgmGrammar";
   record.parent = "Resource";

@@ -62,4 +62,7 @@ class Grammar : public Instance {
   uint64_t version_ = 0;
 };
 
+/// The names of a grammar's materials, as the inspector lists them; empty for null.
+std::vector<std::string> materialNames(const sgm_grammar* grammar);
+
 }  // namespace sgm_godot

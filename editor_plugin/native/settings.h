@@ -5,35 +5,42 @@
 #include <string>
 #include <vector>
 
-#include "godot/variant.h"
+#include "godot/conversion.h"
 
 namespace sgm_godot {
 
 struct Settings {
-  int64_t seed = 0;
-  std::map<std::string, double> parameters;  // values of parameters that differ from the grammar's defaults
-  int64_t backend = 0;                       // a value of sgm_backend
-  double cell_size = 0.5, finest_distance = 32, view_distance = 300;  // all in metres
-  int64_t coarsest_level = -1;                                        // -1: depends on view_distance
-  bool by_distance = false, sharp = false, morph = true, measure = true;
-  int64_t mesh_memory = 256;  // MiB
-  std::string journal, cache_folder;
-  std::vector<std::string> stores;  // folders, and URLs of web servers
+  /// The work that follows a change: kLook and kPlacement at once, the others in the next frame. No effect includes the
+  /// work of another.
+  enum Effect : unsigned {
+    kNothing = 0,
+    kField = 1,    // another field for the same world
+    kRestart = 2,  // another world
+    kPaint = 4,    // other materials
+    kRepack = 8,   // other slots
+    kLook = 16,    // visibility, shadows, layers
+    kPlacement = 32,
+    kBodies = 64,  // collision layers
+  };
 
-  int64_t mapping = 0;  // 0: triplanar, 1: texture coordinates
+#define SGM_SETTING(type, name, otherwise, ...) type name = otherwise;
+#define SGM_SETTING_GROUP(title)
+#include "settings.def"
+#undef SGM_SETTING_GROUP
+#undef SGM_SETTING
+
+  // By names of the grammar, which the inspector lists as parameters/NAME, materials/NAME and colors/NAME.
+  std::map<std::string, double> parameters;
   std::map<std::string, Variant> materials;
   std::map<std::string, Color> colors;
-  bool cast_shadow = true;
-  int64_t render_layers = 1;
-
-  bool collision = false;
-  double collision_distance = 48;
-  int64_t collision_layer = 1, collision_mask = 1;
-
-  Variant anchor_scenes = Variant::dictionary();
-  Vector3i origin;
-  double frame_budget = 1.0;  // milliseconds of main-thread time for each frame
-  bool preview = true, hot_reload = true;
 };
+
+/// Whether a setting has the value already.
+template <class T>
+bool isSameSetting(const T& a, const T& b) {
+  return a == b;
+}
+/// Never for dictionaries: a script may have changed the elements of the one that it sets again.
+inline bool isSameSetting(const Dictionary&, const Dictionary&) { return false; }
 
 }  // namespace sgm_godot

@@ -1,6 +1,6 @@
 #pragma once
-// C++ functions as methods that the engine calls, with Variants or with its own types in place: member functions of a
-// class, and free functions whose first argument is an object of the class.
+// Adapts a C++ member function to the engine's two calling conventions: with Variants, and with pointers to engine
+// types.
 
 #include <functional>
 #include <new>
@@ -11,8 +11,8 @@
 namespace sgm_godot {
 
 struct MethodShape {
-  std::vector<int> arguments;  // types
-  int result = -1;             // type; -1: none
+  std::vector<int> arguments;  // Variant types of the arguments
+  int result = -1;             // Variant type of the result; -1: none
 };
 
 /// C: the class, const if the function takes a const object.
@@ -41,7 +41,7 @@ struct MethodParts {
     return {};
   }
 
-  /// `userdata`: a vector of Variants, the defaults of the last arguments.
+  /// `userdata`: a vector of Variants with the default values of the last arguments.
   template <auto method>
   static void call(void* userdata, void* instance, const void* const* given, int64_t count, void* result,
                    GDExtensionCallError* error) {

@@ -1,6 +1,7 @@
 #pragma once
-// Values of the engine. Everything but plain numbers and vectors is a Variant, and methods are called by name: the
-// plugin makes no call so often that the lookup would matter, and names stay the same from version to version.
+// Values of the engine. All values except plain numbers and vectors are Variants, and methods are called by name. This
+// is slower than typed calls, but the plugin makes no call so often that it matters, and names stay the same from
+// version to version.
 
 #include <array>
 #include <concepts>
@@ -18,7 +19,7 @@ namespace sgm_godot {
 
 using Object = GDExtensionObjectPtr;
 
-/// The engine's StringName: a name that is looked up once and compared as a pointer.
+/// A StringName of the engine: a name that is interned once, and then compared as a pointer.
 class Name {
  public:
   explicit Name(std::string_view text);
@@ -99,12 +100,13 @@ class Variant {
   bool isNil() const { return type() == GDEXTENSION_VARIANT_TYPE_NIL; }
   bool truth() const { return engine().variant_booleanize(bytes_) != 0; }
 
-  /// The value as a T, converted as the engine does; the empty T if the type does not fit.
+  /// The value as another type, converted as the engine does. If no conversion exists, the empty value of that type.
   template <class T>
   T to() const;
   Object object() const;  // null if the value is not an object
 
-  /// Calls a method of an object or a built-in type. Returns nil after an error, which the engine's log reports.
+  /// Calls a method of an object or a built-in type. If the call fails, the error is written to the engine's log and
+  /// the result is nil.
   template <class... Arguments>
   Variant call(const Name& method, const Arguments&... arguments) const {
     const std::array<Variant, sizeof...(Arguments)> values{Variant(arguments)...};
@@ -117,10 +119,10 @@ class Variant {
     return call(Name(method), arguments...);
   }
 
-  Variant get(const Variant& key) const;  // of a dictionary or an array; nil if the key is missing
+  Variant get(const Variant& key) const;  // the element of a dictionary or an array; nil if there is none
   bool has(const Variant& key) const;
   void set(const Variant& key, const Variant& value);
-  void append(const Variant& value) const;  // to an array
+  void append(const Variant& value) const;  // appends to an array
   int64_t size() const;
 
   const void* raw() const { return bytes_; }
@@ -163,7 +165,7 @@ class Packed {
   Packed& operator=(const Packed&) = delete;
   T* data() { return data_; }  // null if size is 0
   size_t size() const { return size_; }
-  Variant take() const;  // the array; the caller must not write to it afterwards
+  Variant take() const;  // the finished array; it must not be written to afterwards
 
  private:
   alignas(8) unsigned char bytes_[16];
@@ -171,11 +173,11 @@ class Packed {
   size_t size_;
 };
 
-/// The elements of a packed array of the engine; empty if the value is of another type.
+/// The elements of a packed array that the engine has passed; empty if the Variant is not a packed array of T.
 template <class T>
 std::vector<T> elements(const Variant& packed);
 
-/// A packed array of strings.
+/// A PackedStringArray with these texts.
 Variant strings(const std::vector<std::string>& texts);
 
 }  // namespace sgm_godot

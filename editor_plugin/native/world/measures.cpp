@@ -1,9 +1,8 @@
-// SgmWorld3D: measures of the drawn meshes, and their data for scenes without the plugin.
+#include "world/measures.h"
 
 #include <cmath>
 
 #include "godot/log.h"
-#include "world.h"
 
 namespace sgm_godot {
 namespace {
@@ -25,9 +24,9 @@ uint64_t defectsOf(const sgm_chunk_sums& sums) {
   return total;
 }
 
-/// Positions of all drawn triangles, exact to fractions of a unit, relative to the first chunk's corner.
+/// All drawn triangles. Positions are exact, from the first chunk's corner.
 struct Soup {
-  std::vector<double> positions;  // x, y and z of each vertex, in metres
+  std::vector<double> positions;  // metres
   std::vector<uint32_t> indices;
 };
 
@@ -51,7 +50,7 @@ void addTriangles(const sgm_mesh_view& view, uint32_t seams, const int32_t base[
         return std::equal(&soup.positions[size_t{a} * 3], &soup.positions[size_t{a} * 3] + 3,
                           &soup.positions[size_t{b} * 3]);
       };
-      // Seams may have triangles without area, which do not count.
+      // Seams may have triangles without area, which measure nothing.
       if (same(corner[0], corner[1]) || same(corner[1], corner[2]) || same(corner[0], corner[2])) continue;
       soup.indices.insert(soup.indices.end(), corner, corner + 3);
     }
@@ -69,15 +68,16 @@ Variant packed(const std::vector<T>& values) {
   return array.take();
 }
 
-// Values of the engine's enum Mesh.ArrayType.
+// The engine's Mesh.ArrayType.
 constexpr int64_t kVertex = 0, kNormal = 1, kColor = 3, kUv = 4, kIndex = 12, kArrays = 13;
 
 }  // namespace
 
-Dictionary World::measures() const {
+Dictionary drawnMeasures(const World& world) {
+  const std::shared_ptr<Session>& session = world.stage().session();
   Dictionary result;
   sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;
-  if (session_ == nullptr || sgm_world_get_measures(session_->world(), &measures, nullptr) != SGM_OK) return result;
+  if (session == nullptr || sgm_world_get_measures(session->world(), &measures, nullptr) != SGM_OK) return result;
   const sgm_chunk_sums& drawn = measures.drawn;
   const uint64_t defects = defectsOf(drawn);
   result.value.set("area", drawn.area);
@@ -90,9 +90,9 @@ Dictionary World::measures() const {
   return result;
 }
 
-Dictionary World::measureDrawn(int64_t bins) const {
+Dictionary measureDrawn(const World& world, int64_t bins) {
   Dictionary result;
-  const std::shared_ptr<Session> session = this->session();
+  const std::shared_ptr<Session> session = world.stage().active().placed().session;
   if (session == nullptr) return result;
   const Drawn drawn = drawnOf(*session);
   Soup soup;
@@ -115,7 +115,7 @@ Dictionary World::measureDrawn(int64_t bins) const {
   desc.histogram = histogram.data();
   sgm_measures measures = SGM_MEASURES_INIT;
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_measure(plugin().runtime, &desc, &measures, &error) < SGM_OK) {
+  if (sgm_measure(world.node().plugin.runtime, &desc, &measures, &error) < SGM_OK) {
     logError(std::string("SgmWorld3D: ") + error.message);
     return result;
   }
@@ -131,18 +131,19 @@ Dictionary World::measureDrawn(int64_t bins) const {
   return result;
 }
 
-Array World::bakeChunks() const {
+Array bakeChunks(const World& world) {
   Array list;
-  if (session_ == nullptr) return list;
-  const Drawn drawn = drawnOf(*session_);
-  const Placement here = placement();
+  const std::shared_ptr<Session>& session = world.stage().session();
+  const Materials& materials = world.stage().pictures().materials();
+  if (session == nullptr) return list;
+  const Drawn drawn = drawnOf(*session);
+  const Placement here = world.node().placement();
   for (const sgm_drawn_chunk& chunk : drawn.chunks) {
     sgm_mesh_view view = SGM_MESH_VIEW_INIT;
     if (sgm_mesh_get_view(chunk.mesh, &view, nullptr) != SGM_OK || view.index_count == 0) continue;
     const Variant surfaces = Variant::array();
     std::vector<Vector3> faces;
-    for (const PlainSurface& plain :
-         plainSurfaces(view, {true, chunk.seams}, materials_.slots(), materials_.palette())) {
+    for (const PlainSurface& plain : plainSurfaces(view, {true, chunk.seams}, materials.slots(), materials.palette())) {
       Variant arrays = Variant::array();
       arrays.call("resize", kArrays);
       arrays.set(kVertex, packed(plain.positions));
@@ -151,7 +152,7 @@ Array World::bakeChunks() const {
       arrays.set(kUv, packed(plain.coordinates));
       arrays.set(kIndex, packed(plain.indices));
       Variant surface = Variant::dictionary();
-      surface.set("material", materials_.name(plain.slot));
+      surface.set("material", materials.name(plain.slot));
       surface.set("arrays", arrays);
       surfaces.append(surface);
       for (const int32_t index : plain.indices) faces.push_back(plain.positions[static_cast<size_t>(index)]);

@@ -1,11 +1,10 @@
-// SgmWorld3D: digging and building.
+#include "world/edits.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "godot/log.h"
 #include "number_text.h"
-#include "world.h"
 
 namespace sgm_godot {
 namespace {
@@ -22,8 +21,7 @@ void place(const Placement& placement, const Vector3& position, int32_t units[3]
   for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
 }
 
-/// Checks that a length of a brush is within its range, and logs an error if not. The range is limited because the
-/// runtime counts in units.
+/// Whether a length of a brush is in its range; an error is reported if not. The runtime counts in units.
 bool isLength(const char* what, double metres, double least) {
   constexpr double kMost = 1024;
   if (metres >= least && metres <= kMost) return true;
@@ -33,7 +31,7 @@ bool isLength(const char* what, double metres, double least) {
 }
 constexpr double kLeast = 1.0 / SGM_UNITS_PER_METRE;
 
-/// An allowed key of a brush dictionary, and the types of its value.
+/// A key that a brush may have, with the types of its value.
 struct Key {
   const char* name;
   GDExtensionVariantType type, other;
@@ -52,7 +50,7 @@ constexpr Key kKeys[] = {
     {"tag", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
 };
 
-/// Checks that a brush has only allowed keys, and logs an error that names any other key.
+/// Whether a brush has no other keys and types than these; an error is reported if it has.
 bool hasOnlyKeys(const Variant& brush) {
   const Variant names = brush.call("keys");
   const int64_t count = names.size();
@@ -82,11 +80,9 @@ Integers idOf(const sgm_edit_id& id) {
   return {numbers.take()};
 }
 
-}  // namespace
-
-std::optional<uint16_t> World::materialNumber(const std::string& name) const {
+std::optional<uint16_t> materialNumber(const World& world, const std::string& name) {
   if (name.empty()) return uint16_t{0};
-  const std::vector<std::string> names = materialNames();
+  const std::vector<std::string> names = materialNames(world.node().compiled().get());
   for (size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) return static_cast<uint16_t>(i);
   }
@@ -96,9 +92,9 @@ std::optional<uint16_t> World::materialNumber(const std::string& name) const {
   return std::nullopt;
 }
 
-std::optional<uint16_t> World::tagNumber(const std::string& name) const {
+std::optional<uint16_t> tagNumber(const World& world, const std::string& name) {
   if (name.empty()) return uint16_t{0};
-  const sgm_grammar* grammar = session_->grammar().get();
+  const sgm_grammar* grammar = world.stage().session()->grammar().get();
   for (uint32_t i = 0; i < sgm_grammar_tag_count(grammar); ++i) {
     if (name == sgm_grammar_tag(grammar, i)) return static_cast<uint16_t>(i);
   }
@@ -106,43 +102,55 @@ std::optional<uint16_t> World::tagNumber(const std::string& name) const {
   return std::nullopt;
 }
 
-Integers World::lay(const sgm_brush& brush) {
+/// Announces an edit, and returns its id for scripts. The world may not exist afterwards.
+Integers announceEdit(World& world, const sgm_edit_id& id) {
+  const Integers numbers = idOf(id);
+  world.messages().announce("edited", numbers.value);
+  world.messages().emit();
+  return numbers;
+}
+
+Integers lay(World& world, const sgm_brush& brush) {
   sgm_edit_id id{};
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_edit(session_->world(), &brush, &id, &error) < SGM_OK) {
+  if (sgm_world_edit(world.stage().session()->world(), &brush, &id, &error) < SGM_OK) {
     logError(std::string("SgmWorld3D: ") + error.message);
     return {};
   }
-  const Integers made = idOf(id);
-  announce("edited", made.value);
-  emitAnnounced();
-  return made;
+  return announceEdit(world, id);
 }
 
-Integers World::dig(const Vector3& position, double radius, double smooth) {
-  if (!ready() || !isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return {};
+/// A sphere without a material; nullopt and an error if a length is out of its range.
+std::optional<sgm_brush> sphere(const World& world, const Vector3& position, double radius, double smooth) {
+  if (!isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return std::nullopt;
   sgm_brush brush = SGM_BRUSH_INIT;
-  place(placement(), position, brush.from);
+  place(world.node().placement(), position, brush.from);
   brush.radius = lengthUnits(radius);
   brush.smooth = lengthUnits(smooth);
-  return lay(brush);
+  return brush;
 }
 
-Integers World::build(const Vector3& position, double radius, const std::string& material, double smooth) {
-  if (!ready() || !isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return {};
-  const std::optional<uint16_t> number = materialNumber(material);
+}  // namespace
+
+Integers dig(World& world, const Vector3& position, double radius, double smooth) {
+  if (!world.isReady()) return {};
+  const std::optional<sgm_brush> brush = sphere(world, position, radius, smooth);
+  return brush ? lay(world, *brush) : Integers();
+}
+
+Integers build(World& world, const Vector3& position, double radius, const std::string& material, double smooth) {
+  if (!world.isReady()) return {};
+  std::optional<sgm_brush> brush = sphere(world, position, radius, smooth);
+  if (!brush) return {};
+  const std::optional<uint16_t> number = materialNumber(world, material);
   if (!number) return {};
-  sgm_brush brush = SGM_BRUSH_INIT;
-  brush.cut = 0;
-  brush.material = *number;
-  place(placement(), position, brush.from);
-  brush.radius = lengthUnits(radius);
-  brush.smooth = lengthUnits(smooth);
-  return lay(brush);
+  brush->cut = 0;
+  brush->material = *number;
+  return lay(world, *brush);
 }
 
-Integers World::edit(const Dictionary& given) {
-  if (!ready() || !hasOnlyKeys(given.value)) return {};
+Integers edit(World& world, const Dictionary& given) {
+  if (!world.isReady() || !hasOnlyKeys(given.value)) return {};
   const auto value = [&](const char* key, const Variant& otherwise) {
     const Variant v = given.value.get(key);
     return v.isNil() ? otherwise : v;
@@ -159,10 +167,10 @@ Integers World::edit(const Dictionary& given) {
     logError("SgmWorld3D.edit: the brush has the shape '" + shape + "'; use sphere, box or capsule");
     return {};
   }
-  const std::optional<uint16_t> material = materialNumber(value("material", "").to<std::string>());
-  const std::optional<uint16_t> tag = tagNumber(value("tag", "").to<std::string>());
+  const std::optional<uint16_t> material = materialNumber(world, value("material", "").to<std::string>());
+  const std::optional<uint16_t> tag = tagNumber(world, value("tag", "").to<std::string>());
   if (!material || !tag) return {};
-  const Placement here = placement();
+  const Placement here = world.node().placement();
   brush.cut = value("cut", true).truth() ? 1 : 0;
   brush.material = *material;
   brush.tag = *tag;
@@ -184,12 +192,12 @@ Integers World::edit(const Dictionary& given) {
   brush.turn[3] = turn.w;
   brush.radius = lengthUnits(radius);
   brush.smooth = lengthUnits(smooth);
-  return lay(brush);
+  return lay(world, brush);
 }
 
-Integers World::undo(const Integers& id) {
+Integers undo(World& world, const Integers& id) {
   const std::vector<int64_t> numbers = elements<int64_t>(id.value);
-  if (!ready()) return {};
+  if (!world.isReady()) return {};
   if (numbers.size() != 2) {
     logError("SgmWorld3D.undo: this is no edit's id; use what dig, build, edit or undo returned");
     return {};
@@ -197,32 +205,31 @@ Integers World::undo(const Integers& id) {
   const sgm_edit_id known{static_cast<uint64_t>(numbers[0]), static_cast<uint64_t>(numbers[1])};
   sgm_edit_id made{};
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_undo(session_->world(), &known, &made, &error) < SGM_OK) {
+  if (sgm_world_undo(world.stage().session()->world(), &known, &made, &error) < SGM_OK) {
     logError(std::string("SgmWorld3D: ") + error.message);
     return {};
   }
-  const Integers named = idOf(made);
-  announce("edited", named.value);
-  emitAnnounced();
-  return named;
+  return announceEdit(world, made);
 }
 
-int64_t World::editCount() const {
+int64_t countEdits(const World& world) {
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-  if (session_ == nullptr || sgm_world_get_stats(session_->world(), &stats, nullptr) != SGM_OK) return 0;
+  if (!world.stage().isRunning() || sgm_world_get_stats(world.stage().session()->world(), &stats, nullptr) != SGM_OK)
+    return 0;
   return static_cast<int64_t>(stats.edits);
 }
 
-Bytes World::exportEdits(int64_t since) {
-  if (!ready() || since < 0) return {};
+Bytes exportEdits(World& world, int64_t since) {
+  if (!world.isReady() || since < 0) return {};
   std::vector<uint8_t> bytes;
   size_t count = 0;
   sgm_error error = SGM_ERROR_INIT;
   sgm_result result;
-  // Repeated, because another thread may add edits between the two calls.
+  // Edits may come from another thread between the two calls.
   do {
     bytes.resize(count);
-    result = sgm_world_export_edits(session_->world(), static_cast<uint64_t>(since), bytes.data(), &count, &error);
+    result = sgm_world_export_edits(world.stage().session()->world(), static_cast<uint64_t>(since), bytes.data(),
+                                    &count, &error);
   } while (result == SGM_INCOMPLETE || (result == SGM_OK && count > bytes.size()));
   if (result < SGM_OK) {
     logError(std::string("SgmWorld3D: ") + error.message);
@@ -233,25 +240,26 @@ Bytes World::exportEdits(int64_t since) {
   return {packed.take()};
 }
 
-int64_t World::importEdits(const Bytes& given) {
-  if (!ready()) return kErrorUnconfigured;
+int64_t importEdits(World& world, const Bytes& given) {
+  if (!world.isReady()) return kErrorUnconfigured;
   const std::vector<uint8_t> bytes = elements<uint8_t>(given.value);
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_import_edits(session_->world(), bytes.data(), bytes.size(), &error) >= SGM_OK) return kOk;
+  if (sgm_world_import_edits(world.stage().session()->world(), bytes.data(), bytes.size(), &error) >= SGM_OK)
+    return kOk;
   logError(std::string("SgmWorld3D: ") + error.message);
   return error.code == SGM_ERR_DATA ? kErrorInvalidData : kFailed;
 }
 
-int64_t World::flushEdits() {
-  if (!ready()) return kErrorUnconfigured;
+int64_t flushEdits(World& world) {
+  if (!world.isReady()) return kErrorUnconfigured;
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_flush_edits(session_->world(), &error) >= SGM_OK) return kOk;
+  if (sgm_world_flush_edits(world.stage().session()->world(), &error) >= SGM_OK) return kOk;
   logError(std::string("SgmWorld3D: ") + error.message);
   return kFailed;
 }
 
-int64_t World::editsHash() const {
-  return session_ == nullptr ? 0 : static_cast<int64_t>(sgm_world_edits_hash(session_->world()));
+int64_t hashEdits(const World& world) {
+  return world.stage().isRunning() ? static_cast<int64_t>(sgm_world_edits_hash(world.stage().session()->world())) : 0;
 }
 
 }  // namespace sgm_godot

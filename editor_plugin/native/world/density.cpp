@@ -1,4 +1,4 @@
-// SgmWorld3D: samples the density of fog and the sunlight in it, for renderers.
+#include "world/density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,24 +9,23 @@
 #include <vector>
 
 #include "godot/log.h"
-#include "world.h"
 
 namespace sgm_godot {
 namespace {
 
 constexpr int64_t kMostPoints = int64_t{1} << 27;
 
-/// Rounds to whole units; nullopt if `units` is not finite or exceeds the runtime's coordinates.
+/// The nearest whole number of units; nullopt if `units` is not finite or beyond the runtime's coordinates.
 std::optional<int32_t> wholeUnits(double units) {
   if (!(std::abs(units) <= std::numeric_limits<int32_t>::max())) return {};
   return static_cast<int32_t>(std::lround(units));
 }
 
-/// Accumulates density along the way to the sun: for each grid point the equivalent metres of full density. Works from
-/// the topmost layer down; the light of each layer passes through the layer above. `to_sun` points up.
+/// Metres of full density between each point and the sun, from the topmost layer down: each layer's light comes through
+/// the one above it. `to_sun` points up.
 class SunDepth {
  public:
-  /// `spacing`: distance between grid points, metres.
+  /// `spacing`: metres, of the grid that was sampled.
   SunDepth(Vector3i size, double spacing, Vector3 to_sun)
       : width_(static_cast<size_t>(size.x)),
         depth_(static_cast<size_t>(size.z)),
@@ -36,8 +35,7 @@ class SunDepth {
         above_(width_ * depth_),
         here_(width_ * depth_) {}
 
-  /// Advances to the next lower layer and returns its depths. `densities`: of this layer, x varies fastest, rows
-  /// `pitch` apart.
+  /// `densities`: this layer's, x by x, rows `pitch` apart.
   const std::vector<float>& lower(const uint8_t* densities, size_t pitch) {
     for (size_t z = 0; z < depth_; ++z) {
       for (size_t x = 0; x < width_; ++x) {
@@ -68,10 +66,10 @@ class SunDepth {
 
 }  // namespace
 
-// Thread-safe, because it reads nothing of the scene.
-Bytes World::sampleDensity(const Vector3& corner, double spacing, const Vector3i& size, const Vector3& to_sun,
-                           double fade, double edge) {
-  const PlacedSession placed = placedSession();
+// On any thread, so nothing of the scene is read.
+Bytes sampleDensity(const World& world, const Vector3& corner, double spacing, const Vector3i& size,
+                    const Vector3& to_sun, double fade, double edge) {
+  const ActiveSession::Placed placed = world.stage().active().placed();
   if (placed.session == nullptr) return {};
   const int64_t points = int64_t{size.x} * size.y * size.z;
   const double length = std::hypot(to_sun.x, to_sun.y, to_sun.z);
