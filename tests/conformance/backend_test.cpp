@@ -13,7 +13,7 @@
 #include "compare_meshes.h"
 #include "mesh_jobs.h"
 #include "rounds.h"
-#include "unit/stream/world_support.h"
+#include "unit/world/world_support.h"
 
 #include SGM_TEST_MACHINE
 

@@ -13,7 +13,7 @@
 #include "region/region_mesh.h"
 #include "region/region_texture.h"
 #include "stream/plan/view_target.h"
-#include "stream/world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -7,6 +7,7 @@
 
 #include "fixture.h"
 #include "stream/plan/frame.h"
+#include "stream/random_tree.h"
 #include "tools/flight/frame_checker.h"
 
 namespace sgm {
@@ -35,20 +36,8 @@ inline constexpr int32_t kFinestCell = 256;
 
 /// An octree of the whole closed world, refined at random places around its middle.
 inline Octree randomTree(std::mt19937& random) {
-  Octree tree(kTop, kFinestCell);
-  for (int corner = 0; corner < 8; ++corner)
-    tree.split({kTop + 1, {-(corner & 1), -(corner >> 1 & 1), -(corner >> 2)}});
   const int splits = 1 + static_cast<int>(random() % 6);
-  for (int i = 0; i < splits; ++i) {
-    const int level = 1 + static_cast<int>(random() % kTop);
-    const int32_t edge = kChunkCells * kFinestCell << level;
-    ChunkKey key{level, {}};
-    for (int axis = 0; axis < 3; ++axis)
-      key.at[axis] = static_cast<int32_t>(floorDiv(static_cast<int32_t>(random() % 65536) - 32768, edge));
-    tree.split(key);
-  }
-  refineToRules(tree);
-  return tree;
+  return randomTree(random, kTop, kFinestCell, splits, 32768);
 }
 
 inline sgm_chunk_key publicKey(const ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }

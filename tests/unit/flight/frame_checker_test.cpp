@@ -10,7 +10,7 @@
 
 #include "drawn_world.h"
 #include "rounds.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 using cli::DrawnParts;

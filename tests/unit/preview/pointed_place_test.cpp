@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 using namespace sgm::preview;

@@ -7,7 +7,7 @@
 #include "rounds.h"
 #include "store_support.h"
 #include "stream/plan/work_queue.h"
-#include "streaming_support.h"
+#include "stream/streaming_support.h"
 
 using namespace sgm;
 
@@ -248,9 +248,7 @@ TEST_CASE("a far store is asked by no job, and what it has is drawn", "[store][t
     Scene scene(markedJobs(threads), caveText(), with(far));
     Engine engine;
     const Viewer viewer = viewerAt(64, 64, 64);
-    REQUIRE(scene.world->setViewers({&viewer, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    lookFrom(scene, engine, viewer);
     checkFrame(scene, engine);
     CHECK(far->stats().hits > 100);
     CHECK(far->asked_by_jobs == 0);
@@ -285,8 +283,7 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
       CHECK(far->asked > 0);
       if (slowness < 0) CHECK(far->answers == 0);
       CHECK(far->asked_by_jobs == 0);
-      REQUIRE(scene.world->waitIdle());
-      engine.take(*scene.world);
+      comeToRest(scene, engine);
       checkFrame(scene, engine);
     }
   }
@@ -303,9 +300,7 @@ TEST_CASE("requests that hang cost their own lookers and no more", "[store][thre
     Viewer viewer = viewerAt(16, 64, 64);
     for (int turn = 0; turn < 6; ++turn) {
       viewer.position[0] += 16 * kUnitsPerMetre;
-      REQUIRE(scene.world->setViewers({&viewer, 1}));
-      REQUIRE(scene.world->waitIdle());
-      engine.take(*scene.world);
+      lookFrom(scene, engine, viewer);
     }
     checkFrame(scene, engine);
     return parts->stats().hits;
@@ -384,8 +379,7 @@ TEST_CASE("a store that is slow changes no frame of a viewer who wanders and dig
           workOrWait(scene);
         }
       }
-      REQUIRE(scene.world->waitIdle());
-      engine.take(*scene.world);
+      comeToRest(scene, engine);
       EditLog edits{EditSettings{}};
       REQUIRE(edits.import(scene.world->exportEdits(0)));
       checkFrame(scene, engine, edits.snapshot().get());

@@ -1,9 +1,9 @@
 // Tests that records and indexes are read back as they were written, and that all damage is detected.
 
-#include "chunk_cache_support.h"
 #include "store/folder.h"
 #include "store/index.h"
 #include "store/source.h"
+#include "stream/chunk_cache_support.h"
 
 using namespace sgm;
 

@@ -1,11 +1,11 @@
 #pragma once
 // A world that is baked into a temporary folder.
 
-#include "chunk_cache_support.h"
 #include "store/merge.h"
 #include "store/plan.h"
 #include "store/source.h"
 #include "store/verify.h"
+#include "stream/chunk_cache_support.h"
 
 namespace sgm {
 

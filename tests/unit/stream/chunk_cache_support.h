@@ -3,10 +3,10 @@
 
 #include "backend/open/open_backend.h"
 #include "chunk/chunk_part.h"
-#include "disk_cache_support.h"
-#include "edits_support.h"
+#include "store/disk_cache_support.h"
 #include "stream/make/chunk_cache.h"
-#include "world_support.h"
+#include "world/edits_support.h"
+#include "world/world_support.h"
 
 namespace sgm {
 

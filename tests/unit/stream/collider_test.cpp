@@ -99,15 +99,12 @@ TEST_CASE("colliders are what is drawn near a viewer that moves and digs, and go
         engine.take(*scene.world);
         scene.jobs->help();
       }
-      REQUIRE(scene.world->waitIdle());
-      engine.take(*scene.world);
+      comeToRest(scene, engine);
       checkColliders(engine, viewer);
       CHECK(scene.world->stats().collider_bytes > 0);
     }
     viewer.position[1] += 200.0 * kUnitsPerMetre;
-    REQUIRE(scene.world->setViewers({&viewer, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    lookFrom(scene, engine, viewer);
     for (const auto& [key, collider] : engine.colliders) CHECK(engine.shown.count(key) == 1);
   }
 }

@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "catch.h"
-#include "edits_support.h"
 #include "rounds.h"
+#include "world/edits_support.h"
 
 using namespace sgm;
 namespace fs = std::filesystem;

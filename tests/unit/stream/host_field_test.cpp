@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "backend/cpu/instruction_sets.h"
-#include "edits_support.h"
 #include "field/evaluate.h"
 #include "query/queries.h"
 #include "rounds.h"
 #include "streaming_support.h"
+#include "world/edits_support.h"
 
 namespace sgm {
 namespace {
@@ -123,8 +123,7 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
       }
       if (turn % 8 == 7 && turn < 12) checkFrame(scene, engine);
     }
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    comeToRest(scene, engine);
     CHECK(engine.shown.size() > 20);
     checkFrame(scene, engine, log.snapshot().get());
   }

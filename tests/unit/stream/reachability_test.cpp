@@ -10,7 +10,7 @@
 
 #include "rounds.h"
 #include "stream/plan/lod_target.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -14,18 +14,13 @@
 #include "mesh/vertex.h"
 #include "stream/plan/frame.h"
 #include "stream/world.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 namespace sgm {
 
 inline constexpr int32_t kStreamedCell = 512;
 
-/// The cave without its drips: their many small cells would only make the tests slow.
-inline std::string caveText() {
-  return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
-}
-
-/// A job system whose jobs run only when a thread helps, in random order: the latest and most disorderly execution that
+/// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that
 /// the contract allows.
 class LateJobs final : public JobSystem {
  public:
@@ -228,7 +223,19 @@ inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnaps
   CHECK(checkParts(parts).closed());
 }
 
-/// Runs jobs for about the time of a frame, as an engine does that lends its thread.
+/// Waits until all is drawn, and takes it.
+inline void comeToRest(Scene& scene, Engine& engine) {
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+}
+
+/// The same, of what a viewer sees.
+inline void lookFrom(Scene& scene, Engine& engine, const Viewer& viewer) {
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  comeToRest(scene, engine);
+}
+
+/// A frame's time of an engine that lends its thread.
 inline void workOrWait(Scene& scene) {
   for (int jobs = 0; jobs < 50; ++jobs) {
     if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -1,6 +1,6 @@
 // Tests a world with a cache folder.
 
-#include "disk_cache_support.h"
+#include "store/disk_cache_support.h"
 #include "streaming_support.h"
 
 using namespace sgm;
@@ -32,9 +32,7 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     CAPTURE(again);
     sgm::Scene scene(*makeThreadPool(2), caveText(), settings);
     sgm::Engine engine;
-    REQUIRE(scene.world->setViewers({&viewer, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    lookFrom(scene, engine, viewer);
     checkFrame(scene, engine);
     const ContentHash hash = *scene.world->hashBodies(region, 0);
     const DiskCacheStats cache = scene.world->stats().cache;

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "catch.h"
-#include "edits_support.h"
 #include "rounds.h"
 #include "streaming_support.h"
 #include "temporary_folder.h"
+#include "world/edits_support.h"
 
 using namespace sgm;
 
@@ -99,8 +99,7 @@ TEST_CASE("every frame shows one state of the edits, and is closed") {
       if (turn % 5 == 4) checkFrame(scene, engine, editor.at(scene.world->drawn()->edits));
     }
     CHECK(scene.world->drawn()->edits > 0);
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    comeToRest(scene, engine);
     checkFrame(scene, engine, editor.at(scene.world->stats().edits));
     CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
   }
@@ -153,8 +152,7 @@ TEST_CASE("digs come faster than they can be drawn, and what waits stays bounded
     most = std::max(most, stats.queued + stats.in_work);
   }
   CHECK(most < drawn);
-  REQUIRE(scene.world->waitIdle());
-  engine.take(*scene.world);
+  comeToRest(scene, engine);
   CHECK(scene.world->stats().edits_drawn == 300);
   EditLog log{EditSettings{}};
   REQUIRE(log.import(scene.world->exportEdits()));

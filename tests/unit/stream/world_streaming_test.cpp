@@ -70,8 +70,7 @@ TEST_CASE("every frame of a wandering viewer is the closed frame of its octree")
       if (turn % 8 == 7) checkFrame(scene, engine);
     }
     CHECK(frames > 20);
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    comeToRest(scene, engine);
     checkFrame(scene, engine);
     if (!scene.settings.by_reach) {
       CHECK(scene.world->drawn()->tree == lodTarget(lodViewers({&viewer, 1}, scene.settings.lod), scene.settings.lod));
@@ -94,9 +93,7 @@ TEST_CASE("a passage that a level leaves out ends in no larger a wall than is st
     std::mt19937 random(seed);
     const double at = static_cast<double>(random() % 64'000) / 1000;
     const Viewer viewer = viewerAt(at, 0, 0);
-    REQUIRE(scene.world->setViewers({&viewer, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    lookFrom(scene, engine, viewer);
     for (const double side : {-1.0, 1.0}) {
       const double wall = wallAlong(engine, viewer.position, side) / kUnitsPerMetre;
       CAPTURE(at, side, wall);
@@ -119,12 +116,9 @@ TEST_CASE("a world at rest draws the same by whatever way its viewers came, with
     Viewer viewer = viewerAt(10.0 * threads, 96, 70);
     REQUIRE(scene.world->setViewers({&viewer, 1}));
     if (threads > 1) {
-      REQUIRE(scene.world->waitIdle());
-      engine.take(*scene.world);
+      comeToRest(scene, engine);
     }
-    REQUIRE(scene.world->setViewers({&goal, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    lookFrom(scene, engine, goal);
     const Result<ContentHash> hash = scene.world->hashBodies(region, 0);
     REQUIRE(hash);
     hashes.push_back(*hash);

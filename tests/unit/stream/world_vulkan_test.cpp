@@ -40,8 +40,7 @@ TEST_CASE("a world that a Vulkan device meshes is closed as it streams, and come
     }
     checkFrame(scene, engine);
   }
-  REQUIRE(scene.world->waitIdle());
-  engine.take(*scene.world);
+  comeToRest(scene, engine);
   checkFrame(scene, engine);
   CHECK(engine.shown.size() > 10);
   CHECK(scene.backend->counters().batches > 0);

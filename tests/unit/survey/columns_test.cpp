@@ -1,7 +1,7 @@
 // Tests the sampled columns of a cave whose measures are known.
 
 #include "tools/survey/sheet.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 using namespace sgm::survey;

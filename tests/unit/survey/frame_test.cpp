@@ -6,7 +6,7 @@
 
 #include "scenes.h"
 #include "tools/framing/rule_frame.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 using namespace sgm::cli;

@@ -1,42 +1,18 @@
-// Tests queries of the field against analytic results and dense sampling, near the origin and far from it.
-
-#include "query/queries.h"
+// Rays and nearest points of the field, against analytic answers and dense sampling; far from the origin as near it.
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "asked_world.h"
 #include "backend/cpu/instruction_sets.h"
 #include "rounds.h"
-#include "world_support.h"
 
 using namespace sgm;
 
 namespace {
 
 using Vector = std::array<double, 3>;
-constexpr double kMetre = 1024;
-
-/// A world, and its field.
-struct Asked {
-  WorldField world;
-  QueryField field;
-
-  explicit Asked(const WorldFieldSettings& settings)
-      : world(settings, std::pmr::get_default_resource()), field(queryField(world)) {}
-  Asked(const Asked&) = delete;
-};
-
-WorldFieldSettings oneShape(const std::string& shape, int32_t cell = 256, Int3 shift = {}) {
-  WorldFieldSettings s = settingsOf("sgm 1; units m;\nstart Main;\nrule Main { " + shape + " }\n", cell);
-  s.shift = shift;
-  return s;
-}
-
-/// The cave without the layer that probes for places: probes depend on world positions, and the test moves the world.
-std::string withoutDrips() {
-  return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
-}
 
 double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 Vector less(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -79,13 +55,6 @@ std::optional<SurfacePoint> closest(const QueryField& field, const Vector& place
   INFO((found ? "" : found.error().message));
   REQUIRE(found);
   return *found;
-}
-
-WalkableArea walk(const QueryField& field, const IntBox& box, const Walker& walker = {}) {
-  const auto area = isWalkable(field, box, walker);
-  INFO((area ? "" : area.error().message));
-  REQUIRE(area);
-  return *area;
 }
 
 bool solidAt(const QueryField& field, Int3 p) {
@@ -290,7 +259,7 @@ TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
 }
 
 TEST_CASE("random rays and places in the cave agree with dense sampling, here and 1,500 km away") {
-  const WorldFieldSettings settings = settingsOf(withoutDrips(), 256);
+  const WorldFieldSettings settings = settingsOf(caveText(), 256);
   WorldFieldSettings moved = settings;
   constexpr int32_t kMoved = 1 << 30;
   moved.shift = {kMoved + (1 << 28) + (1 << 27), -kMoved, 1 << 28};
@@ -375,86 +344,6 @@ TEST_CASE("random rays and places in the cave agree with dense sampling, here an
   }
   CHECK(hits > 1);
   CHECK(hits + inside > 2);
-}
-
-TEST_CASE("a floor is walkable where a walker fits: slope, head, width, steps and gaps") {
-  const IntBox box{{-6 * 1024, -3 * 1024, -6 * 1024}, {6 * 1024, 5 * 1024, 6 * 1024}};
-  const auto areaOf = [&](const std::string& shape, const Walker& walker = {}) {
-    return walk(Asked(oneShape(shape)).field, box, walker);
-  };
-  const IntBox under{box.lo, {box.hi.x, 2 * 1024, box.hi.z}};  // ends below the ceilings' upper sides
-  const double all = 12.0 * 12.0 * kMetre * kMetre;
-  const WalkableArea floor = areaOf("box(40m, 2m, 40m);");
-  CHECK(floor.walkable);
-  CHECK(floor.standing == Approx(all).epsilon(0.05));
-  CHECK(floor.largest == floor.standing);
-  CHECK(floor.sides == 0b110011);
-
-  // The underside of a slab is no floor; a ceiling that is too low prevents standing, a higher one does not.
-  CHECK(areaOf("at(0m, 4m, 0m) box(40m, 1m, 40m);").standing > 0);  // its upper side, inside the box
-  CHECK(areaOf("at(0m, 5m, 0m) box(40m, 1m, 40m);").standing == 0);
-  const Asked high_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3.4m, 0m) box(40m, 1m, 40m);"));
-  const Asked low_ceiling(oneShape("box(40m, 2m, 40m); at(0m, 3m, 0m) box(40m, 1m, 40m);"));
-  CHECK(walk(high_ceiling.field, under).largest == Approx(all).epsilon(0.05));
-  CHECK_FALSE(walk(low_ceiling.field, under).walkable);
-  Walker small;
-  small.height = 1.2 * kMetre;
-  CHECK(walk(low_ceiling.field, under, small).walkable);
-
-  // A slope of 30 degrees can be walked, one of 60 only by an agent that climbs.
-  CHECK(areaOf("rot(x, 30deg) box(40m, 2m, 40m);").largest > all / 2);
-  CHECK_FALSE(areaOf("rot(x, 60deg) box(40m, 2m, 40m);").walkable);
-  Walker climber;
-  climber.slope = 0.4;
-  CHECK(areaOf("rot(x, 60deg) box(40m, 2m, 40m);", climber).walkable);
-
-  // A step of 0.25 m can be walked, one of 1 m cannot: then there are two floors, each ending at the step.
-  const WalkableArea low = areaOf("box(40m, 2m, 40m); at(10m, 0.25m, 0m) box(20m, 2m, 40m);");
-  CHECK(low.largest == low.standing);
-  CHECK(low.sides == 0b110011);
-  const WalkableArea high = areaOf("box(40m, 2m, 40m); at(10m, 1m, 0m) box(20m, 2m, 40m);");
-  CHECK(high.largest < 0.6 * high.standing);
-  CHECK((high.sides & 3) != 3);
-
-  // A walker passes a door of 2 m, but not one of exactly the walker's width.
-  const auto door = [&](double width) {
-    const std::string half = std::to_string(6 - width / 2), at = std::to_string(3 + width / 4);
-    return areaOf("box(40m, 2m, 40m); at(0m, 2m, " + at + "m) box(0.5m, 3m, " + half + "m); at(0m, 2m, -" + at +
-                  "m) box(0.5m, 3m, " + half +
-                  "m); at(0m, 2m, 10m) box(0.5m, 3m, 8m); at(0m, 2m, -10m) box(0.5m, 3m, 8m);");
-  };
-  CHECK((door(2).sides & 3) == 3);
-  CHECK((door(0.4).sides & 3) != 3);
-  CHECK(door(0.4).walkable);
-
-  // A gap of a cell or more cannot be crossed.
-  CHECK((areaOf("at(10m, 0m, 0m) box(19m, 2m, 40m); at(-10m, 0m, 0m) box(19m, 2m, 40m);").sides & 3) != 3);
-  // An empty region, and one of solid rock.
-  CHECK(areaOf("at(100m, 0m, 0m) sphere(1m);").standing == 0);
-  CHECK(areaOf("sphere(30m);").standing == 0);
-}
-
-TEST_CASE("the cave's hall is walkable, here and far away") {
-  WorldFieldSettings settings = settingsOf(withoutDrips(), 256);
-  const Asked asked(settings);
-  const auto anchors = asked.world.anchors({{0, 0, 0}, {192 * 1024, 192 * 1024, 192 * 1024}});
-  REQUIRE(anchors);
-  const Int3 spawn = anchors->front().frame.origin;
-  const IntBox box = IntBox{spawn, spawn}.grown(14 * 1024);
-  const WalkableArea here = walk(asked.field, box);
-  WARN("floor to stand on: " << here.standing / kMetre / kMetre << " square metres, the largest part "
-                             << here.largest / kMetre / kMetre);
-  CHECK(here.walkable);
-  CHECK(here.largest <= here.standing);
-  settings.shift = {1 << 30, -(1 << 30), 1 << 30};
-  const Asked far(settings);
-  const WalkableArea there =
-      walk(far.field, {saturatingAdd(box.lo, settings.shift), saturatingAdd(box.hi, settings.shift)});
-  CHECK(there.standing == here.standing);
-  CHECK(there.largest == here.largest);
-  CHECK(there.sides == here.sides);
-  // Solid rock.
-  CHECK(walk(asked.field, IntBox{{0, 0, 0}, {4096, 4096, 4096}}).standing == 0);
 }
 
 TEST_CASE("queries refuse what is not finite, outside of the world, or too much") {

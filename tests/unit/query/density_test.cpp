@@ -10,7 +10,7 @@
 #include "mesh/vertex.h"
 #include "query/density_grid.h"
 #include "rounds.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -35,6 +35,11 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
+/// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
+inline std::string caveText() {
+  return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+}
+
 inline WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint64_t seed = 7) {
   const CompileResult compiled = compileGrammar(text, "test.sgm");
   INFO(renderDiagnostics(compiled));

@@ -12,7 +12,7 @@
 #include "backend/cpu/instruction_sets.h"
 #include "field/prune.h"
 #include "query/void_path.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 namespace sgm {
 

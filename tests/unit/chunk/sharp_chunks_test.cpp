@@ -5,11 +5,12 @@
 #include <random>
 
 #include "backend/open/open_backend.h"
-#include "edits_support.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex_keys.h"
 #include "rounds.h"
-#include "streaming_support.h"
+#include "stream/random_tree.h"
+#include "stream/streaming_support.h"
+#include "world/edits_support.h"
 
 using namespace sgm;
 
@@ -28,22 +29,7 @@ const char* const kBoxes =
 constexpr int kTop = 3;
 constexpr int32_t kFinest = 256;
 
-/// An octree of the whole world, refined at random places around its middle.
-Octree randomTree(std::mt19937& random) {
-  Octree tree(kTop, kFinest);
-  for (int corner = 0; corner < 8; ++corner)
-    tree.split({kTop + 1, {-(corner & 1), -(corner >> 1 & 1), -(corner >> 2)}});
-  for (int i = 0; i < 6; ++i) {
-    const int level = 1 + static_cast<int>(random() % kTop);
-    const int32_t edge = kChunkCells * kFinest << level;
-    ChunkKey key{level, {}};
-    for (int axis = 0; axis < 3; ++axis)
-      key.at[axis] = static_cast<int32_t>(floorDiv(static_cast<int32_t>(random() % 98304) - 49152, edge));
-    tree.split(key);
-  }
-  refineToRules(tree);
-  return tree;
-}
+Octree randomTree(std::mt19937& random) { return sgm::randomTree(random, kTop, kFinest, 6, 49152); }
 
 std::vector<ChunkRequest> sharpRequests(const Octree& tree) {
   std::vector<ChunkRequest> requests = frameRequests(tree);
@@ -221,8 +207,7 @@ TEST_CASE("every frame of a sharp world is the closed frame of its octree, dug o
         }
       }
     }
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
+    comeToRest(scene, engine);
     EditLog log{EditSettings{}};
     REQUIRE(log.import(scene.world->exportEdits()));
     checkFrame(scene, engine, log.snapshot().get());

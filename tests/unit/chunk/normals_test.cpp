@@ -2,7 +2,7 @@
 
 #include "catch.h"
 #include "mesh/vertex.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -8,7 +8,7 @@
 #include "chunk/chunk_surface.h"
 #include "chunk/geomorph.h"
 #include "mesh/vertex.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -1,44 +1,14 @@
 // Tests voids and paths against a flood of all samples at once.
 
-#include "query/void_path.h"
-
-#include <atomic>
 #include <limits>
-#include <memory_resource>
-#include <mutex>
 #include <random>
 
-#include "flooded_voids.h"
+#include "caves.h"
 #include "rounds.h"
 
 using namespace sgm;
 
 namespace {
-
-constexpr int32_t kCell = 512;
-constexpr int32_t kBeyond = 6;  // number of samples around a region that are also sampled
-
-/// A cave: its samples, and the queried region of whole chunks.
-struct Cave {
-  Int3 chunks, first;  ///< number of chunks on each axis, and the lowest chunk
-  SampledBox lattice;
-
-  explicit Cave(Int3 chunks_in, Int3 first_in = {}) : chunks(chunks_in), first(first_in), lattice(low(), size()) {}
-  Cave(const WorldField& world, Int3 chunks_in, Int3 first_in)
-      : chunks(chunks_in), first(first_in), lattice(world, low(), size()) {}
-
-  /// The region in samples, including its last ones.
-  IntBox region() const {
-    return {{first.x * 32, first.y * 32, first.z * 32},
-            {(first.x + chunks.x) * 32, (first.y + chunks.y) * 32, (first.z + chunks.z) * 32}};
-  }
-
- private:
-  Int3 low() const { return {first.x * 32 - kBeyond, first.y * 32 - kBeyond, first.z * 32 - kBeyond}; }
-  Int3 size() const {
-    return {chunks.x * 32 + 1 + 2 * kBeyond, chunks.y * 32 + 1 + 2 * kBeyond, chunks.z * 32 + 1 + 2 * kBeyond};
-  }
-};
 
 class Random {
  public:
@@ -56,16 +26,7 @@ class Random {
   std::mt19937 random_;
 };
 
-void digBall(Cave& cave, Int3 at, double radius) {
-  const int r = static_cast<int>(radius);
-  for (int z = -r; z <= r; ++z)
-    for (int y = -r; y <= r; ++y)
-      for (int x = -r; x <= r; ++x)
-        if (x * x + y * y + z * z <= radius * radius) cave.lattice.set({at.x + x, at.y + y, at.z + z}, false);
-}
-
-/// Scatters void samples at a density at which they are just connected or not quite, so that voids cross each border
-/// very often.
+/// Void samples strewn about, as dense as hang together or do not quite: voids that cross each border very often.
 void strew(Cave& cave, Random& random) {
   const double share = random.real(0.08, 0.3);
   for (size_t i = 0; i < cave.lattice.samples(); ++i) cave.lattice.set(cave.lattice.sampleAt(i), !random.chance(share));
@@ -153,50 +114,7 @@ Int3 someSample(Random& random, const Cave& cave, const FloodedVoids& flooded) {
   return any;
 }
 
-std::array<double, 3> placeOf(Int3 sample, int32_t cell = kCell) {
-  return {static_cast<double>(sample.x) * cell, static_cast<double>(sample.y) * cell,
-          static_cast<double>(sample.z) * cell};
-}
-
-VoidQuestion questionOf(const Cave& cave, Int3 from, Int3 to, double radius_in_cells, bool widest = false,
-                        int32_t cell = kCell) {
-  VoidQuestion question;
-  const IntBox samples = cave.region();
-  for (int axis = 0; axis < 3; ++axis) {
-    question.region.lo[axis] = samples.lo[axis] * cell;
-    question.region.hi[axis] = samples.hi[axis] * cell;
-  }
-  question.radius = radius_in_cells * cell;
-  question.ends = VoidQuestion::Ends{placeOf(from, cell), placeOf(to, cell), widest};
-  return question;
-}
-
-VoidAnswer answered(const SignField& field, const VoidQuestion& question, unsigned threads = 1) {
-  const auto jobs = *makeThreadPool(threads);
-  Result<VoidAnswer> answer = findVoids(field, *jobs, question);
-  INFO((answer ? "" : answer.error().message));
-  REQUIRE(answer);
-  return std::move(*answer);
-}
-
-/// Whether a path is valid: each place is free, successive places are connected, and both ends are right.
-bool isWay(const VoidWay& way, const FloodedVoids& flooded, Int3 from, Int3 to, int32_t cell) {
-  if (way.places.empty() || way.places.front() != Int3{from.x * cell, from.y * cell, from.z * cell}) return false;
-  if (way.places.back() != Int3{to.x * cell, to.y * cell, to.z * cell}) return false;
-  double length = 0;
-  for (size_t i = 0; i < way.places.size(); ++i) {
-    const Int3 p = way.places[i];
-    if (p.x % cell != 0 || p.y % cell != 0 || p.z % cell != 0) return false;
-    if (!flooded.open({p.x / cell, p.y / cell, p.z / cell})) return false;
-    if (i == 0) continue;
-    const Int3 b = way.places[i - 1], step{(p.x - b.x) / cell, (p.y - b.y) / cell, (p.z - b.z) / cell};
-    if (std::ranges::count(joiningSteps(), step) != 1) return false;
-    length += std::sqrt(static_cast<double>(step.x * step.x + step.y * step.y + step.z * step.z)) * cell;
-  }
-  return std::fabs(length - way.length) <= 1e-9 * length;
-}
-
-/// Counts of the cases that occurred, to ensure that each test has tested something.
+/// What the tests have seen, so that none of them can be of nothing.
 struct Seen {
   size_t found = 0, apart = 0, narrow = 0, rock = 0;
   double walked = 0, shortest = 0;
@@ -236,29 +154,6 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   seen.walked += way.length;
   seen.shortest += shortest;
 }
-
-/// A memory resource that records its peak use.
-class MostBytes : public std::pmr::memory_resource {
- public:
-  size_t most() const { return most_; }
-
- private:
-  void* do_allocate(size_t bytes, size_t alignment) override {
-    const std::lock_guard lock(mutex_);
-    now_ += bytes;
-    most_ = std::max(most_, now_);
-    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
-  }
-  void do_deallocate(void* place, size_t bytes, size_t alignment) override {
-    const std::lock_guard lock(mutex_);
-    now_ -= bytes;
-    std::pmr::new_delete_resource()->deallocate(place, bytes, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-  std::mutex mutex_;
-  size_t now_ = 0, most_ = 0;
-};
 
 }  // namespace
 
@@ -500,184 +395,4 @@ TEST_CASE("places stand for the nearest void sample of the eight around them") {
   CHECK(answer.voids[0].sealed);
   CHECK(answer.sample == 0.125);
   CHECK((answer.extent == IntBox{{0, 0, 0}, {32 * kCell, 32 * kCell, 32 * kCell}}));
-}
-
-TEST_CASE("questions that have no answer are errors that say why") {
-  Cave cave({1, 1, 1});
-  digBall(cave, {16, 16, 16}, 6);
-  const SignField field = cave.lattice.field(kCell);
-  const auto jobs = *makeThreadPool(1);
-  const VoidQuestion good = questionOf(cave, {16, 16, 16}, {16, 17, 16}, 1);
-  const auto fails = [&](const auto& change) {
-    VoidQuestion question = good;
-    change(question);
-    const Result<VoidAnswer> answer = findVoids(field, *jobs, question);
-    REQUIRE_FALSE(answer);
-    CHECK(answer.error().message.size() > 15);
-    return answer.error().code;
-  };
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
-  for (const double radius : {-1.0, -kInfinite, kNan, kInfinite, 32.0 * kCell})
-    CHECK(fails([&](VoidQuestion& q) { q.radius = radius; }) == Code::invalid_argument);
-  for (const double x : {-1.0, 32.0 * kCell + 1, kNan, kInfinite, 1e300}) {
-    CHECK(fails([&](VoidQuestion& q) { q.ends->from[1] = x; }) == Code::invalid_argument);
-    CHECK(fails([&](VoidQuestion& q) { q.ends->to[2] = x; }) == Code::invalid_argument);
-  }
-  CHECK(fails([](VoidQuestion& q) { q.region = {}; }) == Code::invalid_argument);
-  CHECK(fails([](VoidQuestion& q) { q.region.hi.y = q.region.lo.y; }) == Code::invalid_argument);
-  CHECK(fails([](VoidQuestion& q) { q.region.hi.x = INT32_MAX; }) == Code::range);
-  CHECK(fails([](VoidQuestion& q) { q.region.lo.x = INT32_MIN; }) == Code::range);
-  CHECK(fails([](VoidQuestion& q) { q.region.hi = {100 * 16384, 100 * 16384, 100 * 16384}; }) == Code::limit);
-  CHECK(fails([](VoidQuestion& q) { q.max_chunks = 0; }) == Code::limit);
-  CHECK(fails([](VoidQuestion& q) {
-          q.region = {{-1'000'000'000, -1'000'000'000, -1'000'000'000}, {1'000'000'000, 1'000'000'000, 1'000'000'000}};
-          q.max_chunks = ~uint64_t{0};
-        }) == Code::limit);
-  SignField failing = field;
-  failing.signs = [](Int3) -> Result<ChunkSigns> { return Error{Code::limit, "too many shapes"}; };
-  const Result<VoidAnswer> failed = findVoids(failing, *jobs, good);
-  REQUIRE_FALSE(failed);
-  CHECK(failed.error().message == "too many shapes");
-}
-
-TEST_CASE("the error of an end outside of the region says which, where it is, and where the region is") {
-  Cave cave({1, 1, 1});
-  const SignField field = cave.lattice.field(kCell);
-  const auto jobs = *makeThreadPool(1);
-  VoidQuestion question = questionOf(cave, {1, 1, 1}, {2, 2, 2}, 0);
-  question.ends->to = {512.5, -1024, 0};
-  CHECK(findVoids(field, *jobs, question).error().message ==
-        "the end `to` of the path lies outside of the region: it is at (512.5, -1024, 0), but the region goes from "
-        "(0, 0, 0) to (16384, 16384, 16384), in units of 1/1024 m");
-  question.ends->tell_metres = true;
-  CHECK(
-      findVoids(field, *jobs, question).error().message ==
-      "the end `to` of the path lies outside of the region: it is at (0.50048828125, -1, 0), but the region goes from "
-      "(0, 0, 0) to (16, 16, 16), in metres");
-  question.ends->from[2] = 1e300;
-  CHECK_THAT(findVoids(field, *jobs, question).error().message, Catch::StartsWith("the end `from` of the path lies"));
-  question.ends->from[2] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(findVoids(field, *jobs, question).error().message == "the end `from` of the path is not finite");
-}
-
-/// Records the progress of a search: the counts of each pass.
-class Told {
- public:
-  Progress counter() {
-    return [this](uint64_t done, uint64_t total) {
-      if (done == 1) runs_.push_back({0, total});
-      REQUIRE_FALSE(runs_.empty());
-      CHECK((done == runs_.back().first + 1 && total == runs_.back().second && done <= total));
-      runs_.back().first = done;
-      return true;
-    };
-  }
-  /// The totals of the passes, each of which must have been completed.
-  std::vector<uint64_t> totals() const {
-    std::vector<uint64_t> all;
-    for (const auto& [done, total] : runs_) {
-      CHECK(done == total);
-      all.push_back(total);
-    }
-    return all;
-  }
-
- private:
-  std::vector<std::pair<uint64_t, uint64_t>> runs_;
-};
-
-TEST_CASE("progress counts the chunks of each look and of the walk, and stops each of them") {
-  // A duct that winds through 5 by 20 chunks in one layer: 100 chunks, more than the search holds at a time.
-  Cave cave({5, 20, 1});
-  for (int column = 0; column < 5; ++column) {
-    for (int y = 4; y <= 636; ++y) digBall(cave, {16 + 32 * column, y, 16}, 2);
-    if (column == 4) break;
-    for (int x = 0; x <= 32; ++x) digBall(cave, {16 + 32 * column + x, column % 2 == 0 ? 636 : 4, 16}, 2);
-  }
-  const SignField field = cave.lattice.field(kCell);
-  const auto jobs = *makeThreadPool(2);
-  VoidQuestion question = questionOf(cave, {16, 4, 16}, {144, 636, 16}, 1.5, true);
-  Told told;
-  const Result<VoidAnswer> answer = findVoids(field, *jobs, question, told.counter());
-  REQUIRE(answer);
-  CHECK(isWay(*answer->way, FloodedVoids(cave.lattice, cave.region(), 1.5), {16, 4, 16}, {144, 636, 16}, kCell));
-  // The search comes after the first look at all chunks; its first 64 chunks are looked at twice.
-  const std::vector<uint64_t> totals = told.totals();
-  REQUIRE(totals.size() >= 2);
-  CHECK((totals[0] == 100 && totals[1] == 164));
-  CHECK(std::all_of(totals.begin() + 2, totals.end(), [](uint64_t total) { return total == 100; }));
-  CHECK(totals.size() <= 4);
-
-  uint64_t calls = 0;
-  for (const uint64_t last : {1u, 40u, 101u, 180u, 200u, 265u}) {
-    CAPTURE(last);
-    calls = 0;
-    const Result<VoidAnswer> stopped =
-        findVoids(field, *jobs, question, [&](uint64_t, uint64_t) { return ++calls < last; });
-    if (last == 265 && totals.size() == 2) continue;
-    REQUIRE_FALSE(stopped);
-    CHECK(stopped.error().code == Code::cancelled);
-    CHECK(calls == last);
-  }
-}
-
-TEST_CASE("the first progress comes long before a flat region is looked at, whichever way it is flat") {
-  for (int axis = 0; axis < 3; ++axis) {
-    CAPTURE(axis);
-    Int3 size{24, 24, 24};
-    size[axis] = 1;
-    VoidQuestion question;
-    for (int i = 0; i < 3; ++i) question.region.hi[i] = size[i] * 32 * kCell;
-    question.radius = kCell;
-    std::atomic<uint64_t> sampled{0};
-    uint64_t before_first = 0;
-    SignField field;
-    field.cell = kCell;
-    field.signs = [&](Int3) -> Result<ChunkSigns> {
-      ++sampled;
-      return ChunkSigns{};
-    };
-    const auto jobs = *makeThreadPool(2);
-    REQUIRE(findVoids(field, *jobs, question, [&](uint64_t done, uint64_t total) {
-      CHECK(total == 576);
-      if (done == 1) before_first = sampled;
-      return true;
-    }));
-    // Every chunk is sampled once, and so are those around the region: no chunk is sampled again after it was dropped.
-    CHECK(sampled == 26 * 26 * 3);
-    // The 64 chunks in three rows, and those around them.
-    CHECK(before_first <= 5 * 26 * 3);
-  }
-}
-
-TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
-  // 3 by 3 by 300 chunks that all have a surface, with each axis as the long one; each takes minutes under a sanitizer.
-  const int axes = std::min(3, static_cast<int>(rounds(5)));
-  for (int axis = 3 - axes; axis < 3; ++axis) {
-    CAPTURE(axis);
-    VoidQuestion question;
-    question.region.hi = {3 * 32 * kCell, 3 * 32 * kCell, 3 * 32 * kCell};
-    question.region.hi[axis] = 300 * 32 * kCell;
-    question.radius = 2 * kCell;
-    question.ends = VoidQuestion::Ends{placeOf({40, 40, 40}), placeOf({40, 40, 40}), false};
-    question.ends->to[static_cast<size_t>(axis)] = 9560.0 * kCell;
-    MostBytes memory;
-    SignField field;
-    field.cell = kCell;
-    field.memory = &memory;
-    // Only the corners of chunks are solid.
-    field.signs = [&](Int3) -> Result<ChunkSigns> {
-      ChunkSigns signs{std::pmr::vector<uint64_t>(33 * 33, 0, &memory), false};
-      for (const size_t row : {0u, 32u, 32u * 33, 32u * 34}) signs.rows[row] = uint64_t{1} << 32 | 1;
-      return signs;
-    };
-    const auto jobs = *makeThreadPool(1);
-    const Result<VoidAnswer> answer = findVoids(field, *jobs, question);
-    REQUIRE(answer);
-    REQUIRE(answer->way->verdict == WayVerdict::found);
-    CHECK(answer->way->length >= 9520.0 * kCell);
-    // The signs of all 2,700 chunks have 23 MB, and the steps in the 300 chunks of the path 11 MB, so most must have
-    // been dropped.
-    CHECK(memory.most() < 10u << 20);
-  }
 }

@@ -12,7 +12,7 @@
 #include "rounds.h"
 #include "stream/plan/frame.h"
 #include "stream/plan/lod_target.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -12,7 +12,7 @@
 #include "chunk/surface_shapes.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
-#include "streaming_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 
@@ -308,47 +308,4 @@ TEST_CASE("a passage is laid out along and around, a dig by the world's axes") {
     CHECK(std::fabs(side.u - b.u) == Approx(tube.period(chart).u / 4).epsilon(0.01));
     CHECK(side.v == Approx(b.v));
   }
-}
-
-TEST_CASE("a world that is asked to has texture coordinates on all that it draws, edits and fields included",
-          "[threads]") {
-  WorldSettings settings;
-  settings.texture = true;
-  Scene scene(*makeThreadPool(2), caveText(), settings);
-  Engine engine;
-  const Viewer viewer = viewerAt(96, 96, 96);
-  REQUIRE(scene.world->setViewers({&viewer, 1}));
-  EditLog log{EditSettings{}};
-  const auto check = [&](const WorldField& field) {
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
-    REQUIRE(log.import(scene.world->exportEdits(log.size())));
-    size_t triangles = 0;
-    for (const auto& [key, shown] : engine.shown) {
-      const ChunkSurface& surface = *shown.surface;
-      REQUIRE(surface.texture.corners.size() == surface.mesh.indices.size());
-      for (size_t i = 0; i < surface.mesh.indices.size(); ++i) {
-        REQUIRE(surface.texture.wedges[surface.texture.corners[i]].vertex == surface.mesh.indices[i]);
-      }
-      const std::shared_ptr<const EditSnapshot> edits = log.snapshot();
-      const Result<Unwrapped> alone =
-          unwrapChunk(field, surface.mesh, surface.grid, edits.get(), kTile, field.memory());
-      REQUIRE(alone);
-      CHECK(*alone == surface.texture);
-      triangles += surface.mesh.indices.size() / 3;
-    }
-    CHECK(triangles > 1000);
-  };
-  check(scene.field);
-  Brush brush;
-  brush.cut = true;
-  brush.from = {96 << 10, 100 << 10, 96 << 10};
-  brush.radius = 12 << 10;
-  REQUIRE(scene.world->edit(brush));
-  check(scene.field);
-  WorldFieldSettings other = settingsOf(caveText(), kStreamedCell, 3);
-  REQUIRE(other.parameters.set(*other.program, "boxy", 0.9));
-  const auto boxy = std::make_shared<const WorldField>(std::move(other), std::pmr::get_default_resource());
-  REQUIRE(scene.world->setField(boxy));
-  check(*boxy);
 }

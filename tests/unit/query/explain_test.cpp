@@ -10,7 +10,7 @@
 #include "query/queries.h"
 #include "rounds.h"
 #include "seed.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 

@@ -1,7 +1,7 @@
 // Tests the notes about parts that a mesh may miss.
 
 #include "chunk/thin_parts.h"
-#include "world_support.h"
+#include "world/world_support.h"
 
 using namespace sgm;
 
