@@ -232,23 +232,6 @@ TEST_CASE("what is not in a lent context says so", "[cuda]") {
   const RuntimeOwner runtime = lender.runtime();
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.flags = SGM_WORLD_RESIDENT;
-  sgm_world* refused = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  CHECK(sgm_world_create(on_cpu.get(), &desc, &refused, &error) == SGM_ERR_UNSUPPORTED);
-  CHECK_THAT(error.message, Catch::Contains("sgm_runtime_lend_cuda"));
-  const WorldOwner world = makeWorld(on_cpu.get(), 0);
-  look(world.get(), 0, 0);
-  waitIdle(world.get());
-  const std::vector<MeshOwner> meshes = drawnOf(world.get());
-  REQUIRE(!meshes.empty());
-  sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
-  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), &view, &error) == SGM_ERR_NOT_FOUND);
-  CHECK_THAT(error.message, Catch::Contains("SGM_WORLD_RESIDENT"));
-  CHECK(view.body.vertices == 0);
-  CHECK(sgm_mesh_get_cuda_view(nullptr, &view, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  view.struct_size = 1;
-  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), &view, nullptr) == SGM_ERR_STRUCT_SIZE);
+  checkNothingLent(on_cpu.get(), "sgm_runtime_lend_cuda", sgm_cuda_mesh_view SGM_CUDA_MESH_VIEW_INIT,
+                   sgm_mesh_get_cuda_view, [](const sgm_cuda_mesh_view& view) { return view.body.vertices == 0; });
 }

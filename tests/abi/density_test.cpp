@@ -112,13 +112,7 @@ TEST_CASE("rows of a density volume lie where their pitches say, and nothing els
 TEST_CASE("what is dug out of a world's fog is clear, and its undo brings it back") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kFog).get(), 256);
-  sgm_world_desc settings = SGM_WORLD_DESC_INIT;
-  settings.top_level = 3;
-  settings.finest_distance = 10;
-  settings.view_distance = 60;
-  sgm_world* made = nullptr;
-  REQUIRE(sgm_world_create(field.get(), &settings, &made, nullptr) == SGM_OK);
-  const WorldOwner world(made);
+  const WorldOwner world = makeWorld(field.get());
   std::vector<uint8_t> before(kPoints * kPoints * kPoints), after(before.size()), undone(before.size());
   const auto sample = [&](std::vector<uint8_t>& into) {
     const sgm_density_desc desc = volume(SGM_DENSITY_UNORM8, into.data());

@@ -50,23 +50,11 @@ struct Engine {
   std::map<Key, sgm_collider*> colliders;
 };
 
-sgm_world_desc smallWorld() {
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
-  return desc;
-}
-
-WorldOwner makeWorld(sgm_field* field, const sgm_world_desc& desc) {
-  sgm_world* world = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  sgm_viewer viewer = SGM_VIEWER_INIT;
-  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
-  return WorldOwner(world);
+/// A world that is looked at from its origin.
+WorldOwner makeViewedWorld(sgm_field* field, const sgm_world_desc& desc = smallWorld()) {
+  WorldOwner world = makeWorld(field, desc);
+  look(world.get(), 0);
+  return world;
 }
 
 sgm_edit_id dig(sgm_world* world, int32_t x, int32_t y, int32_t z, int32_t radius) {
@@ -104,7 +92,7 @@ void settle(sgm_world* world, Engine& engine) {
 TEST_CASE("what is dug joins two hollows, and its undo parts them again") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
-  const WorldOwner world = makeWorld(field.get(), smallWorld());
+  const WorldOwner world = makeViewedWorld(field.get());
   sgm_way_desc desc = SGM_WAY_DESC_INIT;
   desc.minimum[0] = desc.minimum[1] = desc.minimum[2] = -16 * 1024;
   desc.maximum[0] = desc.maximum[1] = desc.maximum[2] = 16 * 1024;
@@ -135,7 +123,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
   sgm_world_desc desc = smallWorld();
   desc.collider_distance = 12;
-  const WorldOwner world = makeWorld(field.get(), desc);
+  const WorldOwner world = makeViewedWorld(field.get(), desc);
   Engine engine;
   settle(world.get(), engine);
   const uint64_t whole = hashOf(world.get());
@@ -186,7 +174,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
 TEST_CASE("worlds exchange edits as bytes, and are equal then", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
-  const WorldOwner one = makeWorld(field.get(), smallWorld()), other = makeWorld(field.get(), smallWorld());
+  const WorldOwner one = makeViewedWorld(field.get()), other = makeViewedWorld(field.get());
   for (int i = 0; i < 5; ++i) {
     dig(one.get(), i * 2048, 0, 0, 2000 + i);
     dig(other.get(), i * 2048, 1024, 0, 2100 + i);
@@ -224,7 +212,7 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
     if (SGM_TEST_DISK_CACHE) desc.cache_folder = cache.c_str();
     const RuntimeOwner runtime = makeRuntime();
     const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
-    const WorldOwner world = makeWorld(field.get(), desc);
+    const WorldOwner world = makeViewedWorld(field.get(), desc);
     if (!again) {
       dig(world.get(), 0, 0, 0, 2500);
       REQUIRE(sgm_world_flush_edits(world.get(), nullptr) == SGM_OK);

@@ -81,14 +81,9 @@ sgm_parameters* makeParameters(const sgm_grammar* grammar) {
 }
 
 sgm_world* makeSmallWorld(sgm_field* field) {
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
+  sgm_world_desc desc = smallWorld();
   desc.collider_distance = 12;
-  sgm_world* world = nullptr;
-  REQUIRE(sgm_world_create(field, &desc, &world, nullptr) == SGM_OK);
-  return world;
+  return makeWorld(field, desc).release();
 }
 
 sgm_surface* makeNoise(sgm_runtime* runtime, uint32_t size) {

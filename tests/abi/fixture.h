@@ -36,6 +36,11 @@ inline constexpr const char* kBall =
     "30deg;\n"
     "start Ball;\nrule Ball { at(4m, 4m, 4m) sphere(radius); mat marble; tag \"toy.ball\"; anchor spawn \"top\"; }\n";
 
+/// A ball in every cell of 32 m, in a void that ends nowhere.
+inline constexpr const char* kBalls =
+    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
+    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
+
 inline RuntimeOwner makeRuntime(const sgm_runtime_desc* desc = nullptr) {
   sgm_runtime* runtime = nullptr;
   sgm_error error = SGM_ERROR_INIT;
@@ -91,6 +96,59 @@ inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm
   std::vector<MeshOwner> owners;
   for (sgm_mesh* mesh : meshes) owners.emplace_back(mesh);
   return owners;
+}
+
+/// Levels 0 to 3, of which the finest reaches 10 m, and the last one 60 m.
+inline sgm_world_desc smallWorld(uint32_t flags = 0) {
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.top_level = 3;
+  desc.flags = flags;
+  desc.finest_distance = 10;
+  desc.view_distance = 60;
+  return desc;
+}
+
+inline WorldOwner makeWorld(sgm_field* field, const sgm_world_desc& desc = smallWorld()) {
+  sgm_world* world = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  return WorldOwner(world);
+}
+
+/// A viewer at rest, x and z metres from the origin.
+inline void look(sgm_world* world, double x, double z = 0) {
+  sgm_viewer viewer = SGM_VIEWER_INIT;
+  viewer.position[0] = x;
+  viewer.position[2] = z;
+  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
+}
+
+inline void comeToRest(sgm_world* world) { REQUIRE(sgm_world_wait_idle(world, nullptr, nullptr, nullptr) == SGM_OK); }
+
+/// What a world draws; the caller owns the meshes.
+inline std::vector<sgm_drawn_chunk> drawnChunks(sgm_world* world) {
+  size_t count = 0;
+  REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
+  std::vector<sgm_drawn_chunk> chunks(count);
+  REQUIRE(sgm_world_get_drawn(world, chunks.data(), 0, &count, nullptr) == SGM_OK);
+  return chunks;
+}
+
+inline std::vector<MeshOwner> drawnOf(sgm_world* world) {
+  std::vector<MeshOwner> meshes;
+  for (const sgm_drawn_chunk& chunk : drawnChunks(world)) meshes.emplace_back(chunk.mesh);
+  return meshes;
+}
+
+inline SurfaceOwner surfaceOf(sgm_field* field, const sgm_region_desc& desc) {
+  sgm_surface* surface = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_surface_from_region(field, &desc, &surface, &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  return SurfaceOwner(surface);
 }
 
 inline sgm_mesh_view viewOf(const MeshOwner& mesh) {

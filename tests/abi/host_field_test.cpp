@@ -101,13 +101,9 @@ TEST_CASE("a host that cannot be sampled fails chunks, and the last good frame s
   sgm_error error = SGM_ERROR_INIT;
   const FieldOwner field = makeHosted(runtime.get(), grammar.get(), hostOf(ground), &error);
   REQUIRE(field);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  sgm_world_desc desc = smallWorld();
   desc.top_level = 2;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
-  sgm_world* made = nullptr;
-  REQUIRE(sgm_world_create(field.get(), &desc, &made, &error) == SGM_OK);
-  const WorldOwner world(made);
+  const WorldOwner world = makeWorld(field.get(), desc);
   sgm_viewer viewer = SGM_VIEWER_INIT;
   viewer.position[1] = 6;
   const auto settle = [&] {

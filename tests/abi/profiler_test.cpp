@@ -126,9 +126,7 @@ WorldOwner streamFrom(sgm_field* field) {
   desc.top_level = 2;
   desc.finest_distance = 8;
   desc.view_distance = 40;
-  sgm_world* world = nullptr;
-  REQUIRE(sgm_world_create(field, &desc, &world, nullptr) == SGM_OK);
-  return WorldOwner(world);
+  return makeWorld(field, desc);
 }
 
 void lookFrom(sgm_world* world, double x) {

@@ -10,32 +10,29 @@
 
 namespace {
 
-sgm_surface_point castDown(sgm_field* field, double x, double y, double z, double metres) {
-  sgm_ray_desc desc = SGM_RAY_DESC_INIT;
-  desc.from[0] = x;
-  desc.from[1] = y;
-  desc.from[2] = z;
-  desc.length = metres;
+/// The point that a call gives: call(point, error).
+template <class Call>
+sgm_surface_point answered(const Call& call) {
   sgm_surface_point point = SGM_SURFACE_POINT_INIT;
   sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_field_ray_cast(field, &desc, &point, &error);
+  const sgm_result result = call(&point, &error);
   INFO(error.message);
   REQUIRE(result == SGM_OK);
   return point;
 }
 
+sgm_surface_point castDown(sgm_field* field, double x, double y, double z, double metres) {
+  sgm_ray_desc desc = SGM_RAY_DESC_INIT;
+  std::ranges::copy(std::array{x, y, z}, desc.from);
+  desc.length = metres;
+  return answered([&](auto* point, auto* error) { return sgm_field_ray_cast(field, &desc, point, error); });
+}
+
 sgm_surface_point nearest(sgm_field* field, double x, double y, double z, double metres) {
   sgm_closest_desc desc = SGM_CLOSEST_DESC_INIT;
-  desc.position[0] = x;
-  desc.position[1] = y;
-  desc.position[2] = z;
+  std::ranges::copy(std::array{x, y, z}, desc.position);
   desc.max_distance = metres;
-  sgm_surface_point point = SGM_SURFACE_POINT_INIT;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_field_closest_point(field, &desc, &point, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return point;
+  return answered([&](auto* point, auto* error) { return sgm_field_closest_point(field, &desc, point, error); });
 }
 
 bool empty(const sgm_surface_point& point) {

@@ -11,9 +11,6 @@
 inline constexpr const char* kLumps =
     "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m detail 1m { start Lump; }\n"
     "rule Lump { at(8m, 8m, 8m) { scatter 5 on disc(4m) sphere(rand(1m, 3m)); } }\n";
-inline constexpr const char* kBalls =
-    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
-    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
 /// Waits until the device is ready. A streamed world would not wait, but mesh on the CPU instead.
 inline void makeReady(sgm_field* field) {
@@ -28,35 +25,9 @@ inline void makeReady(sgm_field* field) {
 
 inline WorldOwner makeWorld(sgm_field* field, uint32_t flags, const char* cache = nullptr) {
   if (flags & SGM_WORLD_RESIDENT) makeReady(field);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.flags = flags;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
+  sgm_world_desc desc = smallWorld(flags);
   desc.cache_folder = cache;
-  sgm_world* world = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return WorldOwner(world);
-}
-
-inline void look(sgm_world* world, double x, double z) {
-  sgm_viewer viewer = SGM_VIEWER_INIT;
-  viewer.position[0] = x;
-  viewer.position[2] = z;
-  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
-}
-
-inline std::vector<MeshOwner> drawnOf(sgm_world* world) {
-  size_t count = 0;
-  REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
-  std::vector<sgm_drawn_chunk> chunks(count);
-  REQUIRE(sgm_world_get_drawn(world, chunks.data(), 0, &count, nullptr) == SGM_OK);
-  std::vector<MeshOwner> meshes;
-  for (const sgm_drawn_chunk& chunk : chunks) meshes.emplace_back(chunk.mesh);
-  return meshes;
+  return makeWorld(field, desc);
 }
 
 inline void pollAll(sgm_world* world) {
@@ -102,4 +73,29 @@ void wanderBeside(sgm_field* field, const char* text, const Check& check) {
     for (const MeshOwner& mesh : kept) check(mesh);
     kept = std::move(meshes);
   }
+}
+
+/// Meshes of a field on the CPU have no view on a device: each call says so. lend: the function that would lend one;
+/// getView fills such a view as `init` is one, and isEmpty(view) says whether it has nothing.
+template <class View, class GetView, class IsEmpty>
+void checkNothingLent(sgm_field* on_cpu, const char* lend, const View& init, GetView getView, IsEmpty isEmpty) {
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.flags = SGM_WORLD_RESIDENT;
+  sgm_world* refused = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_world_create(on_cpu, &desc, &refused, &error) == SGM_ERR_UNSUPPORTED);
+  CHECK_THAT(error.message, Catch::Contains(lend));
+  const WorldOwner world = makeWorld(on_cpu, 0);
+  look(world.get(), 0, 0);
+  waitIdle(world.get());
+  const std::vector<MeshOwner> meshes = drawnOf(world.get());
+  REQUIRE(!meshes.empty());
+  View view = init;
+  CHECK(getView(meshes[0].get(), &view, &error) == SGM_ERR_NOT_FOUND);
+  CHECK_THAT(error.message, Catch::Contains("SGM_WORLD_RESIDENT"));
+  CHECK(isEmpty(view));
+  CHECK(getView(nullptr, &view, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(getView(meshes[0].get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  view.struct_size = 1;
+  CHECK(getView(meshes[0].get(), &view, nullptr) == SGM_ERR_STRUCT_SIZE);
 }

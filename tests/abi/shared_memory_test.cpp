@@ -157,16 +157,7 @@ TEST_CASE("what CUDA meshes keeps to the bytes that it may have on the Vulkan de
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
   look(world.get(), 0, 0);
   waitIdle(world.get());
-  size_t there = 0, missing = 0;
-  for (const MeshOwner& mesh : drawnOf(world.get())) {
-    sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
-    const sgm_result result = sgm_mesh_get_vulkan_view(mesh.get(), &view, nullptr);
-    REQUIRE((result == SGM_OK || result == SGM_ERR_NOT_FOUND));
-    ++(result == SGM_OK ? there : missing);
-    if (result == SGM_OK) checkMesh(lender, mesh);
-  }
-  CHECK(there > 0);
-  CHECK(missing > 0);
+  checkPartlyThere(lender, world.get());
   CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident <= 100000);
 }
 

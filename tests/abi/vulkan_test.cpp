@@ -116,16 +116,7 @@ TEST_CASE("meshes keep to the bytes that they may have on the device, and the re
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
     look(world.get(), 0, 0);
     waitIdle(world.get());
-    size_t there = 0, missing = 0;
-    for (const MeshOwner& mesh : drawnOf(world.get())) {
-      sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
-      const sgm_result result = sgm_mesh_get_vulkan_view(mesh.get(), &view, nullptr);
-      REQUIRE((result == SGM_OK || result == SGM_ERR_NOT_FOUND));
-      ++(result == SGM_OK ? there : missing);
-      if (result == SGM_OK) checkMesh(lender, mesh);
-    }
-    CHECK(there > 0);
-    CHECK(missing > 0);
+    checkPartlyThere(lender, world.get());
     CHECK(residentNow() > 0);
     CHECK(residentNow() <= 100000);
   }
@@ -174,23 +165,7 @@ TEST_CASE("what is not on a lent device says so", "[vulkan]") {
   const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.flags = SGM_WORLD_RESIDENT;
-  sgm_world* refused = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  CHECK(sgm_world_create(on_cpu.get(), &desc, &refused, &error) == SGM_ERR_UNSUPPORTED);
-  CHECK_THAT(error.message, Catch::Contains("sgm_runtime_lend_vulkan"));
-  const WorldOwner world = makeWorld(on_cpu.get(), 0);
-  look(world.get(), 0, 0);
-  waitIdle(world.get());
-  const std::vector<MeshOwner> meshes = drawnOf(world.get());
-  REQUIRE(!meshes.empty());
-  sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
-  CHECK(sgm_mesh_get_vulkan_view(meshes[0].get(), &view, &error) == SGM_ERR_NOT_FOUND);
-  CHECK_THAT(error.message, Catch::Contains("SGM_WORLD_RESIDENT"));
-  CHECK(view.body.buffer == VK_NULL_HANDLE);
-  CHECK(sgm_mesh_get_vulkan_view(nullptr, &view, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_mesh_get_vulkan_view(meshes[0].get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  view.struct_size = 1;
-  CHECK(sgm_mesh_get_vulkan_view(meshes[0].get(), &view, nullptr) == SGM_ERR_STRUCT_SIZE);
+  checkNothingLent(on_cpu.get(), "sgm_runtime_lend_vulkan", sgm_vulkan_mesh_view SGM_VULKAN_MESH_VIEW_INIT,
+                   sgm_mesh_get_vulkan_view,
+                   [](const sgm_vulkan_mesh_view& view) { return view.body.buffer == VK_NULL_HANDLE; });
 }

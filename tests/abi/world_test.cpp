@@ -14,30 +14,6 @@
 
 namespace {
 
-/// Some balls around the origin, in an infinite void.
-constexpr const char* kBalls =
-    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
-    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
-
-WorldOwner makeWorld(sgm_field* field) {
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
-  sgm_world* world = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return WorldOwner(world);
-}
-
-void look(sgm_world* world, double x) {
-  sgm_viewer viewer = SGM_VIEWER_INIT;
-  viewer.position[0] = x;
-  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
-}
-
 using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;
 Key keyOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
 
@@ -107,7 +83,7 @@ TEST_CASE("events lead to what the world says it draws", "[threads]") {
       REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
       engine.poll(world.get());
     }
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    comeToRest(world.get());
     engine.poll(world.get());
     size_t count = 0;
     REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
@@ -136,7 +112,7 @@ TEST_CASE("an update waits for the events of the one before, and unpolled meshes
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());
   look(world.get(), 0);
-  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(world.get());
   CHECK(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
   sgm_world_event event;
   size_t count = 1;
@@ -153,15 +129,13 @@ TEST_CASE("a world's hash is that of the region's surface, streamed or not", "[t
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.minimum) v = -8 * 1024;
   for (int32_t& v : region.maximum) v = 24 * 1024;
-  sgm_surface* surface = nullptr;
-  REQUIRE(sgm_surface_from_region(field.get(), &region, &surface, nullptr) == SGM_OK);
-  const SurfaceOwner owner(surface);
+  const SurfaceOwner surface = surfaceOf(field.get(), region);
   for (int turn = 0; turn < 2; ++turn) {
     uint64_t hash = 0;
     REQUIRE(sgm_world_hash(world.get(), region.minimum, region.maximum, 0, &hash, nullptr) == SGM_OK);
-    CHECK(hash == sgm_surface_hash(surface));
+    CHECK(hash == sgm_surface_hash(surface.get()));
     look(world.get(), 0);
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    comeToRest(world.get());
   }
 }
 
@@ -169,22 +143,11 @@ TEST_CASE("meshes have morph offsets where they are asked for, to the coarser su
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_MORPH}}) {
-    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-    desc.top_level = 3;
-    desc.finest_distance = 10;
-    desc.view_distance = 60;
-    desc.flags = flags;
-    sgm_world* made = nullptr;
-    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
-    const WorldOwner world(made);
+    const WorldOwner world = makeWorld(field.get(), smallWorld(flags));
     look(world.get(), 0);
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
-    size_t count = 0, moved = 0;
-    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
-    std::vector<sgm_drawn_chunk> chunks(count);
-    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
-    for (const sgm_drawn_chunk& chunk : chunks) {
-      const MeshOwner mesh(chunk.mesh);
+    comeToRest(world.get());
+    size_t moved = 0;
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
       const sgm_mesh_view view = viewOf(mesh);
       CHECK((view.morphs != nullptr) == (flags != 0 && view.vertex_count > 0));
       for (uint32_t i = 0; view.morphs != nullptr && i < 3 * view.vertex_count; ++i) {
@@ -201,22 +164,10 @@ TEST_CASE("meshes have texture coordinates where they are asked for, of the same
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_TEXTURE}}) {
-    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-    desc.top_level = 3;
-    desc.finest_distance = 10;
-    desc.view_distance = 60;
-    desc.flags = flags;
-    sgm_world* made = nullptr;
-    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
-    const WorldOwner world(made);
+    const WorldOwner world = makeWorld(field.get(), smallWorld(flags));
     look(world.get(), 0);
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
-    size_t count = 0;
-    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
-    std::vector<sgm_drawn_chunk> chunks(count);
-    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
-    for (const sgm_drawn_chunk& chunk : chunks) {
-      const MeshOwner mesh(chunk.mesh);
+    comeToRest(world.get());
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
       const sgm_mesh_view view = viewOf(mesh);
       CHECK((view.wedges != nullptr) == (flags != 0));
       if (view.wedges != nullptr) checkWedges(view);
@@ -233,23 +184,11 @@ TEST_CASE("worlds have sharp features where they are asked for, at every level")
                                          .get(),
                                      512);
   for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_SHARP}}) {
-    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-    desc.top_level = 3;
-    desc.finest_distance = 10;
-    desc.view_distance = 60;
-    desc.flags = flags | SGM_WORLD_BY_DISTANCE;
-    sgm_world* made = nullptr;
-    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
-    const WorldOwner world(made);
+    const WorldOwner world = makeWorld(field.get(), smallWorld(flags | SGM_WORLD_BY_DISTANCE));
     look(world.get(), 0);
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
-    size_t count = 0;
-    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
-    std::vector<sgm_drawn_chunk> chunks(count);
-    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+    comeToRest(world.get());
     std::set<int32_t> levels;
-    for (const sgm_drawn_chunk& chunk : chunks) {
-      const MeshOwner mesh(chunk.mesh);
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
       const sgm_mesh_view view = viewOf(mesh);
       for (uint32_t v = 0; v < view.vertex_count; ++v)
         if ((view.vertices[v].kind & SGM_VERTEX_FEATURE) != 0) levels.insert(view.key.level);
@@ -262,16 +201,11 @@ TEST_CASE("worlds have sharp features where they are asked for, at every level")
 TEST_CASE("a world tells what it is, who looks, and how long its work takes", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
+  sgm_world_desc desc = smallWorld(SGM_WORLD_BY_DISTANCE | SGM_WORLD_MEASURE);
   desc.collider_distance = 5;
   desc.max_colliders = 3;
-  desc.flags = SGM_WORLD_BY_DISTANCE | SGM_WORLD_MEASURE;
-  sgm_world* made = nullptr;
-  REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
-  const WorldOwner world(made);
+  const WorldOwner world = makeWorld(field.get(), desc);
+  sgm_world* const made = world.get();
   sgm_world_info info = SGM_WORLD_INFO_INIT;
   REQUIRE(sgm_world_get_info(made, &info, nullptr) == SGM_OK);
   CHECK(info.cell_units == 512);
@@ -353,26 +287,15 @@ TEST_CASE("a world tells what it is, who looks, and how long its work takes", "[
 TEST_CASE("a world that measures gives sums of what it draws, and each chunk's own measures", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
-  desc.flags = SGM_WORLD_MEASURE;
-  sgm_world* made = nullptr;
-  REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
-  const WorldOwner world(made);
+  const WorldOwner world = makeWorld(field.get(), smallWorld(SGM_WORLD_MEASURE));
   look(world.get(), 0);
-  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(world.get());
   sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;
   REQUIRE(sgm_world_get_measures(world.get(), &measures, nullptr) == SGM_OK);
 
-  size_t count = 0;
-  REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
-  std::vector<sgm_drawn_chunk> chunks(count);
-  REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
   double area = 0, flux = 0;
   uint64_t triangles = 0;
-  for (const sgm_drawn_chunk& chunk : chunks) {
+  for (const sgm_drawn_chunk& chunk : drawnChunks(world.get())) {
     const MeshOwner mesh(chunk.mesh);
     sgm_mesh_measures of_chunk = SGM_MESH_MEASURES_INIT;
     REQUIRE(sgm_mesh_get_measures(chunk.mesh, chunk.seams, &of_chunk, nullptr) == SGM_OK);
@@ -429,7 +352,7 @@ TEST_CASE("another field takes a world's place, and only what it changes is mesh
   const WorldOwner world = makeWorld(fieldWith(3, 512).get());
   Engine engine;
   const auto rest = [&] {
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    comeToRest(world.get());
     engine.poll(world.get());
     sgm_world_stats stats = SGM_WORLD_STATS_INIT;
     REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
@@ -447,18 +370,14 @@ TEST_CASE("another field takes a world's place, and only what it changes is mesh
   CHECK(engine.drawn != small);
   // The world's hash is that of a world created with the new field.
   const int32_t low[3] = {0, 0, 0}, high[3] = {65536, 32768, 32768};
-  uint64_t streamed = 0, alone = 0;
+  uint64_t streamed = 0;
   REQUIRE(sgm_world_hash(world.get(), low, high, 0, &streamed, nullptr) == SGM_OK);
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (size_t axis = 0; axis < 3; ++axis) {
     region.minimum[axis] = low[axis];
     region.maximum[axis] = high[axis];
   }
-  sgm_surface* surface = nullptr;
-  REQUIRE(sgm_surface_from_region(fieldWith(4, 512).get(), &region, &surface, nullptr) == SGM_OK);
-  const SurfaceOwner owner(surface);
-  alone = sgm_surface_hash(surface);
-  CHECK(streamed == alone);
+  CHECK(streamed == sgm_surface_hash(surfaceOf(fieldWith(4, 512).get(), region).get()));
   REQUIRE(sgm_world_set_field(world.get(), fieldWith(3, 512).get(), nullptr) == SGM_OK);
   rest();
   CHECK(engine.drawn == small);
@@ -477,7 +396,7 @@ TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[t
   const WorldOwner world = makeWorld(makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512).get());
   Engine engine;
   look(world.get(), 0);
-  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(world.get());
   engine.poll(world.get());
   const std::map<Key, Drawn> balls = engine.drawn;
   // New fields (boxes instead of the balls, and a new layer) replace each other while the viewer moves on; the last one
@@ -490,7 +409,7 @@ TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[t
     REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
     engine.poll(world.get());
   }
-  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(world.get());
   engine.poll(world.get());
   CHECK(engine.drawn != balls);
   const WorldOwner fresh = makeWorld(
@@ -503,7 +422,7 @@ TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[t
           .get());
   Engine anew;
   look(fresh.get(), 0);
-  REQUIRE(sgm_world_wait_idle(fresh.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(fresh.get());
   anew.poll(fresh.get());
   CHECK(engine.drawn == anew.drawn);
 }
@@ -516,5 +435,5 @@ TEST_CASE("a wait can be ended, and a world cancelled, at any time", "[threads]"
   const auto stop = [](void*, uint64_t done, uint64_t total) -> int32_t { return done <= total ? 1 : 2; };
   CHECK(sgm_world_wait_idle(world.get(), stop, nullptr, nullptr) == SGM_ERR_CANCELLED);
   sgm_world_cancel(world.get());
-  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  comeToRest(world.get());
 }

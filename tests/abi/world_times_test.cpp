@@ -15,31 +15,17 @@
 
 namespace {
 
-/// A grammar with balls everywhere.
-constexpr const char* kWatchedBalls =
-    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
-    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
-
 struct Watched {
   RuntimeOwner runtime = makeRuntime();
   WorldOwner world;
 
   explicit Watched(uint32_t flags = 0, const char* cache_folder = nullptr) {
-    const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kWatchedBalls).get(), 512);
-    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-    desc.top_level = 3;
-    desc.flags = flags;
-    desc.finest_distance = 10;
-    desc.view_distance = 60;
+    const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+    sgm_world_desc desc = smallWorld(flags);
     desc.collider_distance = 12;
     desc.mesh_bytes = uint64_t{300} << 20;
     desc.cache_folder = cache_folder;
-    sgm_world* made = nullptr;
-    sgm_error error = SGM_ERROR_INIT;
-    const sgm_result result = sgm_world_create(field.get(), &desc, &made, &error);
-    INFO(error.message);
-    REQUIRE(result == SGM_OK);
-    world.reset(made);
+    world = makeWorld(field.get(), desc);
   }
 
   void lookFrom(double x) const {
