@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "catch.h"
+#include "derive/coarse_chunk.h"
 #include "derive_fixture.h"
 #include "random_rules.h"
 #include "rounds.h"
@@ -100,3 +101,112 @@ TEST_CASE("what is proven holds all that is derived", "[costly]") {
   CHECK(groups > programs * 5 / 2);
   CHECK(fine > programs / 24);
 }
+
+TEST_CASE("what passes its reach, its domain or every bound is left out whole", "[notes]") {
+  const auto far = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
+      "rule Main { Faulty; Sound; }\nrule Faulty { at(rand(-60m, 60m), 0m, 0m) sphere(1m); }\n"
+      "rule Sound { at(9m, 9m, 9m) sphere(1m); }");
+  int noted = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const GrammarChunk chunk = derived(*far, {}, seed);
+    CHECK(chunk.groups.size() + chunk.notes.size() == 2);
+    for (const DeriveNote& note : chunk.notes) {
+      ++noted;
+      CHECK(note.path == "main(0, 0, 0)/Main/Faulty[0]");
+      CHECK(note.message.starts_with("this shape may pass the reach of its cell by "));
+      CHECK(note.message.ends_with(" m; it is left out whole: raise `reach` or make it smaller"));
+    }
+  }
+  CHECK(noted > 5);
+
+  const auto boxed = compiled(
+      "sgm 1; domain finite box(8m); start Main;\nrule Main { Faulty; sphere(2m); }\n"
+      "rule Faulty { sphere(rand(3m, 9m)); }");
+  noted = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const GrammarChunk chunk = derived(*boxed, {}, seed);
+    CHECK(chunk.groups.size() + chunk.notes.size() == 2);
+    for (const DeriveNote& note : chunk.notes) {
+      ++noted;
+      CHECK(note.path == "Main/Faulty[0]");
+      CHECK(note.message.starts_with("this shape may pass the domain's box by "));
+      CHECK(note.message.ends_with(" m; it is left out whole: enlarge the box or make it smaller"));
+    }
+  }
+  CHECK(noted > 5);
+
+  const auto large = compiled(
+      "sgm 1; domain infinite; layer main cell 1024m reach 2100m { start Main; }\n"
+      "rule Main { at(1900m, 0m, 0m) sphere(200m); at(-1900m, 0m, 0m) sphere(200m); }");
+  // Cells lie in -2048 to 2046.
+  for (const Int3 cell : {Int3{2045, 0, 0}, Int3{-2045, 0, 0}}) CHECK(derived(*large, cell).notes.empty());
+  for (const Int3 cell : {Int3{2046, 0, 0}, Int3{-2048, 0, 0}}) {
+    const GrammarChunk outermost = derived(*large, cell);
+    CHECK(outermost.groups.size() == 1);
+    REQUIRE(outermost.notes.size() == 1);
+    CHECK(outermost.notes[0].message ==
+          "this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole");
+  }
+
+  // The proof of reach refuses what has no bound; what it should ever let pass is left out here.
+  const auto tame = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
+      "rule Main { Faulty; sphere(2m); }\nrule Faulty { displace 1m*p.x/1m amp 1m { sphere(1m); } }");
+  Program wild = *tame;
+  for (StmtNode& s : wild.ast.stmts)
+    if (s.kind == StmtKind::displace) s.amount = kNoId;
+  const GrammarChunk chunk = derived(wild);
+  CHECK(chunk.groups.size() == 1);
+  REQUIRE(chunk.notes.size() == 1);
+  CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/Faulty[0]");
+  CHECK(chunk.notes[0].message ==
+        "this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude");
+}
+
+TEST_CASE("of what passes its reach, parts that levels leave out go alone, at each level that would show them",
+          "[notes]") {
+  const char* const near[] = {
+      "union smooth 1m { sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); detail 30cm box(1m); }",
+      "{ sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); detail 30cm box(1m); cut box(1m); }",
+      "displace 0.1m*fractal(1m) { sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); }",
+      "displace 0.1m*fractal(1m) { sphere(2m); Part(1); }",
+  };
+  for (const char* statement : near) {
+    INFO(statement);
+    Program program = *compiled(
+        "sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; }\nrule Main { Faulty; }\nrule Faulty { " +
+        std::string(statement) +
+        " }\nrule Part(r) { at(90m*r, 0m, 0m) sphere(1m); }\nrule Part(r) lod 1m { sphere(1m); }");
+    program.layers[0].reach = 8 * kUnitsPerMetre;
+    const GrammarChunk chunk = derived(program);
+    REQUIRE(chunk.notes.size() == 1);
+    CHECK(chunk.notes[0].message.starts_with("this shape may pass the reach of its cell by "));
+    CHECK(chunk.notes[0].message.ends_with(" m; it is left out whole: raise `reach` or make it smaller"));
+    REQUIRE(chunk.groups.size() == 1);
+    CHECK(chunk.groups[0].bounds.hi.x < 4 * kUnitsPerMetre);
+    Result<GrammarChunk> far = deriveCoarseCell(program, {}, 7, 0, {}, 2 * kUnitsPerMetre, Ceiling(1 << 30));
+    REQUIRE(far);
+    CHECK(far->groups.size() == 1);
+    CHECK(coarseChunk(chunk, 2 * kUnitsPerMetre).groups.size() == 1);
+  }
+}
+
+#ifdef NDEBUG
+TEST_CASE("a shape beyond the bound that was proven of its layer is noted, and ends there", "[notes]") {
+  // The proof is falsified; a build with assertions ends at such a shape.
+  const auto program = compiled(
+      "sgm 1; units m; domain infinite; layer main cell 64m reach 16m { start Main; } rule Main { sphere(4m); }");
+  Program falsified = *program;
+  falsified.layers[0].bound = {{-1024, -1024, -1024}, {1024, 1024, 1024}};
+  const GrammarChunk chunk = derived(falsified);
+  REQUIRE(chunk.notes.size() == 1);
+  const std::string& message = chunk.notes[0].message;
+  CHECK(message.find("this shape passes the proven bound of its layer by") == 0);
+  CHECK(message.find("m and ends there: a bug in the library, please report it") != std::string::npos);
+  REQUIRE(chunk.groups.size() == 1);
+  CHECK(chunk.groups[0].bounds.hi.x < 4 * kUnitsPerMetre);
+}
+#endif

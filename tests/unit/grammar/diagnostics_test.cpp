@@ -23,6 +23,10 @@ struct Case {
   "sgm 1; domain infinite solid; layer net cell 32m reach 16m { start Net; }" \
   " layer drip cell 16m reach 8m uses net { start D; }\nrule Net { cut { at(cell.center) sphere(8m); } }\n"
 
+// A layer that derives A, and a rule A that uses B twice.
+#define SGM_LAYER "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\n"
+#define SGM_USED_TWICE "\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"
+
 const Case kCases[] = {
     // The text
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere(#2m); }"},
@@ -211,25 +215,18 @@ const Case kCases[] = {
     // Cellular automata: they need cells, stand where these stand, and have limits.
     {"1:26 wrong-use", "sgm 1; start A; rule A { ca(1m); }"},
     {"1:49 wrong-use", "sgm 1; domain finite box(9m); start A; rule A { ca(1m); }"},
-    {"2:25 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { at(1m, 0m, 0m) ca(1m); }"},
-    {"2:35 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { scale(0.5) B; } rule B { ca(1m); }"},
-    {"2:35 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { repeat 2 rot(y, 90deg) { ca(1m); } }"},
-    {"2:32 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { scatter poisson(3m) { ca(1m); } }"},
-    {"2:13 value-range", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(12cm); }"},
-    {"2:13 value-range", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(9m); }"},
-    {"2:22 value-range", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, fill 45); }"},
-    {"2:24 value-range",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, rounds 17); }"},
-    {"2:27 value-range",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, threshold 5); }"},
-    {"2:24 value-range", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, radius 5); }"},
-    {"2:24 value-range",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, rounds 6, radius 3); }"},
-    {"2:13 unit-mismatch", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1); }"},
+    {"2:25 wrong-use", SGM_LAYER "rule A { at(1m, 0m, 0m) ca(1m); }"},
+    {"2:35 wrong-use", SGM_LAYER "rule A { scale(0.5) B; } rule B { ca(1m); }"},
+    {"2:35 wrong-use", SGM_LAYER "rule A { repeat 2 rot(y, 90deg) { ca(1m); } }"},
+    {"2:32 wrong-use", SGM_LAYER "rule A { scatter poisson(3m) { ca(1m); } }"},
+    {"2:13 value-range", SGM_LAYER "rule A { ca(12cm); }"},
+    {"2:13 value-range", SGM_LAYER "rule A { ca(9m); }"},
+    {"2:22 value-range", SGM_LAYER "rule A { ca(1m, fill 45); }"},
+    {"2:24 value-range", SGM_LAYER "rule A { ca(1m, rounds 17); }"},
+    {"2:27 value-range", SGM_LAYER "rule A { ca(1m, threshold 5); }"},
+    {"2:24 value-range", SGM_LAYER "rule A { ca(1m, radius 5); }"},
+    {"2:24 value-range", SGM_LAYER "rule A { ca(1m, rounds 6, radius 3); }"},
+    {"2:13 unit-mismatch", SGM_LAYER "rule A { ca(1); }"},
     // Queries
     {"3:13 unknown-name", SGM_NET "rule D when query clear 2m of nett { sphere(1m); }"},
     {"3:13 layer-uses", SGM_NET "rule D when query clear 2m of drip { sphere(1m); }"},
@@ -269,91 +266,39 @@ const Case kCases[] = {
     {"1:42 whole-units", "sgm 1; domain finite output density edge 0.0001m; start A; rule A { }"},
     {"1:59 not-constant", "sgm 1; param wide = 2m; domain finite output density edge 3*wide; start A; rule A { }"},
     {"1:36 syntax", "sgm 1; domain finite output density, edge 2m; start A; rule A { }"},
-    {"2:10 reach", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(6m); }"},
-    {"2:10 reach-maybe",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(rand(1m, 6m)); }"},
+    {"2:10 reach", SGM_LAYER "rule A { sphere(6m); }"},
+    {"2:10 reach-maybe", SGM_LAYER "rule A { sphere(rand(1m, 6m)); }"},
     {"2:10 morph-disjoint", "sgm 1; start A;\nrule A { morph({ sphere(1m); }, { at(9m, 0m, 0m) sphere(1m); }, 0.5); }"},
     // Overrides
     {"1:8 no-start", "sgm 1; override \"A\" { } let b = 2;"},
-    {"2:10 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride B { }\nrule A { B; B; } rule B { tag "
-     "\"t\"; sphere(1m); }"},
-    {"2:11 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"\" { }\nrule A { B; B; } rule B { tag "
-     "\"t\"; sphere(1m); }"},
-    {"2:13 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A//B\" { }\nrule A { B; B; } rule B { "
-     "tag \"t\"; sphere(1m); }"},
-    {"2:15 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[x]\" { }\nrule A { B; B; } rule B "
-     "{ tag \"t\"; sphere(1m); }"},
-    {"2:16 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[0\" { }\nrule A { B; B; } rule B { "
-     "tag \"t\"; sphere(1m); }"},
-    {"2:14 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B \" { }\nrule A { B; B; } rule B { "
-     "tag \"t\"; sphere(1m); }"},
-    {"2:17 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(1, 2)/A\" { }\nrule A { B; B; } rule "
-     "B { tag \"t\"; sphere(1m); }"},
-    {"2:21 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(1, 2, 3)A\" { }\nrule A { B; B; } "
-     "rule B { tag \"t\"; sphere(1m); }"},
-    {"2:11 syntax",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A[0]/B\" { }\nrule A { B; B; } rule B "
-     "{ tag \"t\"; sphere(1m); }"},
-    {"2:11 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"b(0, 0, 0)/A\" { }\nrule A { B; B; } "
-     "rule B { tag \"t\"; sphere(1m); }"},
-    {"2:12 value-range",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 300000000, 0)/A\" { }\nrule A { "
-     "B; B; } rule B { tag \"t\"; sphere(1m); }"},
-    {"2:11 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"B\" { }\nrule A { B; B; } rule B { tag "
-     "\"t\"; sphere(1m); }"},
-    {"2:22 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 0, 0)/B\" { }\nrule A { B; B; } "
-     "rule B { tag \"t\"; sphere(1m); }"},
-    {"2:13 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/C[2]\" { }\nrule A { B; B; } rule B "
-     "{ tag \"t\"; sphere(1m); }"},
-    {"2:13 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/x.B\" { }\nrule A { B; B; } rule B { "
-     "tag \"t\"; sphere(1m); }"},
-    {"2:15 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B/A\" { }\nrule A { B; B; } rule B { "
-     "tag \"t\"; sphere(1m); }"},
-    {"2:14 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"tt\" { }\nrule A { B; B; } rule B "
-     "{ tag \"t\"; sphere(1m); }"},
-    {"3:10 duplicate",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { inner; }\noverride \"A/B\" { "
-     "}\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
-    {"3:14 duplicate",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"t\" { }\noverride tag \"t\" { "
-     "box(1m); }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
-    {"2:25 unknown-name",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(r); }\nrule A { B; B; } "
-     "rule B { tag \"t\"; sphere(1m); }"},
-    {"3:10 wrong-use", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\n\nrule A { inner; }"},
-    {"2:24 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A\" { union { inner; } }\nrule A { cut "
-     "{ sphere(1m); } }"},
+    {"2:10 syntax", SGM_LAYER "override B { }" SGM_USED_TWICE},
+    {"2:11 syntax", SGM_LAYER "override \"\" { }" SGM_USED_TWICE},
+    {"2:13 syntax", SGM_LAYER "override \"A//B\" { }" SGM_USED_TWICE},
+    {"2:15 syntax", SGM_LAYER "override \"A/B[x]\" { }" SGM_USED_TWICE},
+    {"2:16 syntax", SGM_LAYER "override \"A/B[0\" { }" SGM_USED_TWICE},
+    {"2:14 syntax", SGM_LAYER "override \"A/B \" { }" SGM_USED_TWICE},
+    {"2:17 syntax", SGM_LAYER "override \"a(1, 2)/A\" { }" SGM_USED_TWICE},
+    {"2:21 syntax", SGM_LAYER "override \"a(1, 2, 3)A\" { }" SGM_USED_TWICE},
+    {"2:11 syntax", SGM_LAYER "override \"A[0]/B\" { }" SGM_USED_TWICE},
+    {"2:11 unknown-name", SGM_LAYER "override \"b(0, 0, 0)/A\" { }" SGM_USED_TWICE},
+    {"2:12 value-range", SGM_LAYER "override \"a(0, 300000000, 0)/A\" { }" SGM_USED_TWICE},
+    {"2:11 unknown-name", SGM_LAYER "override \"B\" { }" SGM_USED_TWICE},
+    {"2:22 unknown-name", SGM_LAYER "override \"a(0, 0, 0)/B\" { }" SGM_USED_TWICE},
+    {"2:13 unknown-name", SGM_LAYER "override \"A/C[2]\" { }" SGM_USED_TWICE},
+    {"2:13 unknown-name", SGM_LAYER "override \"A/x.B\" { }" SGM_USED_TWICE},
+    {"2:15 unknown-name", SGM_LAYER "override \"A/B/A\" { }" SGM_USED_TWICE},
+    {"2:14 unknown-name", SGM_LAYER "override tag \"tt\" { }" SGM_USED_TWICE},
+    {"3:10 duplicate", SGM_LAYER "override \"A/B\" { inner; }\noverride \"A/B\" { }" SGM_USED_TWICE},
+    {"3:14 duplicate", SGM_LAYER "override tag \"t\" { }\noverride tag \"t\" { box(1m); }" SGM_USED_TWICE},
+    {"2:25 unknown-name", SGM_LAYER "override \"A/B\" { sphere(r); }" SGM_USED_TWICE},
+    {"3:10 wrong-use", SGM_LAYER "\nrule A { inner; }"},
+    {"2:24 wrong-use", SGM_LAYER "override \"A\" { union { inner; } }\nrule A { cut { sphere(1m); } }"},
     {"2:28 wrong-use",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"t\" { union { inner; } }\nrule A { "
-     "{ tag \"t\"; cut { sphere(1m); } } }"},
-    {"2:18 idle-cut",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { cut { sphere(1m); } }\nrule A "
-     "{ B; B; } rule B { tag \"t\"; sphere(1m); }"},
-    {"2:10 reach",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(9m); }\nrule A { B; B; "
-     "} rule B { tag \"t\"; sphere(1m); }"},
-    {"2:10 reach",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[1]\" { sphere(9m); }\nrule A { B; "
-     "B; } rule B { tag \"t\"; sphere(1m); }"},
-    {"2:10 reach-maybe",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(rand(1m, 9m)); }\nrule "
-     "A { B; } rule B { sphere(1m); }"},
+     SGM_LAYER "override tag \"t\" { union { inner; } }\nrule A { { tag \"t\"; cut { sphere(1m); } } }"},
+    {"2:18 idle-cut", SGM_LAYER "override \"A/B\" { cut { sphere(1m); } }" SGM_USED_TWICE},
+    {"2:10 reach", SGM_LAYER "override \"A/B\" { sphere(9m); }" SGM_USED_TWICE},
+    {"2:10 reach", SGM_LAYER "override \"A/B[1]\" { sphere(9m); }" SGM_USED_TWICE},
+    {"2:10 reach-maybe", SGM_LAYER "override \"A/B\" { sphere(rand(1m, 9m)); }\nrule A { B; } rule B { sphere(1m); }"},
     {"2:15 value-range", "sgm 1; start A;\noverride \"main(0, 1, 0)/A\" { }\nrule A { sphere(1m); }"},
     {"2:12 value-range",
      "sgm 1; domain infinite axes xz; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 1, 0)/A\" { }\nrule A { "

@@ -443,13 +443,3 @@ TEST_CASE("A query is decoded, and asked for by name") {
   CHECK(request.field("HOST") == "h");
   CHECK_FALSE(request.field("B"));
 }
-
-TEST_CASE("A problem is written as JSON whatever it says") {
-  const Response response = makeResponse(Problem{422, "bad_input", "a \"b\" \\ \n \xC3\xA9 \xFF", "/a/0"});
-  CHECK(response.status == 422);
-  CHECK(response.type == "application/problem+json");
-  CHECK(*response.body ==
-        "{\"type\":\"about:blank\",\"title\":\"Unprocessable Entity\",\"status\":422,\"code\":\"bad_input\","
-        "\"detail\":\"a \\\"b\\\" \\\\ \\u000a \xC3\xA9 \\ufffd\",\"pointer\":\"/a/0\"}\n");
-  CHECK(makeResponse(Problem{400, "a", "b", ""}).body->find("pointer") == std::string::npos);
-}

@@ -16,6 +16,7 @@
 #include "fields.h"
 #include "mesh/check.h"
 #include "mesh/vertex.h"
+#include "temporary_folder.h"
 
 #if __has_include(<sys/resource.h>)
 #include <sys/resource.h>
@@ -29,22 +30,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A temporary folder for a test.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sgm_export_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
   size_t files() const { return static_cast<size_t>(std::distance(fs::directory_iterator(path), {})); }
 };
-
-std::string readFile(const fs::path& path) {
-  std::string bytes(fs::file_size(path), '\0');
-  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return bytes;
-}
 
 template <class T>
 T valueAt(const std::string& bytes, size_t offset) {
@@ -134,7 +122,7 @@ TEST_CASE("GLB blends pairs of materials by the colours of vertices", "[mesh][ex
   ExportInfo info = someInfo();
   info.texture = &texture;
   REQUIRE(exportMesh(mesh, info, folder.path / "ball.glb"));
-  const std::string bytes = readFile(folder.path / "ball.glb");
+  const std::string bytes = contentOf(folder.path / "ball.glb");
   const size_t json_bytes = valueAt<uint32_t>(bytes, 12);
   const nlohmann::json json = nlohmann::json::parse(bytes.substr(20, json_bytes));
   const size_t data = 20 + json_bytes + 8;
@@ -186,7 +174,7 @@ TEST_CASE("GLB reads back", "[mesh][export]") {
   const WorldMesh mesh = someMesh();
   REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.glb"));
   CHECK(folder.files() == 1);
-  const std::string bytes = readFile(folder.path / "ball.glb");
+  const std::string bytes = contentOf(folder.path / "ball.glb");
   REQUIRE(bytes.substr(0, 4) == "glTF");
   CHECK(valueAt<uint32_t>(bytes, 4) == 2);
   CHECK(valueAt<uint32_t>(bytes, 8) == bytes.size());
@@ -244,7 +232,7 @@ TEST_CASE("PLY and STL read back", "[mesh][export]") {
   const Folder folder;
   const WorldMesh mesh = someMesh();
   REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.PLY"));
-  const std::string ply = readFile(folder.path / "ball.PLY");
+  const std::string ply = contentOf(folder.path / "ball.PLY");
   const std::string end_mark = "end_header\n";
   const size_t body = ply.find(end_mark) + end_mark.size();
   CHECK(ply.find("element vertex " + std::to_string(mesh.positions.size())) != std::string::npos);
@@ -266,7 +254,7 @@ TEST_CASE("PLY and STL read back", "[mesh][export]") {
   CHECK(valueAt<uint16_t>(ply, body + kVertex * 20 + 29) == mesh.attributes[20].tag);
 
   REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.stl"));
-  const std::string stl = readFile(folder.path / "ball.stl");
+  const std::string stl = contentOf(folder.path / "ball.stl");
   REQUIRE(stl.size() == 84 + mesh.indices.size() / 3 * 50);
   CHECK(stl.substr(0, 5) != "solid");
   CHECK(valueAt<uint32_t>(stl, 80) == mesh.indices.size() / 3);
@@ -284,7 +272,7 @@ TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
   std::vector<Point> points, normals;
   std::multiset<Corner3> triangles;
   std::set<std::string> used, defined;
-  std::istringstream in(readFile(folder.path / "ball.obj"));
+  std::istringstream in(contentOf(folder.path / "ball.obj"));
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     std::string keyword;
@@ -310,7 +298,7 @@ TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
   CHECK(points.size() == mesh.positions.size());
   CHECK(normals.size() == mesh.positions.size());
   CHECK((triangles == trianglesOf(mesh)));
-  std::istringstream library(readFile(folder.path / "ball.mtl"));
+  std::istringstream library(contentOf(folder.path / "ball.mtl"));
   for (std::string line; std::getline(library, line);)
     if (line.rfind("newmtl ", 0) == 0) defined.insert(line.substr(7));
   CHECK(used == std::set<std::string>{"rock", "wet_rock", "material_5"});
@@ -322,7 +310,7 @@ TEST_CASE("the materials of an .obj lie in a file whose name every reader finds"
   const auto libraryOf = [&](const std::string& name) {
     const fs::path obj = folder.path / name;
     REQUIRE(exportMesh(WorldMesh(), {}, obj));
-    const std::string text = readFile(obj), keyword = "mtllib ";
+    const std::string text = contentOf(obj), keyword = "mtllib ";
     const size_t begin = text.find(keyword) + keyword.size();
     const std::string library = text.substr(begin, text.find('\n', begin) - begin);
     CHECK(fs::exists(folder.path / library));
@@ -349,12 +337,12 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
     REQUIRE(!refused);
     CHECK(refused.error().code == Code::io);
     CHECK(refused.error().message.find("ball.mtl") != std::string::npos);
-    CHECK(readFile(mtl) == foreign);
+    CHECK(contentOf(mtl) == foreign);
     CHECK(folder.files() == 1);
   }
   std::ofstream(mtl, std::ios::trunc);
   REQUIRE(exportMesh(mesh, someInfo(), obj));
-  const std::string before = readFile(mtl);
+  const std::string before = contentOf(mtl);
   ExportInfo other = someInfo();
   other.materials[0].colour = {1, 0, 0};
   {
@@ -364,7 +352,7 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
     REQUIRE(file->write(mesh, other));
     CHECK(file->bytes() == fs::file_size(obj) + fs::file_size(mtl));
   }
-  const std::string after = readFile(mtl);
+  const std::string after = contentOf(mtl);
   CHECK(after != before);
   // A folder takes the .obj's name while the mesh is written: the old .mtl must be restored.
   for (const bool had_materials : {true, false}) {
@@ -375,7 +363,7 @@ TEST_CASE("materials that others wrote stay, and .obj and .mtl change together o
     fs::create_directory(obj);
     CHECK(!file->write(mesh, someInfo()));
     CHECK(fs::exists(mtl) == had_materials);
-    if (had_materials) CHECK(readFile(mtl) == after);
+    if (had_materials) CHECK(contentOf(mtl) == after);
   }
   CHECK(folder.files() == 1);
 }
@@ -388,14 +376,14 @@ TEST_CASE("large primitives get 32-bit indices, empty meshes a valid file", "[me
   REQUIRE(part.vertices.size() > 65536);
   const PlacedPart parts[] = {{&part, grid, 0}};
   REQUIRE(exportMesh(*weld(parts, {}), {}, folder.path / "large.glb"));
-  const std::string large = readFile(folder.path / "large.glb");
+  const std::string large = contentOf(folder.path / "large.glb");
   CHECK(large.find("\"componentType\":5125") != std::string::npos);
   for (const char* name : {"empty.glb", "empty.obj", "empty.ply", "empty.stl"})
     REQUIRE(exportMesh(WorldMesh{}, {}, folder.path / name));
-  const std::string glb = readFile(folder.path / "empty.glb");
+  const std::string glb = contentOf(folder.path / "empty.glb");
   CHECK(valueAt<uint32_t>(glb, 8) == glb.size());
   CHECK(nlohmann::json::parse(glb.substr(20)).contains("asset"));
-  CHECK(readFile(folder.path / "empty.stl").size() == 84);
+  CHECK(contentOf(folder.path / "empty.stl").size() == 84);
 }
 
 TEST_CASE("an export that fails leaves nothing behind and the old file as it was", "[mesh][export]") {
@@ -438,7 +426,7 @@ TEST_CASE("a full disk is one clear error, and nothing stays behind", "[mesh][ex
     CHECK(result.error().code == Code::io);
     CHECK(result.error().message.find(name) != std::string::npos);
     CHECK(result.error().message.find('\n') == std::string::npos);
-    CHECK(readFile(folder.path / name) == "old");
+    CHECK(contentOf(folder.path / name) == "old");
     fs::remove(folder.path / name);
     CHECK(folder.files() == 0);
   }

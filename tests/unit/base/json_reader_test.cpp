@@ -4,7 +4,6 @@
 #include "catch.h"
 
 using namespace sgm;
-using namespace sgm::asset;
 
 TEST_CASE("JSON is read as it is written", "[asset][json]") {
   const auto value = readJson(
