@@ -1,7 +1,7 @@
 // Stores that version 0.2 has baked still serve their worlds.
 
 #include "store_support.h"
-#include "version_0_2.h"
+#include "world/version_0_2.h"
 
 using namespace sgm;
 

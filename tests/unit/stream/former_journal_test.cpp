@@ -2,10 +2,10 @@
 
 #include "base/bytes.h"
 #include "base/checksum.h"
-#include "edits_support.h"
+#include "world/edits_support.h"
 #include "streaming_support.h"
 #include "temporary_folder.h"
-#include "version_0_2.h"
+#include "world/version_0_2.h"
 
 using namespace sgm;
 
