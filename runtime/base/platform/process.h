@@ -31,7 +31,7 @@ void sandboxThisProcess(const ProcessLimits& limits);
 
 /// The path of the program that this process runs. Error: io.
 Result<std::string> ownProgram();
-/// Whether the path is that of a file that this process may run.
+/// Whether the path is that of a file that this process may run. Does not allocate.
 bool isProgram(const std::string& path);
 
 /// A standard stream of a new process.

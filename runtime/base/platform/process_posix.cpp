@@ -9,6 +9,7 @@
 #endif
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -132,7 +133,8 @@ void applyLimits(const ProcessLimits& limits) {
   if (limits.memory_bytes > 0 && !kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory_bytes);
 }
 
-void loseParentAndPrivileges() {
+/// Ends the process with the thread that started it, and denies it new privileges.
+void confine() {
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
@@ -204,7 +206,7 @@ class Launch {
     }
     if (!settings_.inherits_files) closeOthersOnExec();
     if (settings_.sandbox) {
-      loseParentAndPrivileges();
+      confine();
       if (getppid() != parent) _exit(1);
       applyLimits(*settings_.sandbox);
     }
@@ -279,7 +281,7 @@ State stateOf(int id) {
 }  // namespace
 
 void sandboxThisProcess(const ProcessLimits& limits) {
-  loseParentAndPrivileges();
+  confine();
 #if defined(SYS_close_range)
   syscall(SYS_close_range, unsigned{kFirstFree}, ~0u, 0u);
 #endif
@@ -299,8 +301,8 @@ Result<std::string> ownProgram() {
 }
 
 bool isProgram(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(path, error) && ::access(path.c_str(), X_OK) == 0;
+  struct stat found {};
+  return ::stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
 Result<Process> Process::start(const ProcessSettings& settings) {
