@@ -6,6 +6,7 @@
 #include "file_server.h"
 #include "store/outage.h"
 #include "store_support.h"
+#include "world/version_0_2.h"
 
 using namespace sgm;
 
@@ -91,6 +92,18 @@ TEST_CASE("what lies in a folder is asked of no server, whichever comes first", 
   CHECK(!far->get({world}, request.key, 0, Reach::near, memory));
   CHECK(server.requests == 0);
   CHECK(far->get({world}, request.key, 0, Reach::far, memory));
+}
+
+TEST_CASE("a bake of version 0.2 is found on a server too", "[store]") {
+  FileServer server(formerFile("store"));
+  const WorldField world(formerWorld(), std::pmr::get_default_resource());
+  const auto far = sourceAt(server.address());
+  BakedWorld asked{far->worldOf(*bakedWorldInputs(world, false)),
+                   [&] { return far->worldOf(*formerBakedWorldInputs(world, false)); }};
+  std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
+  CHECK(far->get(asked, {0, {}}, 0, Reach::far, memory));
+  asked.former_key = nullptr;
+  CHECK(!far->get(asked, {0, {}}, 0, Reach::far, memory));
 }
 
 TEST_CASE("what a server gave once is kept in the disk cache", "[store]") {
