@@ -8,10 +8,12 @@
 
 #include "base/hash.h"
 #include "catch.h"
+#include "chunk/chunk_surface.h"
 #include "chunk/surface_materials.h"
 #include "chunk/surface_shapes.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
+#include "world/edits.h"
 #include "world/world_support.h"
 
 using namespace sgm;
