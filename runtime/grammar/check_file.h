@@ -9,12 +9,12 @@ namespace sgm {
 
 struct CheckResult {
   CompileResult compiled;
-  /// The file is a library for import: it declares rules, lets and fields, and nothing that only a root has. Its
+  /// The file is a library for import: it has rules, lets and fields, but no declaration that only a root may have. Its
   /// program has no layers.
   bool library = false;
 };
 
-/// Like compileGrammar, but a library without a start is valid by itself.
+/// Like compileGrammar(), but also accepts a library, which has no start.
 CheckResult checkFile(std::string_view text, std::string_view path, const CompileOptions& options = {});
 
 }  // namespace sgm

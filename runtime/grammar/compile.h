@@ -1,5 +1,6 @@
 #pragma once
-// Compiles text to a Program. Grammar text is untrusted: size, depth, count and time are limited.
+// Compiles grammar text to a Program. The text is untrusted: its size, nesting, number of nodes and compile time are
+// limited.
 
 #include <memory>
 #include <optional>
@@ -13,25 +14,25 @@
 
 namespace sgm {
 
-/// The program exists exactly if no diagnostic is an error. Diagnostics are in order of file and place.
+/// program: null if and only if a diagnostic is an error. Diagnostics are sorted by file and position.
 struct CompileResult {
   std::shared_ptr<const Program> program;
   std::vector<Diagnostic> diagnostics;
-  std::vector<SourceFile> files;  ///< the files read, for renderDiagnostic
+  std::vector<SourceFile> files;  ///< all files that were read, for renderDiagnostic()
 };
 
-/// Thread-safe: no state is kept between calls. `path` is only for messages. May throw std::bad_alloc.
+/// Thread-safe: no state is kept between calls. path: file name for messages; not opened. May throw std::bad_alloc.
 CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options = {});
 
-/// `sgm fmt`: the canonical layout of one file, with its comments; formatting it again changes nothing. Needs only
-/// correct syntax.
+/// Result of `sgm fmt`: one file in canonical layout, with its comments. Formatting is idempotent and needs only
+/// correct syntax. text: nullopt after a syntax error.
 struct FormatResult {
   std::optional<std::string> text;
   std::vector<Diagnostic> diagnostics;
 };
 FormatResult formatGrammar(std::string_view text, std::string_view path, const CompileLimits& limits = {});
 
-/// All diagnostics of a result, rendered one after another.
+/// Returns all diagnostics of a result, rendered and concatenated.
 std::string renderDiagnostics(const CompileResult& result);
 
 }  // namespace sgm

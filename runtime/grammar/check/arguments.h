@@ -1,5 +1,5 @@
 #pragma once
-// Joins the arguments of a call, by position and by name, with the parameters of its callee.
+// Matches the arguments of a call, by position or by name, with the parameters of the function, rule or shape called.
 
 #include <initializer_list>
 #include <optional>
@@ -11,33 +11,34 @@
 
 namespace sgm {
 
-/// A parameter of a callee.
+/// A parameter of a callee: of a rule, a let, a field, a built-in function or a primitive.
 struct FormalView {
   std::string_view name;
-  ExprId fallback = kNoId;  ///< bound if the argument is omitted
+  ExprId fallback = kNoId;  ///< the default value, bound if the argument is omitted; kNoId: no default
   bool required = true;
   bool named_only = false;
 };
 
 std::vector<FormalView> viewOf(const Program& program, IdRange formals);
 std::vector<FormalView> viewOf(std::span<const BuiltinParam> params);
-/// The types of formals before arguments are known: the dimension of those with a range.
+/// The types that formals have before any argument is checked: a formal with a declared range has the range's
+/// dimension; all others are unknown.
 std::vector<Type> typesOf(const Program& program, IdRange formals);
 
 struct Callee {
   std::string_view name;
   std::vector<FormalView> formals;
-  bool variadic = false;  ///< takes further arguments after its formals, and none by name
+  bool variadic = false;  ///< accepts extra positional arguments after its formals (not named ones)
 };
 
-/// Returns an expression for each formal, in order, then the variadic ones; kNoId: omitted, without a fallback. Returns
-/// nullopt after an error.
+/// Returns one expression for each formal, in order, followed by the variadic arguments. kNoId marks an omitted
+/// argument whose formal has no default. Returns nullopt after reporting an error.
 std::optional<std::vector<uint32_t>> bindArguments(CheckContext& check, const Symbols& symbols, const Scope& scope,
                                                    ExprId call, const Callee& callee);
 
-/// Binds the written arguments of a transform or an area, by position or by name, to the expressions at `out`, one for
-/// each word; those that are omitted become kNoId. required: the least number of arguments. span: of the statement.
-/// Returns false after an error.
+/// Binds the arguments of a transform or a scatter area, by position or by name. out: array with one element for each
+/// of `words`, the parameters' names; omitted arguments become kNoId. required: the minimum number of arguments. span:
+/// of the statement, for messages. Returns false after reporting an error.
 bool bindWords(CheckContext& check, IdRange args, const Span& span, std::string_view callee,
                std::initializer_list<std::string_view> words, size_t required, ExprId* out);
 

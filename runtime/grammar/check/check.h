@@ -1,11 +1,11 @@
 #pragma once
 // Checks names, arguments, dimensions and stages: turns the parser's result into a resolved Program.
 //
-// A parameter of a rule has one type, found from the first call. Lets and fields are checked anew for each tuple of
-// argument types (with cached results), so that one `fbm` works for both lengths and ratios.
+// A parameter of a rule has one type, inferred from the rule's first call. A let or a field is checked once for each
+// distinct tuple of argument types, with cached results, so that one `fbm` works for both lengths and ratios.
 //
-// The parts, each of which uses only those before it: Symbols, Types, declared constants and layers, Statements with
-// RuleTypes, Overrides with OverridePaths, LayerLevel. check.cpp runs them in order.
+// The classes and files of this check, in order of dependence: Symbols, Types, declared_constants and layers,
+// Statements with RuleTypes, Overrides with OverridePaths, LayerLevel. check.cpp runs them in this order.
 
 #include <vector>
 
@@ -20,12 +20,13 @@ namespace sgm {
 
 struct CheckFindings {
   std::vector<RuleCall> calls;
-  /// Whether a used name may be declared in a part of the text that was not parsed.
+  /// The program uses an unknown name that may be declared in a part of the text that failed to parse.
   bool uses_lost = false;
 };
 
-/// Runs all checks except recursion and reach. Errors go to the sink, which already has those of loading and parsing.
-/// syntax: of all files, [0] is the root. library: the root is a file for import, and derives nothing.
+/// Runs all checks except those for recursion and reach. Reports errors to the sink, which already contains those of
+/// loading and parsing. syntax: of all files; [0] is the root. library: the root is meant for import, so it needs no
+/// start.
 CheckFindings checkProgram(Program& program, NameTable& names, const std::vector<ModuleSyntax>& syntax,
                            const CompileLimits& limits, DiagnosticSink& sink, bool library);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The program being checked, and everything else that all parts of the check share.
+// The program being checked, and the other state that all parts of the check share.
 
 #include <string_view>
 #include <vector>
@@ -12,27 +12,27 @@
 
 namespace sgm {
 
-/// References to the inputs and outputs of one check, with short names for the most frequent ways through the tree.
-/// Owns nothing; everything that it names must outlive it.
+/// References to the inputs and outputs of one check, with short accessors for the syntax tree. Owns none of the
+/// objects; all must outlive it.
 struct CheckContext {
   Program& program;
   NameTable& names;
-  const std::vector<ModuleSyntax>& syntax;  ///< [0] is the root
+  const std::vector<ModuleSyntax>& syntax;  ///< by module; [0] is the root
   const CompileLimits& limits;
   DiagnosticSink& sink;
-  bool library = false;  ///< the root is a file for import, and derives nothing
-  bool lossy = false;    ///< loading or parsing had errors: a part of the text is missing
+  bool library = false;  ///< the root is meant for import, so it needs no start
+  bool lossy = false;    ///< loading or parsing reported errors, so a part of the text is missing from the tree
 
   ExprNode& node(ExprId id) const { return program.ast.exprs[id]; }
   std::string_view text(NameId id) const { return program.text(id); }
   uint32_t child(const ExprNode& n, uint32_t i) const { return program.idAt(n.children, i); }
-  /// Whether parts of a statement may be missing because they were not parsed.
+  /// Whether parts of a statement may be missing because its file was not parsed completely.
   bool isLossy(const StmtNode& s) const { return !syntax[s.span.file].complete; }
 
-  /// Appends ids to Ast::ids, and returns where they lie.
+  /// Appends ids to Ast::ids, and returns their range there.
   IdRange store(const std::vector<uint32_t>& ids) const;
-  /// The index of a name in a table of the program, to which it is added if necessary. Reports an error and returns 0
-  /// if the table is full. span: the place of the name.
+  /// Returns the index of a name in one of the program's string tables (materials, tags, names), adding the name if it
+  /// is new. Reports an error at `span` and returns 0 if the table is full.
   uint16_t tableIndex(std::pmr::vector<std::pmr::string>& table, NameId name, const Span& span) const;
 };
 

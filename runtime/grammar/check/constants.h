@@ -1,5 +1,5 @@
 #pragma once
-// The values of constant expressions.
+// Evaluates constant expressions.
 
 #include <map>
 #include <optional>
@@ -8,23 +8,23 @@
 
 namespace sgm {
 
-/// The values of lets without parameters, each of which is computed once, however often it is used.
+/// Evaluates constants; caches the values of lets without parameters, so that each is computed only once.
 class Constants {
  public:
   explicit Constants(const Program& program) : program_(program) {}
 
-  /// The value of a checked expression of numbers, arithmetic and lets without parameters; nullopt if it contains
-  /// anything else, divides by zero or is nested too deep.
+  /// Returns the value of a checked expression that consists of numbers, arithmetic and lets without parameters.
+  /// Returns nullopt if the expression contains anything else, divides by zero or is nested too deep.
   std::optional<double> fold(ExprId id) { return fold(id, 0); }
 
  private:
   std::optional<double> fold(ExprId id, int depth);
 
   const Program& program_;
-  std::map<uint32_t, double> lets_;  ///< Program::lets
+  std::map<uint32_t, double> lets_;  ///< cached values; keys are indices into Program::lets
 };
 
-/// Whether an expression consists of numbers and arithmetic alone.
+/// Whether an expression consists only of number literals and arithmetic, without any name.
 bool isLiteral(const Program& program, ExprId id);
 
 }  // namespace sgm

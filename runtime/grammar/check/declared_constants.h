@@ -1,5 +1,6 @@
 #pragma once
-// Declarations whose values are constants: ranges of parameters, and what only the root file has.
+// Checks declarations whose values must be constants: parameter ranges, and the declarations that only the root file
+// may have.
 
 #include <cstdint>
 #include <optional>
@@ -9,23 +10,25 @@
 
 namespace sgm {
 
-/// The value of an expression outside of rules; nullopt after an error. what: "the cell of a layer".
+/// Returns the value of an expression outside of rules; nullopt after reporting an error. what: subject of the message,
+/// such as "the cell of a layer".
 std::optional<double> checkConstant(CheckContext& check, Types& types, ExprId id, Dim dim, std::string_view what);
-/// The same for a length that is a whole number of units.
+/// Like checkConstant(), for a length that must be a whole number of units. Returns the number of units.
 std::optional<int64_t> checkWholeUnits(CheckContext& check, Types& types, ExprId id, std::string_view what);
 
-/// Requires that the defaults and ranges of the formals of rules, lets and fields are literals.
+/// Requires that the defaults and ranges of the parameters of rules, lets and fields are literals.
 void checkFormalLiterals(CheckContext& check);
-/// Evaluates the ranges of the formals of rules, lets and fields. Precondition: checkFormalLiterals() found no error.
+/// Evaluates the ranges of the parameters of rules, lets and fields. Precondition: checkFormalLiterals() found no
+/// error.
 void checkFormalRanges(CheckContext& check, Types& types);
-/// Evaluates the defaults and ranges of the root's parameters.
+/// Evaluates the defaults and ranges of the root's `param` declarations.
 void checkParams(CheckContext& check, Types& types);
 
-/// Gives the materials of assets their numbers in the program.
+/// Assigns indices in Program::materials to the materials of imported assets.
 void numberAssetMaterials(CheckContext& check);
 void checkSeed(CheckContext& check, Types& types);
 void checkDomain(CheckContext& check, Types& types);
-/// Evaluates the numbers of the statements `report` and `expect`.
+/// Evaluates the constants in `report` and `expect` declarations.
 void checkExpectations(CheckContext& check, Symbols& symbols, Types& types);
 
 }  // namespace sgm

@@ -1,13 +1,13 @@
 #pragma once
-// Cuts without anything to cut from.
+// Warns of cuts that have no effect, because no content precedes them.
 
 #include "grammar/syntax/program.h"
 #include "grammar/text/sink.h"
 
 namespace sgm {
 
-/// Warns of cuts before which their block has nothing. follows: the statements of the body add to content before it.
-/// Precondition: a checked body; StmtNode::layer_level is set.
+/// Warns of each cut in `body` without preceding content in its block. follows: content precedes the whole body, so
+/// that even its first cut has an effect. Precondition: the body is checked and StmtNode::layer_level is set.
 void warnOfIdleCuts(const Program& program, StmtId body, bool follows, DiagnosticSink& sink);
 
 }  // namespace sgm

@@ -1,13 +1,13 @@
 #pragma once
-// Overrides of uses that never occur.
+// Warns of overrides whose target never occurs.
 
 #include "grammar/syntax/program.h"
 #include "grammar/text/sink.h"
 
 namespace sgm {
 
-/// Warns of overrides of a use that the rule before it in the path never derives. Precondition: Rule::overrides is
-/// complete.
+/// Warns of override paths with a step that the rule of the previous step never derives. Precondition: Rule::overrides
+/// is complete.
 void warnOfIdleOverrides(const Program& program, DiagnosticSink& sink);
 
 }  // namespace sgm

@@ -1,5 +1,6 @@
 #pragma once
-// Which cuts remove from the domain: those directly at the level of a layer's start rule.
+// Finds the cuts that remove from the domain's solid: those directly at the top level of a layer's start rule, not
+// nested in another shape.
 
 #include <cstdint>
 #include <set>
@@ -9,18 +10,20 @@
 
 namespace sgm {
 
-/// The overrides whose blocks may be used at the level of a layer.
+/// Marks the statements at the top level of layers; stores the overrides whose blocks may be used there.
 class LayerLevel {
  public:
   explicit LayerLevel(CheckContext& check) : check_(check) {}
 
-  /// Sets StmtNode::layer_level in the rules that layers start with, and in the overrides that may apply there. Reports
-  /// an `inner` inside of other shapes if it may derive such a cut. Precondition: all rules and overrides are checked.
+  /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Reports an
+  /// `inner` nested in other shapes if its content may contain a cut of the domain. Precondition: all rules and
+  /// overrides are checked.
   void mark();
 
  private:
   void markStatement(StmtId id);
-  /// cuts: the replaced content has such a cut; so `inner` must be at the level of the layer.
+  /// index: into Program::overrides. cuts: the replaced content contains a cut of the domain, so `inner` must stand at
+  /// the top level of the layer.
   void markOverride(uint32_t index, bool cuts);
   bool cutsDomain(StmtId id) const;
 

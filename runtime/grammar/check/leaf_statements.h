@@ -1,5 +1,5 @@
 #pragma once
-// Statements without bodies, and the parts of others that come before their bodies.
+// Checks statements without bodies, and the parts of other statements that precede their bodies.
 
 #include <vector>
 
@@ -9,23 +9,25 @@ namespace sgm {
 
 /// The effect of a list of transforms on the scope.
 struct TransformEffect {
-  bool shrinks = false;         ///< it sets a size; the proof of reach finds scopes that do not shrink after all
-  std::vector<ExprId> factors;  ///< of its scales
+  /// one of the transforms is `size`; whether the scope really gets smaller is decided by the proof of reach
+  bool shrinks = false;
+  std::vector<ExprId> factors;  ///< the factors of all `scale` transforms in the list
 };
 TransformEffect checkTransforms(CheckContext& check, Symbols& symbols, Types& types, IdRange xforms);
 
-/// Declares the plan of a footprint.
+/// Declares the local name of a `footprint` statement.
 void checkFootprint(CheckContext& check, Types& types, StmtId id, const StmtNode& s);
-/// Checks the plan of an extrusion or a roof, if it has one. body: of the rule or override, for hints.
+/// Checks the `plan` of an extrusion or a roof, if present. body: the block of the rule or override, searched for
+/// hints.
 void checkPlan(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s, StmtId body);
 void checkRoof(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s, StmtId body);
 
 void checkFit(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s);
 
-/// Checks the rooms of a treemap and the doors between them.
+/// Checks the rooms of a treemap and the doors (links) between them.
 void checkRooms(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s);
 
-/// Checks the tiles of a wfc: their sizes and weights, and whether every side has a match.
+/// Checks the tiles of a wfc: their sizes and weights, and that each side of a tile fits some other side.
 void checkTiles(CheckContext& check, Types& types, const StmtNode& s);
 
 }  // namespace sgm

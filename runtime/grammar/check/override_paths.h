@@ -1,5 +1,5 @@
 #pragma once
-// The paths of overrides: `net(0, 0, -1)/Node/Chamber[0]`.
+// Resolves the paths of overrides, such as `net(0, 0, -1)/Node/Chamber[0]`.
 
 #include <set>
 #include <string>
@@ -15,14 +15,14 @@ namespace sgm {
 struct WrittenPath;
 struct WrittenStep;
 
-/// The rules that each rule calls, by which the steps of paths are found.
+/// Resolves each step of a path to a rule, by the rules that its parent calls.
 class OverridePaths {
  public:
-  /// calls: of all rules that the starts reach.
+  /// calls: of all rules that can be reached from the layers' start calls.
   OverridePaths(CheckContext& check, const Symbols& symbols, const std::vector<RuleCall>& calls);
 
-  /// Sets layer, cell and steps of an override by path; without steps after an error, or if the missing part of the
-  /// text may declare a step.
+  /// Sets the layer, the cell and the steps of an override by path. Leaves the steps empty after reporting an error, or
+  /// if the rule of a step may be declared in a part of the text that failed to parse.
   void resolve(Override& edit);
 
  private:
@@ -37,7 +37,8 @@ class OverridePaths {
 
   CheckContext& check_;
   const Symbols& symbols_;
-  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;  ///< of each rule: rules, and their import
+  /// by calling rule: each called rule, and the import alias it is called by (or kNoId)
+  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;
 };
 
 }  // namespace sgm

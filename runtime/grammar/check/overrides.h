@@ -1,5 +1,5 @@
 #pragma once
-// Overrides: their blocks, the places that they replace, and the rules in which they may apply.
+// Checks overrides: their blocks, the targets that they replace, and the rules in which they may apply.
 
 #include <cstdint>
 #include <set>
@@ -10,15 +10,17 @@
 
 namespace sgm {
 
-/// The rules and layers that the block of each override uses, and the overrides that may apply in a room of a treemap.
+/// Collects the rules and layers that each override's block uses, and finds the overrides that may apply in a room of a
+/// treemap.
 class Overrides {
  public:
-  /// uses: of the rules; receives the layers that blocks ask.
+  /// uses: of the rules so far; probes and queries in the blocks of overrides are added.
   Overrides(CheckContext& check, Symbols& symbols, const RuleTypes& rules, Statements& statements, RuleUses& uses)
       : check_(check), symbols_(symbols), rules_(rules), statements_(statements), rule_uses_(uses) {}
 
-  /// Runs after all rules reachable from starts are checked, so that the names in overrides are known, and so that
-  /// materials first named in overrides come last: the other numbers are then the same as without overrides.
+  /// Checks all overrides. Must run after all rules that are reachable from starts are checked, so that names in
+  /// overrides are known, and so that materials first named in overrides get the last indices: all other indices are
+  /// the same as without overrides.
   void run();
 
   bool mayBeInRoom(uint32_t index) const { return in_rooms_.contains(index); }
@@ -36,7 +38,7 @@ class Overrides {
   const RuleTypes& rules_;
   Statements& statements_;
   RuleUses& rule_uses_;
-  std::vector<RuleUses> uses_;  ///< of each override
+  std::vector<RuleUses> uses_;  ///< by index into Program::overrides
   std::set<uint32_t> in_rooms_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rules that may call themselves without end.
+// Detects unbounded recursion of rules.
 
 #include <vector>
 
@@ -10,7 +10,8 @@
 
 namespace sgm {
 
-/// Reports an error for every rule that may call itself without end. Sets ExprNode::circular.
+/// Reports an error for every rule that may call itself without end. Sets ExprNode::circular of calls that may lead
+/// back to their own rule.
 void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
                     DiagnosticSink& sink);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The order in which rules are checked: types flow from callers to callees.
+// Determines the order in which rules are checked: types flow from callers to callees.
 
 #include <cstdint>
 #include <optional>
@@ -10,27 +10,28 @@
 
 namespace sgm {
 
-/// The types of each rule's parameters, as far as its calls have shown them, and the rules that wait for their check.
+/// Stores the types of each rule's parameters, as inferred from the calls checked so far, and a queue of rules to
+/// check.
 class RuleTypes {
  public:
   explicit RuleTypes(size_t rules) : types_(rules), states_(rules, State::unreached) {}
 
-  /// Whether a call of the rule was checked, or the rule itself.
+  /// Whether the rule itself, or a call of it, was checked.
   bool isReached(uint32_t rule) const { return states_[rule] != State::unreached; }
-  /// Whether the rule was checked, and does not wait for another check.
+  /// Whether the rule was checked and is not queued to be checked again.
   bool isChecked(uint32_t rule) const { return states_[rule] == State::checked; }
   const std::vector<Type>& of(uint32_t rule) const { return types_[rule]; }
 
-  /// Sets the types of a rule that nothing calls.
+  /// Sets the types of a rule that no call uses.
   void assume(uint32_t rule, std::vector<Type> types);
-  /// Sets the types that the first call gives; the rule then waits.
+  /// Sets the parameter types that the first call passes, and queues the rule.
   void reach(uint32_t rule, std::vector<Type> types);
-  /// Replaces the type of one parameter, which was open before; a checked rule then waits for another check.
+  /// Replaces the type of one parameter that was unknown so far; queues the rule again if it was already checked.
   void refine(uint32_t rule, size_t parameter, const Type& type);
 
-  /// The next rule in the order of the first calls; nullopt if none waits.
+  /// Removes and returns the next queued rule, in the order of first calls; nullopt if the queue is empty.
   std::optional<uint32_t> takeWaiting();
-  /// Marks a rule as checked, and returns whether it is for the first time.
+  /// Marks a rule as checked. Returns whether this is its first check.
   bool beginCheck(uint32_t rule);
 
  private:
@@ -40,7 +41,7 @@ class RuleTypes {
   std::vector<State> states_;
   std::vector<uint32_t> waiting_;
   size_t next_waiting_ = 0;
-  std::set<uint32_t> begun_;  ///< rules that were checked at least once
+  std::set<uint32_t> begun_;  ///< rules whose check has begun at least once
 };
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The rules and layers that bodies use: what the check of statements finds out for later passes.
+// The rules and layers that bodies use, collected by the check of statements for later passes.
 
 #include <string_view>
 #include <vector>
@@ -8,32 +8,32 @@
 
 namespace sgm {
 
-/// A scale around a call; `copied`: applied once for each copy.
+/// A `scale` transform that encloses a call.
 struct ScaleAround {
   ExprId factor = kNoId;
   bool copied = false;
 };
 
-/// A call of a rule by a rule, for the checks of recursion, layers and reach.
+/// A call of a rule, for the checks of recursion, layers and reach.
 struct RuleCall {
-  uint32_t from = kNoId;  ///< kNoId: the block of an override
+  uint32_t from = kNoId;  ///< the calling rule; kNoId: the block of an override
   uint32_t alternative = 0;
   uint32_t to = 0;
   ExprId call = kNoId;
-  bool escape = false;  ///< for depth or minsize
-  bool shrunk = false;  ///< inside of size
+  bool escape = false;  ///< the call replaces the rule's body when its `depth` or `minsize` is reached
+  bool shrunk = false;  ///< enclosed by a scope of smaller size: `size`, a split or a part
   std::vector<ScaleAround> scales;
 };
 
-/// A probe or a query.
+/// A probe or a query of a layer.
 struct AskedLayer {
-  uint32_t rule = kNoId;  ///< kNoId: the block of an override
+  uint32_t rule = kNoId;  ///< the rule that contains it; kNoId: the block of an override
   uint32_t layer = 0;
   Span span;
-  std::string_view verb;  ///< the action of the rule on the layer: `probes`
+  std::string_view verb;  ///< for messages: "probes" or another verb for what the rule does with the layer
 };
 
-/// The rules that bodies call and the layers that they ask, in the order of the check.
+/// The calls, probes and queries in all bodies, in the order in which the bodies were checked.
 struct RuleUses {
   std::vector<RuleCall> calls;
   std::vector<AskedLayer> asked;

@@ -1,9 +1,9 @@
 #pragma once
-// Rules, their heads and their statements.
+// Checks rules, their heads and their statements.
 //
-// statements.cpp: the dispatch, blocks, morphs, local fields. rule_bodies.cpp: rules, overrides and calls.
-// placement.cpp: loops, point sets, details. parts.cpp: split, snap and the parts of scopes. Statements without bodies
-// are functions (leaf_statements.h).
+// statements.cpp: dispatch by kind, blocks, morphs, local fields. rule_bodies.cpp: rules, overrides and calls.
+// placement.cpp: loops, scatters, details. parts.cpp: split, snap and other statements with parts. Statements without
+// bodies are checked by free functions (leaf_statements.h).
 
 #include <cstdint>
 #include <vector>
@@ -13,23 +13,23 @@
 
 namespace sgm {
 
-/// The body of a rule or an override that is being checked: its statements and draws so far, the scales around the
-/// current statement, and the rules and layers that it uses.
+/// Checks the bodies of rules and overrides. State while a body is checked: the number of its statements and random
+/// draws so far, the scales around the current statement, and the rules and layers used.
 class Statements {
  public:
-  /// uses: receives the calls of rules, and the layers that they ask.
+  /// uses: receives the calls of rules, the probes and the queries.
   Statements(CheckContext& check, Symbols& symbols, Types& types, RuleTypes& rules, RuleUses& uses)
       : check_(check), symbols_(symbols), types_(types), rules_(rules), rule_uses_(uses) {}
-  Statements(const Statements&) = delete;  // the scope points into it
+  Statements(const Statements&) = delete;  // Types::scope() contains pointers to members of this object
   Statements& operator=(const Statements&) = delete;
 
-  /// Checks the call with which a layer starts.
+  /// Checks the start call of a layer.
   void start(ExprId call);
-  /// Checks the rules that wait, and those that they call.
+  /// Checks all queued rules (RuleTypes), including those that their calls add to the queue.
   void checkWaiting();
-  /// Checks the heads and bodies of one rule, with the types that RuleTypes has for it.
+  /// Checks the heads and bodies of a rule, with the parameter types in RuleTypes.
   void checkRule(uint32_t rule);
-  /// Checks the block of an override whose path is resolved, and returns the rules and layers that it uses.
+  /// Checks the block of an override whose path is resolved. Returns the rules and layers that the block uses.
   RuleUses checkOverride(uint32_t index);
 
  private:
@@ -39,7 +39,7 @@ class Statements {
   void callRule(ExprId call, bool escape, bool shrunk);
   bool checkPassed(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types);
 
-  /// shrunk: the statement is inside of a scope that a split, a part or `size` makes smaller.
+  /// shrunk: the statement is enclosed by a scope that a split, a part or `size` makes smaller.
   void checkStatement(StmtId id, bool shrunk);
   void checkBlock(StmtId id, const StmtNode& s, bool shrunk);
   void checkLet(StmtId id, const StmtNode& s);
@@ -58,12 +58,13 @@ class Statements {
   RuleTypes& rules_;
   RuleUses& rule_uses_;
 
-  uint32_t rule_ = kNoId;  ///< kNoId: the block of an override, or a start
+  uint32_t rule_ = kNoId;  ///< the rule being checked; kNoId: the block of an override, or a start call
   uint32_t alternative_ = 0;
   StmtId body_ = kNoId;
-  uint32_t ordinal_ = 0, draws_ = 0;  ///< counted through all heads of a rule
-  std::vector<ScaleAround> scales_;   ///< around the current statement, from the outside in
-  RuleUses uses_;                     ///< of this body
+  /// next StmtNode::ordinal and ExprNode::ordinal; continue through all heads of a rule
+  uint32_t ordinal_ = 0, draws_ = 0;
+  std::vector<ScaleAround> scales_;  ///< scales that enclose the current statement, from the outside in
+  RuleUses uses_;                    ///< of the body being checked
 };
 
 }  // namespace sgm

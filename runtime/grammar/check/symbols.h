@@ -1,5 +1,5 @@
 #pragma once
-// Global names: declarations, imports, layers.
+// Resolves global names: declarations, imports, layers.
 
 #include <cstdint>
 #include <map>
@@ -14,43 +14,44 @@ namespace sgm {
 struct Symbol {
   Ref ref = Ref::none;
   uint32_t id = 0;
-  bool import = false;  ///< of a file: id is its module, or kNoId if it could not be read
+  bool import = false;  ///< an imported file; id: its module, or kNoId if the file could not be read
   Span span;
-  bool asset = false;  ///< id: Program::assets
+  bool asset = false;  ///< an imported asset; id: index into Program::assets
 };
 
-/// The names that each file declares, whether the layers are known, and whether a used name may be declared in a part
-/// of the text that was not parsed.
+/// The symbol table of each file. Also records whether the layers are known, and whether an unknown name may be
+/// declared in a part of the text that failed to parse.
 class Symbols {
  public:
   using Table = std::map<NameId, Symbol>;
 
   explicit Symbols(CheckContext& check) : check_(check), tables_(check.syntax.size()) {}
 
-  /// Collects the declarations of all files; reports duplicates, names of the language, and statements that only a root
-  /// may have.
+  /// Collects the declarations of all files. Reports duplicates, names that are words of the language, and declarations
+  /// that only the root file may have.
   void collect();
 
   const Table& of(uint32_t module) const { return tables_[module]; }
   /// nullptr if the module does not declare the name.
   const Symbol* find(uint32_t module, NameId name) const;
 
-  /// Call once the layers are sorted. Before, messages about unknown layers would only follow from another error.
+  /// Call after the layers are sorted. If sorting failed, unknown layers are not reported, since they may be a
+  /// consequence of that error.
   void setLayersKnown() { layers_known_ = true; }
   bool areLayersKnown() const { return layers_known_; }
-  /// An index into Program::layers; kNoId after an error.
+  /// Returns an index into Program::layers; kNoId after reporting an error at `span`.
   uint32_t findLayer(NameId name, const Span& span);
 
-  /// Whether a name that is unknown in a module may be declared in a part of it that was not parsed; kNoId: a file that
-  /// could not be read.
+  /// Whether an unknown name may be declared in a part of the module that failed to parse. module: kNoId for a file
+  /// that could not be read.
   bool mayBeLost(uint32_t module, NameId name);
   /// Records that the program may use something that was not parsed.
   void expectLoss() { uses_lost_ = true; }
   bool usesWhatIsLost() const { return uses_lost_; }
 
-  /// Sets ref, id and qualifier of a call or a name; removes a receiver that is a module. Returns false if the receiver
-  /// is a value. An unknown name is reported, and its ref stays none. shape: a call of a rule or a primitive is
-  /// expected.
+  /// Sets ref, id and qualifier of a call or a name. If the receiver (the part before the dot) is a module, it is
+  /// removed from the node; if it is a value, returns false. An unknown name is reported, and its ref stays Ref::none.
+  /// shape: the context requires a call of a rule or a primitive.
   bool resolveCallee(ExprId call, const Scope& scope, bool shape);
 
  private:

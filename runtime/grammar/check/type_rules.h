@@ -1,5 +1,5 @@
 #pragma once
-// Rules about types that need no names: agreement, hints, and the texts of messages about them.
+// Type rules that need no symbol table: agreement of types, and texts for messages about them.
 
 #include <string>
 #include <string_view>
@@ -10,25 +10,25 @@ namespace sgm {
 
 constexpr Type numberType(Dim dim, bool sample = false) { return {ValueKind::number, dim, sample, false}; }
 
-/// Whether a value may be used where this kind and dimension is required. An unknown type, which follows an error,
-/// agrees with everything.
+/// Whether a value of this type may be used where `kind` and `dim` are required. Always true for an unknown type, since
+/// it follows from an error that is already reported.
 bool agrees(const Type& type, ValueKind kind, Dim dim);
 
-/// A type for both of two values; good: they agree.
+/// The common type of two values. good: false if the two types do not agree.
 struct Unified {
   Type type;
   bool good = true;
 };
 Unified unify(const Type& a, const Type& b);
 
-/// The innermost part of an expression that makes it a sample-time one.
+/// Returns the innermost subexpression that is known only at sample time, for messages.
 ExprId sampledPart(const Program& program, ExprId id);
 
-/// A change that gives a number the required dimension; empty if there is none.
+/// Returns a hint how to give a number the required dimension; empty if no hint is known.
 std::string unitHint(const Program& program, ExprId id, const Type& type, Dim wanted);
-/// An example of a value of this kind and dimension.
+/// Returns an example of a value of this type, for messages: "2m".
 std::string_view exampleOf(const Type& type);
-/// The hint, or the other if it is empty.
+/// Returns `hint`, or `other` if `hint` is empty.
 std::string orElse(std::string_view hint, std::string_view other);
 
 }  // namespace sgm

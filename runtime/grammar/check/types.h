@@ -1,9 +1,9 @@
 #pragma once
-// The types of expressions.
+// Infers and checks the types of expressions.
 //
-// expressions.cpp: operators and names. members.cpp: parts of values. calls.cpp: functions, methods and primitives.
-// lets.cpp: lets and fields, which are checked anew for each tuple of argument types, so that one `fbm` works for
-// lengths and for ratios. requirements.cpp: requirements for a type or a value.
+// expressions.cpp: operators and names. members.cpp: members of values. calls.cpp: functions, methods and primitives.
+// lets.cpp: lets and fields, checked once per distinct tuple of argument types, so that one `fbm` works for
+// lengths and for ratios. requirements.cpp: checks that an expression has a required type or value.
 
 #include <map>
 #include <optional>
@@ -18,52 +18,53 @@
 
 namespace sgm {
 
-/// The scope of the expression that is being checked, and the types that lets and fields have in it: one for each tuple
-/// of argument types with which they were used.
+/// Checks expressions in the current scope. Caches the result types of lets and fields by the types of their arguments.
 class Types {
  public:
   Types(CheckContext& check, Symbols& symbols) : check_(check), symbols_(symbols), constants_(check.program) {}
 
-  /// Begins a rule, an override or an expression outside of these: ends all locals.
+  /// Starts a new rule, override or top-level expression: replaces all locals by those of `scope`.
   void enter(Scope scope);
   Scope& scope() { return scope_; }
-  /// Reports an error instead if the name is taken. span: of the declaration.
+  /// Adds a local to the scope; reports an error at `span`, the declaration, if the name is already taken.
   void declareLocal(NameId name, const Span& span, const Local& local);
 
-  /// Resolves the names of an expression, and stores its type in the tree. Returns kUnknownType after an error. Without
-  /// an expression (kNoId) the type is unknown, too.
+  /// Resolves the names of an expression, stores its type in the tree and returns it. Returns kUnknownType after
+  /// reporting an error, and for kNoId.
   Type checkExpression(ExprId id);
   std::vector<Type> checkExpressions(const std::vector<uint32_t>& ids);
-  /// Checks the arguments of a call whose callee or parameters are unknown.
+  /// Checks the arguments of a call that cannot be matched with parameters, because the callee is unknown.
   void checkLooseArguments(const ExprNode& call);
   /// Checks the arguments of a call of a primitive.
   void checkPrimitive(ExprId id);
   /// Checks the lets and fields that nothing has used.
   void checkUnused();
 
-  /// Like checkExpression(), but requires a kind, a dimension and, unless `sample` is set, a value known when shapes
-  /// are derived. what: "the radius of ...".
+  /// Checks an expression and requires a kind, a dimension and, unless `sample` is true, a value that is known at
+  /// derivation time. what: subject of the message, such as "the radius of ...".
   Type require(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
-  /// The same for an expression with a known type: no expression is checked twice, so that nesting stays cheap.
+  /// Like require() for an expression whose type is known. Avoids checking an expression twice, so that time stays
+  /// linear in the depth of nesting.
   void requireType(ExprId id, const Type& type, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
-  /// Like require() for a number; a constant must also lie in a range.
+  /// Like require() for a number that, if it is constant, must also lie in a range.
   void requireRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range);
-  /// Requires that arguments have the dimension of their formal's range; continues as if they had, so that one error is
-  /// reported once.
+  /// Requires that arguments have the dimension of their parameter's declared range. Sets a wrong argument's type in
+  /// `types` to the declared one, so that the same error is not reported again in the callee.
   void requireFormalRanges(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types,
                            std::string_view callee);
-  /// Requires that a checked expression is known when shapes are derived.
+  /// Requires that the value of a checked expression is known at derivation time.
   void requireDerived(ExprId id, std::string_view what);
-  /// Reports a checked constant that lies outside of a range.
+  /// Reports a checked constant expression whose value lies outside of a range.
   void judgeRange(ExprId id, const ValueRange& range);
-  /// The value of a checked expression if it is a constant.
+  /// Returns the value of a checked expression if it is constant.
   std::optional<double> fold(ExprId id) { return constants_.fold(id); }
 
-  /// The layer of a probe or a query in the current rule or override; kNoId after an error. verb: as in AskedLayer.
+  /// Resolves the layer of a probe or a query and records the use in Scope::asked. Returns its index; kNoId after
+  /// reporting an error. verb: see AskedLayer.
   uint32_t askLayer(NameId name, const Span& span, std::string_view verb);
 
  private:
-  /// A let or a field, and the types of its arguments.
+  /// A let or field (its Ref and index) with the types of its arguments.
   using Key = std::tuple<Ref, uint32_t, std::vector<std::tuple<int, int, int, bool, bool>>>;
 
   Type checkVector(ExprId id);
@@ -87,10 +88,10 @@ class Types {
   Symbols& symbols_;
   Constants constants_;
   Scope scope_;
-  std::map<Key, Type> known_;                   ///< results of lets and global fields
-  std::map<Key, Type> known_local_;             ///< the same for local fields, since enter()
-  std::vector<std::pair<Ref, uint32_t>> open_;  ///< the lets and fields around the expression
-  int depth_ = 0;                               ///< of nested expressions
+  std::map<Key, Type> known_;                   ///< result types of lets and global fields
+  std::map<Key, Type> known_local_;             ///< result types of local fields; cleared by enter()
+  std::vector<std::pair<Ref, uint32_t>> open_;  ///< the lets and fields whose bodies are being checked, outermost first
+  int depth_ = 0;                               ///< nesting depth of the current expression
 };
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Warns of valid but probably unintended code: unused names, overlapping heads of a rule.
+// Warns of valid but probably unintended code: unused names, rule heads whose guards overlap.
 
 #include <span>
 
@@ -9,16 +9,18 @@
 
 namespace sgm {
 
-/// Warns of unused parameters, lets, fields and imports of the root. Precondition: a checked program without errors. A
-/// root without layers or start is meant for import, and not warned of.
+/// Warns of unused parameters, lets, fields and imports of the root. Gives no warnings for a root without layers and
+/// start, which is meant for import. Precondition: the program is checked and has no errors.
 void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, DiagnosticSink& sink);
 
-/// Warns of heads of a rule without `weight` whose guards test the same value and can hold together, so that one of
-/// them is drawn by chance. Understands only simple guards. Precondition: a checked program without errors.
+/// Warns of heads of one rule, without `weight`, whose guards compare the same value and can hold together, since one
+/// of the heads is then chosen at random. Only analyses simple guards. Precondition: the program is checked and has no
+/// errors.
 void warnOfOverlaps(const Program& program, DiagnosticSink& sink);
 
-/// Warns of materials of the root whose names are almost equal to another one, which is used as often or more often.
-/// Materials have no declaration: the host interprets their names. Precondition: a checked program without errors.
+/// Warns of a material name in the root that differs only slightly from another one which is used at least as often.
+/// Materials are not declared, since the host interprets their names, so that a misspelling is no error. Precondition:
+/// the program is checked and has no errors.
 void warnOfMaterials(const Program& program, DiagnosticSink& sink);
 
 }  // namespace sgm
