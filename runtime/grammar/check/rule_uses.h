@@ -10,8 +10,8 @@ namespace sgm {
 
 /// A `scale` transform that encloses a call.
 struct ScaleAround {
-  ExprId factor = kNoId;
-  bool copied = false;
+  ExprId factor = kNoId;  ///< the factor of the `scale`
+  bool copied = false;    ///< in a `repeat`: the factor applies once more for each further copy
 };
 
 /// A call of a rule, for the checks of recursion, layers and reach.
@@ -20,9 +20,9 @@ struct RuleCall {
   uint32_t alternative = 0;
   uint32_t to = 0;
   ExprId call = kNoId;
-  bool escape = false;  ///< the call replaces the rule's body when its `depth` or `minsize` is reached
-  bool shrunk = false;  ///< enclosed by a scope of smaller size: `size`, a split or a part
-  std::vector<ScaleAround> scales;
+  bool escape = false;              ///< the call replaces the rule's body when its `depth` or `minsize` is reached
+  bool shrunk = false;              ///< enclosed by a scope of smaller size: `size`, a split or a part
+  std::vector<ScaleAround> scales;  ///< from the outside in
 };
 
 /// A probe or a query of a layer.

@@ -13,7 +13,7 @@ namespace sgm {
 /// A parameter, or a name declared by a statement.
 struct Local {
   NameId name = kNoId;
-  uint32_t slot = 0;
+  uint32_t slot = 0;  ///< its index in the frame
   Type type;
   uint32_t field = kNoId;  ///< index into Program::fields if this names a local field; kNoId: it names a value
   size_t depth = 0;        ///< for a local field: the number of locals that are visible in its body

@@ -45,7 +45,7 @@ class Symbols {
   /// Whether an unknown name may be declared in a part of the module that failed to parse. module: kNoId for a file
   /// that could not be read.
   bool mayBeLost(uint32_t module, NameId name);
-  /// Records that the program may use something that was not parsed.
+  /// Records that the program may use a declaration that failed to parse.
   void expectLoss() { uses_lost_ = true; }
   bool usesWhatIsLost() const { return uses_lost_; }
 

@@ -37,7 +37,7 @@ class Types {
   void checkLooseArguments(const ExprNode& call);
   /// Checks the arguments of a call of a primitive.
   void checkPrimitive(ExprId id);
-  /// Checks the lets and fields that nothing has used.
+  /// Checks the lets and fields that no checked expression uses.
   void checkUnused();
 
   /// Checks an expression and requires a kind, a dimension and, unless `sample` is true, a value that is known at
@@ -76,8 +76,8 @@ class Types {
   Type checkCall(ExprId id);
   Type checkBuiltin(ExprId id);
   Type checkMethod(ExprId id);
-  /// Checks arguments against a builtin's parameters, each expression once. Returns the common dimension of the
-  /// parameters of any dimension; nullopt if all these arguments are a literal 0.
+  /// Checks arguments against the parameters of a built-in function, each expression once. Returns the common dimension
+  /// of all arguments for `any_dim` parameters; nullopt if each of these arguments is a literal 0.
   std::optional<Dim> checkArguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
                                     std::string_view callee);
   Type useValue(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args);

@@ -1,6 +1,6 @@
 #pragma once
-// The declarations of a text and the scopes of its names, for editors: from the tokens alone, so that it also works for
-// a text with errors that is being edited. Pure.
+// Finds the declarations in a text and the scopes of their names, for editors. Uses only tokens, without parsing, so
+// that it also works while a text is being edited and has errors. Pure functions.
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,7 @@ namespace sgm {
 
 enum class NameKind : uint8_t { import, parameter, let, field, rule, morphic, layer, local };
 
-/// The keyword of the kind, as written before a name: "param", "rule".
+/// The keyword that introduces a declaration of this kind: "param", "rule".
 std::string_view nameKindText(NameKind kind);
 
 /// A range of bytes in a text.
@@ -25,32 +25,33 @@ struct TextRange {
 struct DeclaredName {
   NameKind kind = NameKind::local;
   std::string name;
-  TextRange at;      ///< of the name itself
-  TextRange whole;   ///< of the declaration; for a local: of its name
-  TextRange known;   ///< the scope of the name: a rule for locals, otherwise all the text
+  TextRange at;      ///< the name itself
+  TextRange whole;   ///< the whole declaration; for a local: the same as `at`
+  TextRange known;   ///< the scope of the name: the enclosing rule for locals, otherwise the whole text
   std::string head;  ///< the declaration up to its block or value, on one line
-  std::string doc;   ///< a parameter's text; otherwise the comment directly above
-  std::string path;  ///< of an import
+  std::string doc;   ///< the text constant of a `param`; otherwise the comment directly above the declaration
+  std::string path;  ///< for an import: the path of the file
 };
 
 struct Declarations {
-  std::vector<DeclaredName> names;  ///< in the order of the text; each head of a rule is one
+  std::vector<DeclaredName> names;  ///< in order of appearance; each head of a rule is an entry of its own
 
-  /// The meanings of a name at a place: a local, or all declarations of the text with this name.
+  /// Finds the declarations that `name` may refer to at this byte offset: a local if one is in scope, otherwise all
+  /// global declarations of that name.
   std::vector<const DeclaredName*> find(std::string_view name, uint32_t offset) const;
 };
 
 /// Accepts any text; never fails.
 Declarations declarationsOf(std::string_view text);
 
-/// The word that contains or precedes the offset, and its qualifier.
+/// The word at or directly before a byte offset, and the qualifier in front of it.
 struct WordAt {
   TextRange at;
   std::string word;
   std::string qualifier;  ///< `rock` of rock.fbm, `cell` of cell.point
   bool behind_dot = false;
 };
-/// nullopt in comments and text constants. If there is no word, returns an empty one.
+/// Returns nullopt within comments and text constants, and an empty word if there is none at the offset.
 std::optional<WordAt> wordAt(std::string_view text, uint32_t offset);
 
 }  // namespace sgm

@@ -1,6 +1,6 @@
 #pragma once
-// The identity that version 0.2 gave a program: a hash of its meaning as printed text. Journals and stores of 0.2 are
-// found by it.
+// The program hash as version 0.2 computed it, from the printed text of its meaning. Needed to find journals and stores
+// written by version 0.2.
 
 #include <cstdint>
 
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// Parses and prints the program's files again at the first call, which takes milliseconds, and keeps the number in the
-/// program. Thread-safe. Throws std::bad_alloc.
+/// On the first call, parses and prints the program's files again, which takes milliseconds; caches the hash in
+/// Program::former_hash. Thread-safe. Throws std::bad_alloc.
 uint64_t formerHash(const Program& program);
 
 }  // namespace sgm

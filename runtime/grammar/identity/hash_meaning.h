@@ -1,6 +1,6 @@
 #pragma once
-// The identity of a program's meaning: names by their texts, literals by their bits, no layout, comments, superfluous
-// parentheses or places.
+// Computes the hash that identifies a program's meaning: names by their texts, number literals by their bits. Layout,
+// comments, redundant parentheses and positions in the text do not affect it.
 
 #include <span>
 
@@ -8,14 +8,15 @@
 
 namespace sgm {
 
-/// Changes with every change of what is hashed, or how. Version 1 was a hash of printMeaning's text (former_hash.h).
+/// Increment it when the hashed data or the hash function changes. Version 1 hashed printMeaning's text
+/// (former_hash.h).
 inline constexpr uint64_t kMeaningVersion = 2;
 
-/// A hash of one file, equal exactly for files of which printMeaning (print/printer.h) prints equal text. Precondition:
-/// the file was parsed without errors, and the checker has not resolved its names yet.
+/// Hashes one file. Two files have equal hashes if and only if printMeaning (print/printer.h) prints equal texts for
+/// them. Precondition: the file was parsed without errors, and its names are not resolved by the checker yet.
 uint64_t hashMeaning(const Program& program, const ModuleSyntax& syntax);
 
-/// Program::hash: of all files of a program and its assets, under the same conditions.
+/// Computes Program::hash, of all files and assets of a program, with the same precondition.
 uint64_t hashMeaning(const Program& program, std::span<const ModuleSyntax> files);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Reads assets that a grammar imports: bytes to closed bodies with planar faces.
+// Reads imported assets: converts .glb bytes to closed polyhedra with planar faces.
 
 #include <cstdint>
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace sgm {
 
-/// Reads the asset and adds it to Program::assets; the reader's notes become warnings at `span`. nullopt, after an
-/// error there, if it is not a valid asset.
+/// Reads an asset and adds it to Program::assets. Notes of the reader become warnings at `span`. Returns its index, or
+/// nullopt after reporting an error at `span` if the asset is invalid.
 std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::string_view bytes, const Span& span,
                                  DiagnosticSink& sink);
 

@@ -12,14 +12,14 @@
 
 namespace sgm::parse {
 
-/// The syntax tree to which the nodes of one file are added, and the depths of that file's expressions.
+/// Adds the nodes of one file to the syntax tree, and limits the depth of its expressions.
 class AstBuilder {
  public:
-  /// most_nodes: of expressions and statements together, those of other files included.
+  /// most_nodes: the maximum number of expressions and statements in the whole tree, other files included.
   AstBuilder(Ast& ast, NameTable& names, TokenStream& tokens, uint32_t most_nodes);
 
-  /// Add a node that spans the tokens from `begin` to the one that was taken last. kNoId if the tree is full; the error
-  /// is reported once.
+  /// Add a node whose span reaches from `begin` to the last token taken. Return kNoId if the tree is full, which is
+  /// reported as an error only once.
   ExprId addExpr(ExprNode node, const Span& begin);
   StmtId addStmt(StmtNode node, const Span& begin);
 
@@ -39,19 +39,21 @@ class AstBuilder {
 
   NameId addName(std::string_view name) { return names_.intern(name); }
 
-  /// Valid until the next expression is added.
+  /// The reference is valid until the next expression is added.
   ExprNode& expr(ExprId id) { return ast_.exprs[id]; }
 
  private:
-  /// Returns false, after an error, if the limit is reached.
+  /// Returns false, after reporting an error, if the tree is full.
   bool hasRoom();
 
   Ast& ast_;
   NameTable& names_;
   TokenStream& tokens_;
   uint32_t most_nodes_;
-  size_t first_expr_;            ///< of this file
-  std::vector<uint16_t> depth_;  ///< of each expression of this file: trees that loops build have a limit, too
+  size_t first_expr_;  ///< the index in Ast::exprs of this file's first expression
+  /// by expression of this file: height of its tree. Limited here since loops such as that for `a + b + ...` build deep
+  /// trees without recursion
+  std::vector<uint16_t> depth_;
 };
 
 }  // namespace sgm::parse

@@ -1,6 +1,6 @@
 #pragma once
-// Loads a file and its imports, files and assets, within the sandbox: below the root's folder, or from the embedded
-// standard library.
+// Loads a file and its imports (grammar files and assets). Imports may only come from below the root file's folder, or
+// from the embedded standard library.
 
 #include <string>
 #include <string_view>
@@ -14,17 +14,18 @@
 
 namespace sgm {
 
-/// The reason why a path may not be imported; empty if it may. The rule is that of ImportResolver::read.
+/// Returns the reason why a path may not be imported; empty if it is valid. See ImportResolver::read for the rules.
 std::string importPathComplaint(std::string_view path);
 
-/// Whether a valid path is that of an asset.
+/// Whether a valid path refers to an asset (.glb).
 bool isAssetPath(std::string_view path);
 
-/// The path of `import`, written in the file `from`, relative to the root's folder. Precondition: both are valid paths.
+/// Returns the path of `import`, which is written in the file `from`, relative to the root's folder. Precondition: both
+/// paths are valid.
 std::string importedPath(std::string_view from, std::string_view import);
 
-/// Parses the root (program.modules[0], with its text) and all its imports. Modules are in the order of their first
-/// mention; a module or an asset that two files import is loaded once.
+/// Parses the root, whose text must be in program.modules[0], and all its imports. Modules are in the order in which
+/// they are first imported; a file or asset that is imported several times is loaded once.
 std::vector<ModuleSyntax> loadModules(Program& program, NameTable& names, const CompileOptions& options,
                                       DiagnosticSink& sink, std::vector<SourceFile>& files);
 

@@ -1,9 +1,9 @@
 #pragma once
-// The state that the functions of the parser share while they parse one file; names; recovery after errors.
+// The parser state for one file, and functions for names and for recovery after errors.
 //
-// Each function parses one construct from the current token on and adds it to the tree. After an error the stream
-// panics, so that the functions return soon, with kNoId for missing parts; the innermost loop over statements, parts or
-// declarations recovers.
+// Each parse function parses one construct from the current token on and adds it to the tree. After an error the token
+// stream is in panic mode (token_stream.h): the parse functions return early, with kNoId for missing parts, to the
+// innermost loop over statements, parts or declarations, which recovers.
 
 #include <cstdint>
 #include <map>
@@ -18,28 +18,30 @@
 
 namespace sgm::parse {
 
-/// The tokens of a file, the tree and the declarations so far, and the constructs around the current token.
+/// Everything that the parse functions for one file share.
 struct ParseContext {
   TokenStream& tokens;
   AstBuilder& build;
-  Program& program;  ///< gets the declarations
+  Program& program;  ///< receives the declarations
   ModuleSyntax& syntax;
   DiagnosticSink& sink;
-  std::map<NameId, uint32_t> rules{};  ///< of this file: indices in Program::rules
-  std::optional<uint32_t> inners{};    ///< in the block of an override: the number of `inner` in it so far
-  uint32_t joined = 0;                 ///< blocks of `meet` and `sum` around
+  std::map<NameId, uint32_t> rules{};  ///< the rules of this file: index in Program::rules by name
+  /// within an override's block: the number of `inner` statements so far; nullopt elsewhere
+  std::optional<uint32_t> inners{};
+  uint32_t joined = 0;  ///< the number of `meet` and `sum` blocks that enclose the current token
 };
 
-/// Parse one word, or a text in quotes, and return its id; kNoId after an error, whose message calls it `of_what`.
+/// Parse a word, or a text in quotes, and return its id. After an error return kNoId; the message calls the missing
+/// word `of_what`.
 NameId parseName(ParseContext& in, std::string_view of_what);
 NameId parseText(ParseContext& in, std::string_view of_what);
-/// The same for a new name, which must not be a word of the language.
+/// Like parseName(), for the name in a declaration: words of the language are errors.
 NameId parseNewName(ParseContext& in, std::string_view of_what);
 
-/// Ends the panic: parsing continues behind the part that begins with the token `first` and holds the error.
+/// Ends panic mode: skips the rest of the part that contains the error and begins with the token at index `first`.
 void recover(ParseContext& in, Level level, size_t first);
 
-/// Calls `parse_one()` for each statement or part before the '}', or before the end of the text; recovers after errors.
+/// Calls `parse_one()` for each statement or part up to the '}' or the end of the text, and recovers after errors.
 template <typename ParseOne>
 void parseUntilBrace(ParseContext& in, const ParseOne& parse_one) {
   TokenStream& tokens = in.tokens;

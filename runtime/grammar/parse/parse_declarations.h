@@ -1,5 +1,6 @@
 #pragma once
-// Declarations. Each function parses one kind behind its first word, with its ';' or block, and adds it.
+// Parses declarations. Each function parses one kind of declaration, from behind its first word up to and including its
+// ';' or block, and adds it to the program.
 
 #include <cstdint>
 #include <utility>
@@ -8,18 +9,18 @@
 
 namespace sgm::parse {
 
-/// Parses any declaration, by its first word; recovers after errors.
+/// Parses any declaration, chosen by its first word; recovers after errors.
 void parseDeclaration(ParseContext& in);
 
 // parse_declarations.cpp
 
-/// The advice on a second declaration or clause where there may be one.
+/// The hint for a declaration or clause that occurs twice but is allowed only once.
 inline constexpr const char* kRemoveOne = "remove one of them";
 
-/// Appends an item to the list of declarations in source order, unless the stream panics. begin: the span of the
-/// declaration's first word; index and sub: see Item.
+/// Appends an item to ModuleSyntax::items, the declarations in source order. Does nothing in panic mode. begin: the
+/// span of the declaration's first word; index, sub: see Item.
 void addItem(ParseContext& in, ItemKind kind, size_t index, const Span& begin, size_t sub = 0);
-/// The same, after it has added `value` to the table of its kind.
+/// Appends `value` to the table of its kind, and its item to ModuleSyntax::items. Does nothing in panic mode.
 template <typename Table, typename Value>
 void declare(ParseContext& in, ItemKind kind, const Span& begin, Table& table, Value&& value) {
   if (in.tokens.hasFailed()) return;
@@ -27,10 +28,10 @@ void declare(ParseContext& in, ItemKind kind, const Span& begin, Table& table, V
   addItem(in, kind, table.size() - 1, begin);
 }
 
-/// [ ( NAME [= DEFAULT] [in LOW..HIGH], ... ) ]
+/// Parses [ ( NAME [= DEFAULT] [in LOW..HIGH], ... ) ].
 IdRange parseFormals(ParseContext& in);
-/// NAME [FORMALS] = EXPR; behind `field`. Returns its index in Program::fields, or kNoId after an error. local: in a
-/// rule.
+/// Parses NAME [FORMALS] = EXPR, behind the word `field`. Returns the index in Program::fields, or kNoId after an
+/// error. local: the field is declared within a rule.
 uint32_t addField(ParseContext& in, bool local);
 
 void declareImport(ParseContext& in);

@@ -1,5 +1,5 @@
 #pragma once
-// Expressions, calls and arguments.
+// Parses expressions, calls and arguments.
 
 #include <string_view>
 #include <vector>
@@ -9,14 +9,14 @@
 namespace sgm::parse {
 
 ExprId parseExpression(ParseContext& in);
-/// An expression, or the range `low..high`.
+/// Parses an expression, or the range `low..high`.
 ExprId parseRangeOrExpression(ParseContext& in);
-/// Rule, rule(...) or module.Rule(...): always a call, with or without arguments. Messages call it
-/// `what`.
+/// Parses Rule, Rule(...) or module.Rule(...); creates a call node even without parentheses. what: the name of the
+/// expected construct in messages.
 ExprId parseShapeCall(ParseContext& in, std::string_view what);
-/// The arguments of a call in parentheses; callee: the word before them.
+/// Parses the arguments of a call in parentheses. callee: the word before the parentheses.
 std::vector<ArgNode> parseArguments(ParseContext& in, std::string_view callee);
-/// The same, added to the tree.
+/// Like parseArguments(), but adds the arguments to Ast::args and returns their range.
 IdRange addArguments(ParseContext& in, std::string_view callee);
 
 }  // namespace sgm::parse

@@ -1,5 +1,5 @@
 #pragma once
-// Recursive descent over the text of one file.
+// The parser for one file: recursive descent.
 
 #include <cstdint>
 
@@ -11,8 +11,8 @@
 
 namespace sgm {
 
-/// Parses program.modules[module], which has its text, and adds its comments, declarations and syntax tree to the
-/// program. Continues after errors, which it reports: ModuleSyntax says what of the text is missing in the result.
+/// Parses the text of program.modules[module], and adds its comments, declarations and syntax tree to the program.
+/// Reports errors and continues after them: ModuleSyntax tells which parts of the text failed to parse.
 ModuleSyntax parseModule(Program& program, NameTable& names, uint32_t module, const CompileLimits& limits,
                          DiagnosticSink& sink);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a split, a comp, a treemap or a wfc: `part: statement` within braces.
+// Parses the parts of a split, a comp, a treemap or a wfc: `part: statement` within braces.
 
 #include <cstdint>
 #include <optional>
@@ -10,21 +10,22 @@
 
 namespace sgm::parse {
 
-/// Parts so far, and the statement of each.
+/// The parts parsed so far, with the statement of each.
 struct Parts {
   std::vector<PartNode> nodes;
   std::vector<StmtId> bodies;
 };
 
-/// Adds a part that begins at `begin` and ends with the token that was taken last, unless an error has left it without
-/// its statement.
+/// Appends a part whose span reaches from `begin` to the last token taken. Does nothing if an error left the part
+/// without a statement.
 void addPart(ParseContext& in, Parts& parts, PartNode part, StmtId body, const Span& begin);
-/// Parses the brace behind parts; returns false, after an error at `begin`, if there is none.
+/// Parses the '}' behind the parts. If it is missing, reports an error at `begin` and returns false.
 bool parsePartsEnd(ParseContext& in, const Span& begin);
-/// Adds the parts to the tree, and ends their statement.
+/// Adds the parts to the tree, and finishes the statement that contains them.
 StmtId finishParts(ParseContext& in, StmtScope& stmt, const Parts& parts);
 
-/// 0 1 2 for x y z; nullopt after an error, whose message calls the letter `what`.
+/// Parses an axis letter and returns 0, 1 or 2 for x, y or z; nullopt after an error, whose message calls the letter
+/// `what`.
 std::optional<uint32_t> parseAxis(TokenStream& tokens, std::string_view what);
 
 }  // namespace sgm::parse

@@ -1,5 +1,6 @@
 #pragma once
-// Statements. Each function parses one kind of statement with its end and adds it: kNoId after an error.
+// Parses statements. Each function parses one kind of statement completely and adds it to the tree; returns kNoId after
+// an error.
 
 #include <string_view>
 
@@ -9,15 +10,15 @@ namespace sgm::parse {
 
 // parse_statements.cpp
 
-/// Parses any statement, by its first token.
+/// Parses any statement, chosen by its first token.
 StmtId parseStatement(ParseContext& in);
-/// Statements in braces.
+/// Parses statements in braces.
 StmtId parseBlock(ParseContext& in);
-/// A block, or one statement; messages call the statement around it `word`.
+/// Parses a block or a single statement, as the body of the statement that is called `word` in messages.
 StmtId parseBody(ParseContext& in, std::string_view word);
-/// A block, or a call without ';'.
+/// Parses a block, or a call without ';'.
 StmtId parseMorphOperand(ParseContext& in);
-/// [ lerp | power ]; returns whether the morph is by exponent.
+/// Parses [ lerp | power ] of a morph; returns whether it is `power`.
 bool parseMorphPower(TokenStream& tokens);
 
 StmtId parseCall(ParseContext& in);
@@ -50,10 +51,10 @@ StmtId parseSplit(ParseContext& in);
 StmtId parseSnap(ParseContext& in);
 StmtId parseComp(ParseContext& in);
 StmtId parseTreemap(ParseContext& in);
-/// Of a treemap.
+/// Parses a link between two rooms, in a treemap.
 StmtId parseLink(ParseContext& in);
 StmtId parseWfc(ParseContext& in);
-/// Of a wfc.
+/// Parses the border, in a wfc.
 StmtId parseBorder(ParseContext& in);
 
 // parse_profiles.cpp, parse_fit.cpp, parse_overrides.cpp

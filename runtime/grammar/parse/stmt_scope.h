@@ -1,5 +1,5 @@
 #pragma once
-// The frame of all statements that begin with a word of their own.
+// The common frame of all statements that begin with a word of their own.
 
 #include <cstdint>
 #include <memory_resource>
@@ -10,23 +10,24 @@
 
 namespace sgm::parse {
 
-/// A statement while it is parsed, from the word that it begins with to its end.
+/// Builds the node of one statement, from its first word to its end.
 class StmtScope {
  public:
-  /// Takes that word.
+  /// Takes the statement's first word. Precondition: it is the current token.
   StmtScope(ParseContext& in, StmtKind kind)
       : in_(in), begin_(in.tokens.here()), word_(in.tokens.textOf(in.tokens.take())) {
     node_.kind = kind;
   }
 
   StmtNode* operator->() { return &node_; }
-  /// The span and the text of the word.
+  /// The span and the text of the statement's first word.
   const Span& begin() const { return begin_; }
   std::string_view word() const { return word_; }
 
-  /// Ends the statement with the token that was taken last, and adds it. kNoId in panic, or if the tree is full.
+  /// Adds the statement, whose span ends with the last token taken, to the tree. Returns kNoId in panic mode, or if the
+  /// tree is full.
   StmtId finish() { return in_.tokens.hasFailed() ? kNoId : in_.build.addStmt(node_, begin_); }
-  /// The same, after it has added a node to another table, whose index becomes StmtNode::extra.
+  /// Like finish(), but first adds `node` to another table of the tree and stores its index in StmtNode::extra.
   template <typename Node>
   StmtId finish(std::pmr::vector<Node> Ast::*table, const Node& node) {
     if (in_.tokens.hasFailed()) return kNoId;

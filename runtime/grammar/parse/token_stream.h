@@ -1,8 +1,8 @@
 #pragma once
-// The tokens of one file, read from front to back, with the errors about them.
+// The tokens of one file, read from front to back, and errors about them.
 //
-// After an error the stream panics: it shows only the end of the text, so that every loop ends by itself, until
-// skipFailed() omits the part with the error.
+// After an error the stream is in panic mode: every token reads as the end of the text, so that all parse loops end,
+// until skipFailed() skips the part with the error.
 
 #include <cstdint>
 #include <memory_resource>
@@ -16,29 +16,29 @@
 
 namespace sgm::parse {
 
-/// The loop that recovers from an error: the one over declarations, or one over statements or parts within braces.
+/// The kind of loop that recovers from an error: over declarations, or over statements or parts within braces.
 enum class Level : uint8_t { declaration, statement };
 
-/// A place among the tokens of one file, and whether an error has hidden the tokens behind it.
+/// A cursor over the tokens of one file, with panic mode after errors.
 class TokenStream {
  public:
-  /// Lexes `text`, which must outlive the stream, as the file with this index.
+  /// Splits `text` into tokens. text: must outlive the stream. file: index for Span::file.
   TokenStream(std::string_view text, uint32_t file, const CompileLimits& limits, DiagnosticSink& sink,
               std::pmr::memory_resource* memory);
 
-  /// False if the text is not to be parsed; the lexer has reported the reason.
+  /// False if the text must not be parsed, for example because it is not UTF-8; the lexer has reported the reason.
   bool isReadable() const { return lexed_.readable; }
   const std::pmr::vector<Comment>& comments() const { return lexed_.comments; }
 
   const Token& peek(size_t ahead = 0) const;
-  /// Returns the current token and moves on; at the end of the text it stays.
+  /// Returns the current token and advances; does not advance past the end of the text.
   const Token& take();
   bool at(Tok kind) const { return peek().kind == kind; }
   bool atWord(std::string_view word) const;
-  /// Take the current token if it is this one; return whether it was.
+  /// Take the current token if it has this kind or text. Return whether it did.
   bool accept(Tok kind);
   bool acceptWord(std::string_view word);
-  /// The same, but another token is an error; the message calls the missing one `what`.
+  /// Like accept(), but any other token is an error; its message calls the missing token `what`.
   bool expect(Tok kind, std::string_view what);
   bool expectWord(std::string_view word);
 
@@ -46,33 +46,34 @@ class TokenStream {
   /// The text of the current token.
   std::string_view text() const { return textOf(peek()); }
   Span here() const { return peek().span; }
-  /// The span of the token that was taken last.
+  /// The span of the last token taken.
   const Span& last() const { return last_; }
-  /// The span from `begin` to the token that was taken last.
+  /// The span from `begin` to the last token taken.
   Span since(const Span& begin) const;
   /// The index of the current token, for skipFailed().
   size_t position() const { return next_; }
 
-  /// Reports an error, unless a lexical error nearby may be its cause.
+  /// Reports an error, unless a nearby lexical error, already reported, may be its cause.
   void report(const Span& span, std::string_view code, std::string message, std::string hint = {});
-  /// The same, and panics. Errors during panic are not reported: they may follow from the first one.
+  /// Like report(), and enters panic mode. In panic mode errors are not reported, since they may follow from the first
+  /// error.
   void fail(const Span& span, std::string_view code, std::string message, std::string hint = {});
-  /// Fails, since the current token is not `wanted`: "a name", "`flat`, `gable` or `hip`". Words in backquotes are
-  /// suggested for misspelt ones.
+  /// Fails because the current token is not one of `wanted`: "a name", "`flat`, `gable` or `hip`". If the token
+  /// resembles a word in backquotes, the hint suggests that word.
   void failExpecting(std::string_view wanted);
-  /// Fails, and returns true, if the current token is a word that is reserved for a later version.
+  /// Fails and returns true if the current token is a word reserved for a later version of the language.
   bool failIfUnavailable();
-  /// Fails at the current token for good: from now on the stream shows only the end of the text.
+  /// Fails at the current token and ends parsing of this file: from now on the stream only returns the end of the text.
   void exhaust(std::string_view code, std::string message, std::string hint);
 
-  /// Whether the stream panics.
+  /// Whether the stream is in panic mode.
   bool hasFailed() const { return panic_; }
   bool isExhausted() const { return exhausted_; }
-  /// Whether parsing may go on after an error.
+  /// Whether parsing may continue after an error: the stream is not exhausted, and the limit of errors is not reached.
   bool canContinue() const { return !exhausted_ && !sink_.full(); }
-  /// Ends the panic and moves behind the part with the error: past the next ';', to the '}' of the enclosing block, or
-  /// past a block that opened after the error. Among declarations the first word of one, at the start of a line, ends
-  /// the search, too. Returns the omitted tokens from the index `first` on.
+  /// Ends panic mode and skips the part with the error: to behind the next ';', to the '}' of the enclosing block, or
+  /// to behind a block that opened after the error. At Level::declaration the skipping also stops at a declaration's
+  /// first word at the start of a line. Returns the skipped tokens from the index `first` on.
   std::span<const Token> skipFailed(Level level, size_t first);
 
  private:
@@ -87,20 +88,20 @@ class TokenStream {
   LexResult lexed_;
   size_t next_ = 0;
   bool panic_ = false;
-  bool exhausted_ = false;  ///< only the end of the text is left
+  bool exhausted_ = false;  ///< see exhaust()
   uint32_t nesting_ = 0;
   Token end_token_;
   Span last_;
 };
 
-/// Counts a level of nesting for its lifetime, so that hostile texts do not exhaust the stack.
+/// Counts one level of nesting during its lifetime, to bound the stack depth for untrusted text.
 class Nested {
  public:
   explicit Nested(TokenStream& tokens) : tokens_(tokens) { ++tokens_.nesting_; }
   ~Nested() { --tokens_.nesting_; }
   Nested(const Nested&) = delete;
   Nested& operator=(const Nested&) = delete;
-  /// Returns false, after an error, if the limit is exceeded.
+  /// Returns false, after reporting an error, if the nesting limit is exceeded.
   bool fits();
 
  private:

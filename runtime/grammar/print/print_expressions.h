@@ -8,24 +8,24 @@
 
 namespace sgm {
 
-/// With spaces around it if the formatter writes them: " + ", "*".
+/// The operator with the spaces that the formatter writes around it: " + ", "*".
 std::string_view binaryText(BinaryOp op);
 
 class LinePrinter {
  public:
-  /// meaning: print numbers by value, and omit parentheses that are in the source only for clarity.
+  /// meaning: print numbers by value, and omit redundant parentheses, for texts that are compared by meaning.
   LinePrinter(const Program& program, bool meaning) : program_(program), meaning_(meaning) {}
 
-  /// Prints a range as a..b.
+  /// Prints an expression or a range a..b. lowest: the lowest Precedence that needs no parentheses.
   void expr(std::string& out, ExprId id, int lowest = 0) const;
   void formals(std::string& out, IdRange range) const;
   void args(std::string& out, IdRange range, std::string_view callee) const;
   void xforms(std::string& out, IdRange range) const;
-  /// Prints the part before a statement's body, without a space at the end; without a body, the whole statement.
+  /// Prints a statement up to its body, without a trailing space; a statement without a body is printed completely.
   void head(std::string& out, const StmtNode& node) const;
-  /// Prints the part before the statement of part i of a split, a comp, a treemap or a wfc, with a space at the end.
+  /// Prints what precedes the statement of part i of a split, a comp, a treemap or a wfc, with a trailing space.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
-  /// Whether a repeated group begins before part i, or ends after it.
+  /// Whether a repeated group of parts begins before part i (opensGroup) or ends after it (closesGroup).
   bool opensGroup(const StmtNode& node, uint32_t i) const;
   bool closesGroup(const StmtNode& node, uint32_t i) const;
   /// Prints the whole statement on one line.
@@ -40,7 +40,7 @@ class LinePrinter {
  private:
   void morphOperand(std::string& out, StmtId id) const;
   void footprint(std::string& out, const FootprintNode& node) const;
-  /// before: text before the first socket.
+  /// before: text to print in front of the first socket.
   void sockets(std::string& out, const TileNode& tile, std::string_view before) const;
   void roof(std::string& out, const StmtNode& node) const;
   void fit(std::string& out, const StmtNode& node) const;

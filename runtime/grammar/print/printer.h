@@ -1,5 +1,5 @@
 #pragma once
-// Prints syntax as text.
+// Prints syntax trees as text.
 
 #include <string>
 #include <string_view>
@@ -8,12 +8,13 @@
 
 namespace sgm {
 
-/// Prints the canonical layout of a file, with its comments; parsing and printing that gives the same bytes. One
-/// statement a line, two spaces of indent; a block is on one line only if it was written so and fits.
+/// Prints a file in canonical layout, with its comments: one statement a line, indented by two spaces. A block stays on
+/// one line only if it was written so and fits. Parsing and printing the result again gives the same bytes.
 std::string printModule(const Program& program, const ModuleSyntax& syntax);
 
-/// Prints one line that is equal for files of equal meaning: no comments, no superfluous parentheses, numbers by value.
-/// It judges hashMeaning (identity/hash_meaning.h) in tests, and its hash is the identity of programs of version 0.2.
+/// Prints a file as one line that is equal for files of equal meaning: without comments and redundant parentheses,
+/// numbers by value. Tests compare hashMeaning (identity/hash_meaning.h) with it; version 0.2 identified programs by
+/// its hash.
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax);
 
 /// "watertight", "components", ...

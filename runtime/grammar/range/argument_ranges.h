@@ -1,5 +1,5 @@
 #pragma once
-// Arguments outside of the ranges of their parameters.
+// Finds arguments outside of the declared ranges of their parameters.
 
 #include <cstdint>
 #include <set>
@@ -14,40 +14,44 @@
 
 namespace sgm {
 
-/// An argument outside of its formal's range.
+/// An argument whose possible values are not all within its parameter's range.
 struct Misfit {
   ExprId argument = kNoId;
   ExprId call = kNoId;
   ExprId caller = kNoId;  ///< CallPath::writtenCaller of the call
   uint32_t formal = 0;    ///< into Ast::formals
-  Interval given;
-  bool certain = false;  ///< all of it lies outside
-  bool loose = false;    ///< found while scopes were overestimated
+  Interval given;         ///< the possible values of the argument
+  bool certain = false;   ///< no possible value lies within the range: an error, otherwise a warning
+  bool loose = false;     ///< found while scope sizes were overestimated, so `given` may be too wide
 };
 
-/// Owns the misfits that an analysis found since they were last taken, and whether scopes are overestimated now.
+/// Collects misfits during an analysis, and tracks whether scope sizes are overestimated at the moment.
 class Misfits {
  public:
-  /// Sets whether compare() compares; at first it does nothing.
+  /// Enables or disables compare(); initially disabled.
   void enable(bool compares) { compares_ = compares; }
-  /// Compares the arguments of a call with its formals. given: values of the bound arguments. calls: those around it.
+  /// Compares the possible values of a call's arguments with the ranges of its formals. given: value ranges of the
+  /// bound arguments. calls: the calls that enclose this one.
   void compare(const Program& program, ExprId call, IdRange formals, std::span<const RangeValue> given,
                const CallPath& calls);
   /// Marks evaluation with overestimated scope sizes, or for pieces of ranges one by one: an argument that may lie
   /// outside then proves nothing, and one that certainly does counts only if it does in all pieces.
   void enterLoose() { ++loose_; }
   void leaveLoose() { --loose_; }
-  /// Takes the misfits since the last call; one for each argument, or for each caller of the library.
+  /// Returns and clears the misfits; one for each argument, or, within the standard library, for each of the library's
+  /// callers.
   std::vector<Misfit> take();
 
  private:
   bool compares_ = false;
   int loose_ = 0;
-  std::vector<Misfit> misfits_;                          ///< one for each argument and caller
-  std::set<std::pair<ExprId, ExprId>> loosely_fitting_;  ///< those that may be in range when scopes are overestimated
+  std::vector<Misfit> misfits_;  ///< at most one for each argument and caller
+  /// arguments (with their callers) that fit for some piece or overestimated scope
+  std::set<std::pair<ExprId, ExprId>> loosely_fitting_;
 };
 
-/// Reports certain misfits as errors, others as warnings: at the argument, or at the library's caller.
+/// Reports misfits, at the argument or at the call of the standard library: errors if they are certain, otherwise
+/// warnings.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
 
 /// Checks every call, derived or not, whose arguments lie outside of the ranges of a rule, let or field, if that does

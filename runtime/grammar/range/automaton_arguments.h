@@ -1,5 +1,6 @@
 #pragma once
-// The valid arguments of `ca`, for the compiler, which knows ranges, and for derivation, which knows values.
+// Checks the arguments of `ca`. Used by the compiler, which knows their ranges, and by derivation, which knows their
+// values.
 
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace sgm {
 
-/// In the order of writing. The voxel is in metres; counts are already whole.
+/// In the order of ca's parameters. voxel: metres; fill, threshold: ratios; rounds and radius are already whole.
 struct AutomatonArguments {
   Interval voxel, fill, rounds, threshold, radius;
 };
@@ -19,7 +20,8 @@ struct AutomatonFault {
   std::string message, hint;
 };
 
-/// The first argument that is certainly wrong. cell: edge of the layer's cell in units, above 0.
+/// Returns the first argument that is invalid for all its possible values; nullopt if there is none. cell: edge of the
+/// layer's cell in units, above 0.
 std::optional<AutomatonFault> faultOf(const AutomatonArguments& arguments, int32_t cell);
 
 }  // namespace sgm

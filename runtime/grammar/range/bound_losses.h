@@ -1,5 +1,5 @@
 #pragma once
-// The places where values lose their bounds, for messages.
+// Records where values lose their bounds, for messages.
 
 #include <cstdint>
 #include <utility>
@@ -10,28 +10,28 @@
 
 namespace sgm {
 
-/// The place where a value loses its bound.
+/// An expression whose value has no finite bound although its operands may have.
 struct BoundLoss {
   enum class Cause : uint8_t { none, divisor, parameter } cause = Cause::none;
   ExprId expr = kNoId;    ///< the quotient, or the use of the parameter
-  ExprId caller = kNoId;  ///< CallPath::writtenCaller of it
+  ExprId caller = kNoId;  ///< for an `expr` in the standard library: CallPath::writtenCaller; otherwise kNoId
   Interval divisor;
 };
 
-/// Owns the losses that evaluations met, and which of them is the reason for the latest value without a bound. An
-/// index of a loss is at least 1; 0 means none.
+/// Stores the losses found so far, and the latest loss: the reason for the latest unbounded value. Indices of losses
+/// start at 1; 0 means no loss.
 class BoundLosses {
  public:
   const BoundLoss& operator[](uint32_t index) const { return losses_[index]; }
-  /// Divisions by a value that is certainly 0.
+  /// divisions whose divisor is certainly 0
   const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
 
-  /// Keeps a loss and makes it the latest one, unless there is a latest one already. Beyond the limit of kept losses,
-  /// the last kept one stands for it.
+  /// Stores a loss and makes it the latest one, unless there is a latest one already. When the list is full, its last
+  /// entry is used instead of the new loss.
   void add(const BoundLoss& loss);
-  /// Takes the latest loss; 0 if all values since the last call are bounded.
+  /// Returns and clears the latest loss; 0 if all values since the last call are bounded.
   uint32_t takeLatest() { return std::exchange(latest_, 0); }
-  /// Makes an earlier loss the latest one again, unless it is 0.
+  /// Makes an earlier loss the latest one again; does nothing for index 0.
   void restoreLatest(uint32_t index) {
     if (index != 0) latest_ = index;
   }

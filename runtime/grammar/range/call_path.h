@@ -1,6 +1,6 @@
 #pragma once
-// The calls around an evaluation, for messages: the author of a grammar cannot change the standard library, so a
-// message about it names the author's own call.
+// The stack of calls around the evaluated expression, for messages: the author of a grammar cannot change the standard
+// library, so messages about the library point at the author's call into it.
 
 #include <cstdint>
 #include <vector>
@@ -12,14 +12,15 @@ namespace sgm {
 /// Whether a file (Span::file) belongs to the standard library and was imported.
 bool isStandard(const Program& program, uint32_t file);
 
-/// Owns the calls of rules and functions around the current evaluation, outermost first.
+/// A stack of the calls of rules and functions that enclose the current evaluation, outermost first.
 class CallPath {
  public:
   explicit CallPath(const Program& program) : program_(program) {}
 
   void enter(ExprId call) { calls_.push_back(call); }
   void leave() { calls_.pop_back(); }
-  /// For an expression in the standard library: the innermost call around it outside of the library; else kNoId.
+  /// For an expression in the standard library, returns the innermost enclosing call that is outside of the library;
+  /// for other expressions kNoId.
   ExprId writtenCaller(ExprId id) const;
 
  private:

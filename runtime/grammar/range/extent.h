@@ -1,6 +1,6 @@
 #pragma once
-// The extents of shapes: boxes of intervals, propagated from the leaves through transforms and combiners. They contain
-// at least what derive/bounds.h computes for derived shapes; change both together.
+// Computes extents of shapes: boxes of intervals, propagated from the leaves through transforms and combiners. Must
+// contain all boxes that derive/bounds.h computes for derived shapes, so change both together.
 
 #include <array>
 #include <cstdint>
@@ -11,88 +11,95 @@
 
 namespace sgm {
 
-/// Why a displacement has no bound although its amplitude is bounded.
+/// Why a displacement has no bound although its amplitude has one.
 enum class Unbound : uint8_t {
   none,
   sum,     ///< far from its leaves a sum's field is a constant, which the displacement may cancel completely
   radius,  ///< the smallest radius of an ellipsoid or superquadric may be arbitrarily small
 };
 
-/// Contains shapes in any orientation: a box, and a core with a ball around it.
+/// A bound of shapes in any orientation: the box `may`, and the set of points within the distance `ball` from the box
+/// `core`.
 struct Hull {
   IntervalVector may{};
   IntervalVector core{};
-  double core_radius = 0;  ///< the largest distance of the core from the scope's origin
-  double ball = 0;
+  double core_radius = 0;  ///< the largest distance of a point of the core from the scope's origin, metres
+  double ball = 0;         ///< radius around the core, metres
 
   static Hull everywhere();
   void merge(const Hull& other);
   void grow(double margin, double turned_margin);
-  void add(const IntervalVector& by);  ///< every point may move by this
+  void add(const IntervalVector& by);  ///< moves every point by some vector in `by`
   void rotate(int axis, Interval angle);
   void scale(Interval factor);
   void mirror(size_t axis);
 };
 
-/// Bounds of the shapes that a statement may derive, in the statement's scope, metres.
+/// Bounds of the shapes that a statement may derive, in the statement's scope, in metres.
 ///
-/// The region where the field is at most a lies within `at` grown by spread * a (when turned: by turned_spread * a),
-/// for all a below `limit`.
+/// Level sets: the region where the field is at most `a` lies within `at` grown by spread * a (in rotated scopes: by
+/// turned_spread * a), for all a < limit.
 struct Extent {
   bool empty = true;
-  Hull at;      ///< nothing lies outside; if operands of a meet lie apart: the space between them
-  Hull in_sum;  ///< the same for each shape's kernel in a sum
+  Hull at;      ///< bounds all shapes; for a meet whose operands are disjoint: the gap between them
+  Hull in_sum;  ///< bounds each shape's kernel when it is summed (`sum`)
   double spread = 1, turned_spread = 1;
   double limit = kInfinity;
-  std::array<double, 3> sure_lo{}, sure_hi{};  ///< whenever it is derived, some shape reaches at least this far
+  /// if anything is derived, some shape certainly extends at least this far in each direction
+  std::array<double, 3> sure_lo{}, sure_hi{};
 
-  double inner = 0;      ///< the largest inner radius of its leaves; a sum reaches beyond them in proportion to it
-  double inner_low = 0;  ///< lower bound of the largest inner radius, if there is any
-  double count = 0;      ///< the most shapes
-  bool certain = false;  ///< whether at least one shape is certain
+  double inner = 0;  ///< the largest inner radius of the leaves; a sum extends beyond its leaves in proportion to it
+  double inner_low = 0;  ///< lower bound of the largest inner radius; valid if the extent is not empty
+  double count = 0;      ///< upper bound of the number of shapes
+  bool certain = false;  ///< at least one shape is certainly derived
 
-  ExprId largest_contributor = kNoId;  ///< the outermost call that extends farthest
-  double contributor_size = -1;        ///< metres; its distance from the origin, or -1
-  uint32_t override_id = kNoId;        ///< the override that adds that call, or none
-  ExprId inside = kNoId;  ///< the responsible call if it is in the standard library, called by largest_contributor
-  uint32_t loss = 0;      ///< index in RangeEvaluator::losses() where its bound was lost; 0: nowhere, or unknown
+  ExprId largest_contributor = kNoId;  ///< the outermost call whose shapes extend farthest, for messages
+  double contributor_size = -1;  ///< metres: the largest distance of that call's shapes from the origin; -1: no call
+  uint32_t override_id = kNoId;  ///< the override that adds that call; kNoId: none
+  /// if largest_contributor calls the standard library: the call within the library that is responsible
+  ExprId inside = kNoId;
+  /// index in RangeEvaluator::losses() of the place where the bound was lost; 0: it has a bound, or the place is
+  /// unknown
+  uint32_t loss = 0;
   Unbound why = Unbound::none;
-  double allowed = 0;  ///< for Unbound::sum: a displacement must stay below this
+  double allowed = 0;  ///< for Unbound::sum: amplitudes below this have a bound
 
   static Extent nothing();
   static Extent unbounded();
   /// The extent of a leaf: intervals for the lower and the upper ends of its box, and a ball that may contain it.
   static Extent leaf(const IntervalVector& lower, const IntervalVector& upper, double ball = 0);
 
-  void join(const Extent& other);    ///< both are derived
-  void either(const Extent& other);  ///< one of the two is derived
+  void join(const Extent& other);    ///< for two statements that are both derived
+  void either(const Extent& other);  ///< for two alternatives, of which exactly one is derived
   void intersect(const Extent& other);
-  void grow(double margin);    ///< the field decreases by at most this
-  void smooth(double radius);  ///< for a round union
+  void grow(double margin);    ///< for a change of the field by at most `margin`
+  void smooth(double radius);  ///< for a round union with this blend radius
   void add(const IntervalVector& by);
-  void node();                     ///< all of it becomes one shape
-  void uncertain();                ///< parts of it may be cut away
-  void shrinkSure(double margin);  ///< the same, but by at most this
+  void node();                     ///< for content that is combined into one shape (one node)
+  void uncertain();                ///< for content of which parts may be cut away
+  void shrinkSure(double margin);  ///< like uncertain(), but shapes lose at most `margin` on each side
   void move(const IntervalVector& by);
-  void rotate(int axis, Interval angle);  ///< axis 3: any axis
+  void rotate(int axis, Interval angle);  ///< axis 0 1 2, or 3: an arbitrary axis
   void scale(Interval factor);
   void mirror(int axis);
-  void repeat(Interval times);  ///< multiplies the number of shapes
-  void summed();                ///< the compact sum of its shapes
-  /// Makes a call the largest contributor, unless an unbounded contributor is known.
+  void repeat(Interval times);  ///< multiplies the number of shapes by `times`
+  void summed();                ///< for the compact-kernel sum of its shapes
+  /// Makes a call the largest contributor, unless a contributor without a bound is already known.
   void attribute(ExprId call);
-  bool lost() const;    ///< whether no bound is proven
-  double size() const;  ///< the largest distance of its box from the origin along an axis
+  bool lost() const;    ///< whether no finite bound is proven
+  double size() const;  ///< the largest distance of the box from the origin along any axis, metres
 
  private:
   void merge(const Extent& other);
   void loseBound(Unbound reason);
 };
 
-/// Adds another alternative of which one is derived: joins it with the others by Extent::either. nullopt: none yet.
+/// Adds one of several alternatives of which exactly one is derived, by Extent::either(). all: nullopt before the first
+/// call.
 void addAlternative(std::optional<Extent>& all, const Extent& one);
 
-/// The range of a scale; derivation omits scales that are not positive.
+/// Returns the range of a written scale factor, limited to positive values: derivation omits content with other
+/// factors.
 Interval scaleFactor(Interval written);
 
 }  // namespace sgm

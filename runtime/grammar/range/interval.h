@@ -1,5 +1,6 @@
 #pragma once
-// Closed intervals of doubles for the proof of reach. Every operation rounds outwards.
+// Closed intervals of doubles for the proof of reach. Every operation rounds outwards, so results contain all exact
+// values.
 
 #include <array>
 
@@ -30,11 +31,11 @@ Interval maximum(Interval a, Interval b);
 Interval atLeastZero(Interval a);   ///< the maximum of a and 0; an end that is NaN becomes 0
 Interval positivePart(Interval a);  ///< the maximum of a and 0; an end that is NaN stays NaN
 Interval absolute(Interval a);
-Interval squareRoot(Interval a);  ///< of the part from 0 on
+Interval squareRoot(Interval a);  ///< of the part of `a` that is not negative
 Interval floorOf(Interval a);
 Interval sine(Interval a);
 Interval cosine(Interval a);
-Interval power(Interval a, Interval b);  ///< for a from 0 on
+Interval power(Interval a, Interval b);  ///< of the part of `a` that is not negative
 Interval smoothStep(Interval low, Interval high, Interval x);
 
 using IntervalVector = std::array<Interval, 3>;

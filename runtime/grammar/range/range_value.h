@@ -1,5 +1,6 @@
 #pragma once
-// The possible values of expressions, the possible places of scopes, and the frames in which expressions are evaluated.
+// Types for interval evaluation: ranges of values, of scopes' places, and the frames in which expressions are
+// evaluated.
 
 #include <cstdint>
 #include <vector>
@@ -9,16 +10,18 @@
 
 namespace sgm {
 
-/// By kind: a number or condition uses v[0]; a vector or pair uses v. A cell is its offset from the derived cell, in
-/// cells, and a face that of its lower cell. A segment (or a list of them) has the coordinates of its ends in v[0] and
-/// its depth in v[1]. A plan has the edges of its pieces' boxes in v, and the places of their middles in `at`.
+/// The possible values of an expression. The meaning of v depends on kind: number, boolean: v[0]. vector, pair:
+/// components. cell: its offset from the derived cell, in cells; face: that of its lower cell. segment(s): v[0]
+/// contains all coordinates of the ends, v[1] the depth. plan: v contains the edges of its pieces' boxes, `at` the
+/// pieces' centres.
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
   IntervalVector at{};
-  uint32_t loss = 0;  ///< why it has no bound: an index of BoundLosses; 0: it has one, or the reason is unknown
+  /// index in BoundLosses of the reason for a missing bound; 0: it has a bound, or the reason is unknown
+  uint32_t loss = 0;
 
-  bool bounded() const;  ///< or not a number, vector or pair
+  bool bounded() const;  ///< whether v is finite; true for kinds other than number, vector and pair
 
   static RangeValue number(Interval i) { return {ValueKind::number, {i, {}, {}}, {}}; }
   static RangeValue condition(Interval i) { return {ValueKind::boolean, {i, {}, {}}, {}}; }
@@ -26,34 +29,35 @@ struct RangeValue {
   static RangeValue unknown() { return {}; }
 };
 
-/// The possible places of a scope: metres from the cell's low corner.
+/// The possible positions and orientations of a scope. offset: metres from the low corner of the derived cell.
 struct PlaceRange {
   IntervalVector offset{};
   Interval scale{1, 1};
-  bool turned = false;  ///< in any direction
+  bool turned = false;  ///< may be rotated arbitrarily
 
   void move(const IntervalVector& by);
   friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
 };
 
-/// The context of a frame's expressions.
+/// The context in which a statement's or function's expressions are evaluated.
 struct RangeFrame {
   std::vector<RangeValue> slots;
   IntervalVector scope{};  ///< edges of the scope's box
-  PlaceRange place;        ///< of the statement
-  PlaceRange start;        ///< of the rule
-  bool top = false;        ///< the layer's own use of its start rule, where a cut applies to the domain
+  PlaceRange place;        ///< where the current statement's scope may be
+  PlaceRange start;        ///< where the scope of the enclosing rule's use may start
+  bool top = false;        ///< this is a layer's start rule itself, in which a cut applies to the domain
 };
 
-/// The ranges of conditions.
+/// The possible truth values of a condition: 1 is true, 0 is false.
 inline constexpr Interval kTrue{1, 1}, kFalse{0, 0}, kEither{0, 1};
 
-/// Whether the value can be divided for a proof in pieces: a number with a finite range.
+/// Whether a value can be evaluated in pieces: a number with a finite range of more than one value.
 bool hasPieces(const RangeValue& value);
-/// The point that divides such a range into two pieces: by ratio if all of it is positive, as for sizes.
+/// Returns the point that divides a range into two pieces: the geometric mean if the whole range is positive (such as
+/// sizes), otherwise the middle.
 double dividingPoint(Interval range);
 
-/// Any vector with the length of one of these.
+/// Returns a box that contains all vectors, in any direction, with the length of some vector in `v`.
 IntervalVector anyDirection(const IntervalVector& v);
 
 }  // namespace sgm

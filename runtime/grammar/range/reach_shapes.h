@@ -1,5 +1,5 @@
 #pragma once
-// The extents of terminals.
+// Computes the extents of primitives.
 
 #include "grammar/range/extent.h"
 #include "grammar/range/reach_values.h"
@@ -7,10 +7,10 @@
 
 namespace sgm {
 
-/// The extent of a terminal with its arguments.
+/// Returns the extent of a primitive for all possible values of its arguments.
 Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame);
 
-/// Solids in a box with these edges around the scope's middle, which may be absent.
+/// Returns the extent of solids that may exist anywhere in a box with these edges, centred on the scope's origin.
 Extent solidIn(const IntervalVector& edges);
 
 }  // namespace sgm

@@ -15,33 +15,35 @@
 
 namespace sgm {
 
-/// The longest reach of queries out of the cell, along axes that are cut into cells, and the query responsible.
+/// The query that looks farthest out of the cell, along the axes that are divided into cells.
 struct Observation {
   double distance_m = 0;
   ExprId query = kNoId;
 };
 
-/// The parts of a rule's frame on which results depend. Without `place` they are the same for other places, and without
-/// `scale` for other scales.
+/// The parts of a rule's frame on which a result depends. If place is false, the result holds for all places; if scale
+/// is false, for all scales of the scope.
 struct Dependence {
   bool place = false, scale = false;
 };
 
-/// Owns the ranges of the parameters and of the cell, and a record of the parts that evaluations used.
+/// Evaluates expressions over intervals. State: the ranges of parameters and of the cell, and records of what
+/// evaluations depended on.
 class RangeEvaluator {
  public:
-  /// steps: the rest of the caller's budget, which must outlive this; at 0 every value is unknown.
+  /// steps: the caller's remaining budget, which this decrements and which must outlive it; at 0 every value is
+  /// unknown.
   RangeEvaluator(const Program& program, uint32_t& steps);
 
-  /// Sets the edges of a cell. centred: it lies around the origin of the start's scope, otherwise its low corner is
-  /// there.
+  /// Sets the edges of a cell, metres. centred: the origin of the start rule's scope is the cell's centre, otherwise
+  /// its low corner.
   void setCell(const IntervalVector& edges, bool centred) {
     cell_ = edges;
     low_ = centred ? -0.5 : 0.0;
   }
-  /// The possible values of a parameter; at first its whole range.
+  /// The possible values of Program::params[index]; initially the parameter's whole range.
   Interval& parameter(uint32_t index) { return parameters_[index]; }
-  /// Sets whether functions without a bound are evaluated in pieces of their arguments.
+  /// Sets whether functions without a bound are evaluated again in pieces of their arguments' ranges.
   void takePieces(bool takes) { pieces_ = takes; }
 
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
@@ -50,15 +52,16 @@ class RangeEvaluator {
   /// [0, 0]: false, [1, 1]: true, otherwise either.
   Interval condition(ExprId id, const RangeFrame& frame);
 
-  /// Narrows the slots of a frame to values for which a condition holds (or not): comparisons of a local with a value,
-  /// joined by `and` (if negated, by `or`).
+  /// Narrows the slots of a frame to the values for which a condition is true (or false, if `holds` is false).
+  /// Understands comparisons of a local with a value, joined by `and` (for false: by `or`).
   void refine(ExprId condition, bool holds, RangeFrame& frame);
-  /// Compares the arguments of a call with its formals, except in pieces. given: values of the bound arguments.
+  /// Compares the arguments of a call with the ranges of its formals (Misfits::compare), unless a range is evaluated in
+  /// pieces. given: value ranges of the bound arguments.
   void compareArguments(ExprId call, IdRange formals, std::span<const RangeValue> given);
 
-  /// Of the results since the caller cleared it.
+  /// What all results since the caller last cleared it depend on.
   Dependence& dependence() { return dependence_; }
-  /// The farthest one since the caller cleared it.
+  /// The farthest query since the caller last cleared it.
   Observation& observation() { return observation_; }
   const std::vector<bool>& usedParameters() const { return used_parameters_; }
   CallPath& calls() { return calls_; }
@@ -73,17 +76,19 @@ class RangeEvaluator {
   RangeValue call(ExprId id, const RangeFrame& frame);
   RangeValue builtin(const ExprNode& n, const RangeFrame& frame);
   RangeValue applied(ExprId id, const RangeFrame& frame);
-  /// Evaluates a function in pieces of one argument's range; nullopt if a piece has no bound either.
+  /// Evaluates a function once for each piece of an argument's range and merges the results; nullopt if some piece has
+  /// no bound.
   std::optional<RangeValue> inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range, int depth);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
-  /// A point of the cell, relative to the scope with which the rule starts.
+  /// Returns the place of a cell's point (metres from the cell's low corner) relative to the scope with which the rule
+  /// starts.
   RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
   uint32_t child(const ExprNode& n, uint32_t i) const { return program_.idAt(n.children, i); }
 
   const Program& program_;
   uint32_t& steps_;
   IntervalVector cell_{};
-  double low_ = 0;  ///< of the cell, in cells
+  double low_ = 0;  ///< the cell's low corner relative to the origin, in cells: -0.5 or 0
   int depth_ = 0;
   bool pieces_ = false;
   std::vector<Interval> parameters_;

@@ -1,5 +1,6 @@
 #pragma once
-// Declarations of a layer that would give its shapes room: a proof is tried with each before a message suggests it.
+// Searches for a declaration of a layer (cell, reach, or the domain's box) in which its shapes fit. Each candidate is
+// proven before a message suggests it.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace sgm::reach {
 
-/// Owns the written declaration of a layer and of the domain while others are tried; its end restores them.
+/// Saves a layer's and the domain's declaration while other values are tried; the destructor restores them.
 class TrialDeclaration {
  public:
   /// index: into Program::layers. The context must outlive this.
@@ -26,12 +27,12 @@ class TrialDeclaration {
   const IntBox box_;
 };
 
-/// Whether the domain of a finite grammar needs a box: without one its scope is unbounded; with one, its content may be
-/// bounded.
+/// Whether the shapes of a finite grammar have a bound only if the domain declares a box, since without a box the
+/// start's scope is unbounded.
 bool needsBox(uint32_t index, ReachContext& context);
 
-/// The hint with the declaration in which all shapes of the layer fit; empty if no trial finds one. extent: bounded, of
-/// the shapes that exceed the written declaration.
+/// Returns a hint with a declaration in which all shapes of the layer fit; empty if no trial finds one. extent: must be
+/// bounded; the extent of the shapes that exceed the written declaration.
 std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context);
 
 }  // namespace sgm::reach

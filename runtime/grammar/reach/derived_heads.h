@@ -1,5 +1,5 @@
 #pragma once
-// The heads of rules that a derivation can choose.
+// Records which heads of rules a derivation can choose.
 
 #include <cstdint>
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace sgm::reach {
 
-/// Owns the set of heads that some use of their rule may derive.
+/// The set of rule heads that some use of their rule may derive.
 class DerivedHeads {
  public:
   explicit DerivedHeads(const Program& program) : derived_(program.rules.size()) {}
 
-  /// Marks a rule as used: only heads of used rules are idle.
+  /// Marks a rule as used. Only used rules are checked for idle heads.
   void addRule(uint32_t rule, size_t head_count) { derived_[rule].resize(head_count, false); }
   /// Precondition: addRule().
   void addHead(uint32_t rule, size_t head) { derived_[rule][head] = true; }
 
-  /// Warns of heads of the root's rules that no call derives, whatever the parameters are.
+  /// Warns of heads of the root's used rules that can never be chosen, whatever values the parameters have.
   void warnOfIdle(const Program& program, DiagnosticSink& sink) const;
 
  private:
-  std::vector<std::vector<bool>> derived_;  ///< for each rule; empty: not used
+  std::vector<std::vector<bool>> derived_;  ///< by rule and head; empty for rules that are not used
 };
 
 }  // namespace sgm::reach

@@ -4,7 +4,7 @@
 
 namespace sgm::reach {
 
-/// Owns a copy of a frame's scope and place, and restores them at the end of its lifetime.
+/// Restores a frame's scope and place at the end of its lifetime.
 class KeptScope {
  public:
   /// The frame must outlive this.

@@ -1,5 +1,5 @@
 #pragma once
-// The extent of a layer's start, and its comparison with the layer's declaration.
+// Computes the extent of a layer's start rule, and compares it with the layer's declaration.
 
 #include <cstdint>
 
@@ -8,26 +8,28 @@
 
 namespace sgm::reach {
 
-/// The distances by which shapes exceed their layer's declaration, metres: possibly, and certainly.
+/// The distances in metres by which shapes exceed their layer's declaration: `may`, possibly; `sure`, certainly.
 struct Excess {
   double may = 0, sure = 0;
 };
 
-/// Whether the layer is a finite domain's, which has no cells.
+/// Whether the layer belongs to a finite domain, which is not divided into cells.
 bool isFinite(const Program& program, const Layer& layer);
-/// The edge along the axes that are cut into cells, metres.
+/// The edge of the layer's cell along the axes that are divided into cells, metres.
 double cellEdge(const Layer& layer);
 
-/// Sets the cell of the proof to a layer's.
+/// Sets context.cell to the layer's cell.
 void setCell(const Layer& layer, ReachContext& context);
 
 Excess measureExcess(const Program& program, const Layer& layer, const Extent& extent);
-/// Whether the extent proves the layer's declaration. It proves nothing if the attempt was cut short.
+/// Whether the extent proves the layer's declaration. Always false if the step budget cut the attempt short.
 bool isEnough(const Layer& layer, const Extent& extent, const ReachContext& context);
 
-/// The extent of a layer's start, by one evaluation in the current mode. index: into Program::layers.
+/// Computes the extent of a layer's start by one evaluation, with the current RangePieces mode. index: into
+/// Program::layers.
 Extent boundStart(uint32_t index, ReachContext& context);
-/// The same, by as many attempts as it takes to prove the layer's declaration: the last ones divide ranges into pieces.
+/// Like boundStart(), but makes several attempts until one proves the layer's declaration; the last attempts evaluate
+/// ranges in pieces.
 Extent proveStart(uint32_t index, ReachContext& context);
 
 }  // namespace sgm::reach

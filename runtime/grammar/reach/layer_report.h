@@ -1,5 +1,5 @@
 #pragma once
-// Messages if the reach of a layer is not proven: the cause, at a line that its author can change, and the remedy.
+// Reports layers whose reach is not proven: the cause, at a line that the author can change, and a remedy.
 
 #include <cstdint>
 #include <string>
@@ -10,29 +10,29 @@
 
 namespace sgm::reach {
 
-/// Owns a layer whose reach is not proven, and the declaration that would give its shapes room.
+/// Writes the messages about one layer whose reach is not proven.
 class LayerReport {
  public:
-  /// room: the hint with that declaration, or empty. needs_box: a box of the domain would bound shapes without a bound.
-  /// Layer and context must outlive this.
+  /// room: a hint with a declaration in which the shapes fit, or empty (see findRoom). needs_box: a box of the domain
+  /// would give unbounded shapes a bound. Layer and context must outlive this.
   LayerReport(const Layer& layer, std::string room, bool needs_box, const ReachContext& context)
       : layer_(layer), room_(std::move(room)), needs_box_(needs_box), context_(context), program_(context.program) {}
 
-  /// Reports shapes of the layer that exceed its declaration: an error, or a warning if they may also stay within it.
+  /// Reports shapes that exceed the layer's declaration: an error if they certainly do, a warning if they only may.
   void report(const Extent& extent) const;
 
  private:
-  /// The call that extends farthest, for a message, and its place.
+  /// The call whose shapes extend farthest: its name and its position in the text.
   struct Contributor {
     std::string name;
     Span span;
   };
   Contributor describeContributor(const Extent& extent) const;
   ExprId divisor(const BoundLoss& loss) const;
-  /// The reason that follows the message, if a value without a bound is the cause.
+  /// Explains a lost bound, as the end of a message.
   std::string lossText(const BoundLoss& loss) const;
   std::string lossHint(const BoundLoss& loss) const;
-  /// The remedy for shapes without a bound.
+  /// The hint for shapes without a bound.
   std::string boundHint(const Extent& extent) const;
 
   const Layer& layer_;
@@ -42,14 +42,15 @@ class LayerReport {
   const Program& program_;
 };
 
-/// Reports all causes at once: every call in the layer's own rule that exceeds the declaration by itself. extent: of
-/// all of them. index: into Program::layers.
+/// Reports each call in the layer's own rule that exceeds the declaration by itself, all in one run. extent: of all
+/// calls together. index: into Program::layers.
 void reportLayer(uint32_t index, const Extent& extent, ReachContext& context);
 
-/// Content on which a cell depends must lie within its reach: reports the query that looks farthest, unless it does.
+/// Reports the query that looks farthest if it may look beyond the layer's reach: a cell must depend only on content
+/// within its reach.
 void reportObservation(const Layer& layer, ReachContext& context);
 
-/// Reports divisions that never have a value. Each is an error of its own, at its line.
+/// Reports divisions whose divisor is always 0, each as an error at its line.
 void reportZeroDivisions(ReachContext& context);
 
 }  // namespace sgm::reach

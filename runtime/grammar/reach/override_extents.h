@@ -1,5 +1,5 @@
 #pragma once
-// Overrides in the proof of reach: the places where they may apply, and the content of their blocks.
+// Handles overrides in the proof of reach: finds where they may apply, and evaluates their blocks.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,58 +12,61 @@ namespace sgm::reach {
 
 struct ReachContext;
 
-/// Owns the overrides that may apply to what is derived now, and the content that `inner` stands for.
+/// Tracks the overrides that may apply to the current use, and the content for which `inner` stands.
 class OverrideExtents {
  public:
   explicit OverrideExtents(const Program& program) : program_(program) {}
 
-  /// The state of derivation with respect to overrides.
+  /// Which overrides may apply at the current place of the derivation.
   struct State {
-    std::vector<uint32_t> begun;   ///< by path: those whose first steps lead here, and that continue
-    uint32_t depth = 0;            ///< number of these steps
-    std::vector<uint32_t> within;  ///< by tag: those whose own block this is in
+    /// overrides by path whose first `depth` steps lead to the current use, and that have further steps
+    std::vector<uint32_t> begun;
+    uint32_t depth = 0;  ///< number of path steps taken from the layer's start
+    /// overrides by tag whose own block encloses the current place: they do not apply again
+    std::vector<uint32_t> within;
   };
 
-  /// Sets the state for the start of a layer.
+  /// Resets the state for the start of a layer.
   void start(uint32_t layer);
   const State& state() const { return state_; }
   void restore(const State& state) { state_ = state; }
-  /// Updates the state for a use of the rule. Returns the overrides by path that replace this use, as in
-  /// Program::overrides; other paths continue.
+  /// Advances the state by a use of `rule`. Returns the overrides whose path ends at this use, in the order of
+  /// Program::overrides; paths with further steps stay in the state.
   std::vector<uint32_t> enter(uint32_t rule);
-  /// The part of the key that separates uses with the same arguments. replacing: from enter().
+  /// Returns the part of RuleExtents::Key that depends on overrides. replacing: the result of enter().
   std::vector<uint32_t> key(const std::vector<uint32_t>& replacing) const;
 
-  /// The extent of a use of a rule: of its alternatives, or of the overrides that may replace it.
+  /// Returns the extent of a use of a rule: of its alternatives, and of the overrides that may replace it.
   Extent boundUse(uint32_t rule, const std::vector<RangeValue>& args, const std::vector<uint32_t>& replacing,
                   RangeFrame& frame, ReachContext& context);
-  /// The extent of a block, a meet or an extrusion with the overrides of its tag.
+  /// Returns the extent of a block, a meet or an extrusion, and of the overrides of its tag.
   Extent boundTagged(const StmtNode& s, uint16_t tag, RangeFrame& frame, ReachContext& context);
-  /// The extent of `inner` in an override's block.
+  /// Returns the extent of `inner`, the replaced content, in an override's block.
   Extent boundInner(const StmtNode& s, const RangeFrame& frame, ReachContext& context);
 
  private:
-  /// The target of overrides: a use of a rule, or a block with a tag.
+  /// The content that overrides replace: a use of a rule, or a block with a tag.
   struct Target {
     uint32_t rule = 0;
     const std::vector<RangeValue>& args;
-    const std::vector<uint32_t>& overrides;  ///< those that may apply, as in Program::overrides
-    const StmtNode* block = nullptr;         ///< the block with the tag; null: a use of a rule
-    const RangeFrame* frame = nullptr;       ///< of that block
-    size_t at = 0;                           ///< index in `overrides` of the one whose block asks for the target
-    State state;                             ///< state of what `inner` derives
-    const Target* outer = nullptr;
+    const std::vector<uint32_t>& overrides;  ///< overrides that may apply, in the order of Program::overrides
+    const StmtNode* block = nullptr;         ///< the tagged block; null: the target is a use of a rule
+    const RangeFrame* frame = nullptr;       ///< the frame of that block
+    size_t at = 0;                           ///< index in `overrides` of the override whose block is being evaluated
+    State state;                             ///< the state in which `inner` is evaluated
+    const Target* outer = nullptr;  ///< the target around this one, if overrides' blocks are nested; null: none
   };
 
   /// The extent after the first `below` overrides; above: the override by path whose `inner` asks, or null.
   Extent boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                      ReachContext& context);
-  /// The extent of the block of target.overrides[at] in place of the target.
+  /// Returns the extent of the block of target.overrides[at], which replaces the target.
   Extent boundReplacement(const Target& target, size_t at, const RangeFrame& place, ReachContext& context);
 
   const Program& program_;
   State state_;
-  const Target* target_ = nullptr;  ///< in an override's block: the original content
+  /// while an override's block is evaluated: the content that it replaces; otherwise null
+  const Target* target_ = nullptr;
 };
 
 }  // namespace sgm::reach

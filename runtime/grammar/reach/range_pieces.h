@@ -1,7 +1,7 @@
 #pragma once
-// A tighter proof where plain intervals lose too much: they ignore that a value used twice is the same both times, so
-// that `r / (0.3*r)` and a displacement by a part of its operand look worse than they are. Over short pieces of the
-// range of such a value little is lost; together the pieces cover the range.
+// Tightens the proof by subdividing ranges. Interval arithmetic ignores that a value used twice is the same both times
+// (the dependency problem), so `r / (0.3*r)`, or a displacement in proportion to its operand's size, gets too wide a
+// range. For short pieces of r's range the error is small; the union of all pieces covers the range.
 
 #include <cstdint>
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace sgm::reach {
 
-/// Owns the mode by which the current attempt divides ranges into pieces, and the number of splits around the current
-/// statement, on which the division of sizes depends.
+/// Selects which ranges the current attempt divides, and counts the splits that enclose the current statement, which
+/// limits the division of sizes.
 class RangePieces {
  public:
-  /// The ranges that are evaluated in pieces: none, those without a bound, or all.
+  /// The ranges that are evaluated in pieces: none, only those that lead to a missing bound, or all.
   enum class Mode : uint8_t { none, lost, all };
 
   void setMode(Mode mode) { mode_ = mode; }
@@ -32,10 +32,10 @@ class RangePieces {
   std::optional<Extent> divide(RangeValue& value, const Extent& whole, const std::function<Extent()>& extent,
                                const StepBudget& budget) const;
 
-  /// Whether splits divide the sizes of their parts here.
+  /// Whether the sizes of parts are divided in a split at the current nesting depth.
   bool dividesSizes() const { return !divides_few_sizes_ || splits_ < kSplitsInPieces; }
   bool dividesFewSizes() const { return divides_few_sizes_; }
-  /// Divides sizes only in the outermost splits from now on: nested pieces would use up all steps.
+  /// From now on divides sizes only in the outermost splits, since nested division would exhaust the step budget.
   void divideFewSizes() { divides_few_sizes_ = true; }
   void enterSplit() { ++splits_; }
   void leaveSplit() { --splits_; }

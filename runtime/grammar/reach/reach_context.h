@@ -1,5 +1,5 @@
 #pragma once
-// The state of a proof of reach, which the functions of statements pass on.
+// The state of a proof of reach, shared by the functions that evaluate rules and statements.
 
 #include "base/fixed.h"
 #include "grammar/range/reach_values.h"
@@ -19,8 +19,8 @@ inline constexpr double kUnit = 1.0 / kUnitsPerMetre;  ///< metres
 /// The cell in which the current layer's start rule is derived.
 struct StartCell {
   IntervalVector edges{};  ///< metres
-  bool whole = false;      ///< the start has no cells
-  bool centred = false;    ///< the cell is centred on the origin: a finite domain's
+  bool whole = false;      ///< the start has no cells: it is derived once for the whole world
+  bool centred = false;    ///< the cell is centred on the origin, as for a finite domain
 };
 
 struct ReachContext {
@@ -40,7 +40,7 @@ struct ReachContext {
   Program& program;
   const CompileLimits limits;
   DiagnosticSink& sink;
-  const bool lossy;  ///< a part of the text is missing
+  const bool lossy;  ///< errors were reported before, so a part of the text may be missing
   StepBudget budget;
   RangeEvaluator values;  ///< counts down the budget
   StartCell cell;

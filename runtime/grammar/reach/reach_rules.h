@@ -1,5 +1,5 @@
 #pragma once
-// The extents of calls, of rules and of their alternatives.
+// Computes the extents of calls, of rules and of their alternatives.
 
 #include <cstdint>
 #include <vector>
@@ -9,13 +9,14 @@
 
 namespace sgm::reach {
 
-/// The author of a call: a layer, the head of a rule for its depth or minsize, or a statement.
+/// Where a call is written: as a layer's start, in a rule's head as the replacement at its depth or minsize limit, or
+/// in a statement.
 enum class CallSite : uint8_t { start, instead, statement };
 
-/// The extent of a call of a rule or primitive, in the caller's scope; nothing if the id is kNoId.
+/// Returns the extent of a call of a rule or primitive, in the caller's scope; an empty extent for kNoId.
 Extent boundCall(ExprId id, CallSite site, const RangeFrame& frame, ReachContext& context);
 
-/// The extent of a rule without overrides: of all alternatives that may be chosen with these arguments.
+/// Returns the extent of a rule, ignoring overrides: of all alternatives that may be chosen for these arguments.
 Extent boundAlternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller,
                          ReachContext& context);
 

@@ -1,6 +1,7 @@
 #pragma once
-// The extents of statements: one function for each kind that has a shape. A function gets the frame with the scope in
-// which the statement is written, and leaves scope and place as they were; the slots of names that it binds stay set.
+// Computes the extents of statements: one function for each kind that derives shapes. A function receives the frame
+// with the scope of the statement, and restores scope and place before it returns; slots of names that the statement
+// declares stay set.
 
 #include "grammar/range/extent.h"
 #include "grammar/reach/reach_context.h"
@@ -9,11 +10,11 @@ namespace sgm::reach {
 
 // reach_statements.cpp: the choice of the function, blocks, and statements that combine or deform their bodies.
 
-/// Nothing if the id is kNoId; no bound if the budget is used up.
+/// Returns an empty extent for kNoId, and an unbounded one if the step budget is used up.
 Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context);
-/// A block, a meet or an extrusion without the overrides of its tag.
+/// Returns the extent of a block, a meet or an extrusion, ignoring overrides of its tag.
 Extent boundUntagged(const StmtNode& s, RangeFrame& frame, ReachContext& context);
-/// first: the extent before the block's own statements.
+/// first: the extent of content that precedes the block's own statements.
 Extent boundBlock(const StmtNode& s, RangeFrame& frame, ReachContext& context, Extent first = Extent::nothing());
 
 // reach_transforms.cpp: moved content, and copies of it.

@@ -1,5 +1,5 @@
 #pragma once
-// The extents of rules: each use is evaluated once for all that its extent depends on.
+// Caches the extents of uses of rules: each use is evaluated once for all conditions on which its extent depends.
 
 #include <compare>
 #include <cstdint>
@@ -14,54 +14,60 @@
 
 namespace sgm::reach {
 
-/// Owns the extents of all uses of rules that were evaluated, and the uses on the path to the current statement.
+/// The cache of extents, and the path: the stack of the uses of rules that enclose the current statement.
 class RuleExtents {
  public:
   explicit RuleExtents(const Program& program);
 
-  /// The conditions on which the extent of a use depends.
+  /// The conditions on which the extent of a use may depend.
   struct Key {
     uint32_t rule = 0;
-    bool top = false;            ///< a cut in it applies to the domain
-    std::vector<double> ranges;  ///< of arguments and scope; then of the scale; then of the place
-    std::vector<std::pair<uint32_t, uint32_t>> counts;  ///< the active rules with a `depth`, and their activations
-    std::vector<uint32_t> overrides;                    ///< OverrideExtents::key
+    bool top = false;  ///< the use is the layer's start, where a cut applies to the domain
+    /// bounds of the arguments and the scope; then, for a scaled key, the scale; then, for a placed key, the place
+    std::vector<double> ranges;
+    /// rules on the path that have a `depth` limit, each with its number of activations
+    std::vector<std::pair<uint32_t, uint32_t>> counts;
+    std::vector<uint32_t> overrides;  ///< OverrideExtents::key
 
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
-  /// A use of a rule by three keys: if its extent depends neither on scale nor place, on the scale, and on the place.
+  /// The keys of one use: plain, for an extent that depends neither on scale nor place; scaled, if it depends on the
+  /// scale; placed, if it depends on the place.
   struct Use {
     Key plain, scaled, placed;
   };
 
-  /// caller: the frame of the call, whose scope and place the rule gets.
+  /// caller: the frame of the call; the rule starts with its scope and place.
   Use describe(uint32_t rule, bool top, std::span<const RangeValue> args, const RangeFrame& caller,
                std::vector<uint32_t> overrides) const;
 
-  /// Forgets all extents. The path stays.
+  /// Clears the cache, but not the path.
   void clear();
-  /// nullptr if the use was not evaluated yet. Adds the dependence of a known extent to `dependence`.
+  /// Returns the cached extent, or nullptr if the use is not evaluated yet. Adds what the cached extent depends on to
+  /// `dependence`.
   const Extent* find(const Use& use, Dependence& dependence) const;
 
-  /// Adds a use to the path. Returns false, without effect, if the same one is on it: a recursion with the same ranges
-  /// has no bound. The place does not count, since it makes no progress towards an end.
+  /// Pushes a use onto the path. Returns false, without effect, if an equal use is already on the path: a recursion
+  /// with the same ranges has no bound. Uses that differ only in their place are equal, since a move alone does not
+  /// bring a recursion closer to its end.
   bool begin(const Use& use);
-  /// Removes a use from the path, and keeps its extent for uses that agree in all that it depends on.
+  /// Pops a use from the path, and caches its extent under the key for what it depends on.
   void end(const Use& use, Dependence dependence, const Extent& extent);
 
-  /// The activations of a rule on the path.
+  /// The number of uses of the rule on the path.
   uint32_t activations(uint32_t rule) const { return active_[rule]; }
-  /// Whether the path consists of the layer's own rule alone.
+  /// Whether the path contains only the layer's start rule.
   bool isInOwnRule() const { return path_length_ == 1; }
 
  private:
-  std::map<Key, Extent> plain_, scaled_, placed_;  ///< by what the evaluations depend on
-  std::set<Key> open_;                             ///< the path, by scaled keys
+  /// extents that depend on neither scale nor place, on the scale, and on the place
+  std::map<Key, Extent> plain_, scaled_, placed_;
+  std::set<Key> open_;  ///< the scaled keys of the uses on the path
   uint32_t path_length_ = 0;
-  std::vector<uint32_t> active_;         ///< by rule: number of activations on the path
-  std::vector<bool> counted_;            ///< by rule: whether the number of activations matters
-  std::map<uint32_t, uint32_t> counts_;  ///< active ones of these
+  std::vector<uint32_t> active_;  ///< by rule: number of uses on the path
+  std::vector<bool> counted_;     ///< by rule: it has a `depth` limit, so the number of activations is part of the key
+  std::map<uint32_t, uint32_t> counts_;  ///< by rule in counted_: number of uses on the path
 };
 
 }  // namespace sgm::reach

@@ -1,5 +1,5 @@
 #pragma once
-// The calls directly in a layer's own rule, which messages judge one by one.
+// The calls that stand directly in a layer's start rule. Messages report each of them separately.
 
 #include <algorithm>
 #include <utility>
@@ -9,11 +9,10 @@
 
 namespace sgm::reach {
 
-/// Owns the only call of the layer's own rule that is evaluated, if there is one, and the calls that were met while
-/// they are collected.
+/// Collects the calls of the start rule while collecting is on, and can restrict evaluation to a single one of them.
 class StartCalls {
  public:
-  /// Collects a call, each one once. Returns whether it is evaluated.
+  /// Records a call, if collecting and not yet recorded. Returns whether the call is to be evaluated.
   bool admit(ExprId call) {
     if (isRestricted() && call != only_) return false;
     if (collects_ && std::find(calls_.begin(), calls_.end(), call) == calls_.end()) calls_.push_back(call);
@@ -24,13 +23,13 @@ class StartCalls {
     calls_.clear();
     collects_ = true;
   }
-  /// Returns the calls since beginCollecting(), in the order of evaluation.
+  /// Returns the calls recorded since beginCollecting(), in the order of evaluation.
   std::vector<ExprId> endCollecting() {
     collects_ = false;
     return std::move(calls_);
   }
 
-  /// Evaluates only this call from now on; kNoId: all calls.
+  /// From now on admits only this call; kNoId: all calls.
   void restrictTo(ExprId call) { only_ = call; }
   bool isRestricted() const { return only_ != kNoId; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The standard library: the grammars of this folder, embedded when the library is built.
+// The standard library: the .sgm files of this folder, embedded in the binary at build time.
 
 #include <span>
 #include <string_view>
