@@ -34,8 +34,9 @@ class Misfits {
   /// bound arguments. calls: the calls that enclose this one.
   void compare(const Program& program, ExprId call, IdRange formals, std::span<const RangeValue> given,
                const CallPath& calls);
-  /// Marks evaluation with overestimated scope sizes, or for pieces of ranges one by one: an argument that may lie
-  /// outside then proves nothing, and one that certainly does counts only if it does in all pieces.
+  /// Mark that scope sizes are overestimated, or that a range is evaluated in pieces. Meanwhile an argument that only
+  /// may lie outside is ignored, and one that certainly lies outside counts only if it does so in all pieces. Calls
+  /// nest.
   void enterLoose() { ++loose_; }
   void leaveLoose() { --loose_; }
   /// Returns and clears the misfits; one for each argument, or, within the standard library, for each of the library's
@@ -50,8 +51,8 @@ class Misfits {
   std::set<std::pair<ExprId, ExprId>> loosely_fitting_;
 };
 
-/// Reports misfits, at the argument or at the call of the standard library: errors if they are certain, otherwise
-/// warnings.
+/// Checks the arguments of every call, even if no derivation can reach it, against the ranges of a rule, let or field,
+/// as far as the arguments do not depend on the frame. checkReach() checks the rest, where the frame is known.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
 
 /// Checks every call, derived or not, whose arguments lie outside of the ranges of a rule, let or field, if that does

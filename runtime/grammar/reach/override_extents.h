@@ -55,6 +55,8 @@ class OverrideExtents {
     size_t at = 0;                           ///< index in `overrides` of the override whose block is being evaluated
     State state;                             ///< the state in which `inner` is evaluated
     const Target* outer = nullptr;  ///< the target around this one, if overrides' blocks are nested; null: none
+    /// Returns the extent if only the first `below` overrides exist. above: the override by path whose `inner` stands
+    /// for this content; null: none.
   };
 
   /// The extent after the first `below` overrides; above: the override by path whose `inner` asks, or null.

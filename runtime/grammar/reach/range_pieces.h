@@ -23,12 +23,13 @@ class RangePieces {
   void setMode(Mode mode) { mode_ = mode; }
   bool isDividing() const { return mode_ != Mode::none; }
 
-  /// The extent for all possible values, each in pieces if that helps. extent: evaluates with their current ranges,
-  /// which this changes meanwhile.
+  /// Returns the extent for all possible values; divides the range of each value if that tightens the result. extent:
+  /// computes the extent for the current ranges of `values`, which are changed during the call and then restored.
   Extent boundOver(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent,
                    const StepBudget& budget) const;
-  /// The extent over all pieces of a range, with the certain reach of `whole`: that applies to the whole range, as
-  /// without pieces. nullopt if the range has no pieces, or if some piece has no bound, however short it is.
+  /// Returns the union of the extents over all pieces of a value's range. `whole` is the extent without division; its
+  /// certain reach is kept, since it applies to the whole range. nullopt if the range cannot be divided, or if some
+  /// piece has no bound even at the smallest length.
   std::optional<Extent> divide(RangeValue& value, const Extent& whole, const std::function<Extent()>& extent,
                                const StepBudget& budget) const;
 

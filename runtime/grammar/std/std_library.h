@@ -11,10 +11,10 @@ struct StdFile {
   std::string_view text;
 };
 
-/// All of its files, by path.
+/// Returns all files of the library, sorted by path.
 std::span<const StdFile> stdLibrary();
 
-/// The text of the file "std/NAME.sgm", or an empty view if the library has no such file.
+/// Returns the text of the file "std/NAME.sgm"; an empty view if the library has no such file.
 std::string_view standardModule(std::string_view path);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The signatures of all built-in names. The tables are in builtins.cpp.
+// The signatures of all built-in functions, values and primitives. The tables are in builtins.cpp.
 
 #include <cstdint>
 #include <limits>
@@ -12,52 +12,60 @@ namespace sgm {
 
 /// Built-in values.
 enum class BuiltinValue : uint8_t {
-  cell,   ///< the cell being derived (rules only)
-  scope,  ///< vector: edges of the scope's box (rules only); a rule starts with its layer's cell or the domain's box
-  p,      ///< sample time: world position, metres
-  q,      ///< sample time: position in the scope in which the field is used, metres
-  u,      ///< sample time: 0..1 along the sweep (tube, beam) around it
+  cell,  ///< the cell being derived (rules only)
+  /// vector: edges of the scope's box (rules only); at a rule's start, the edges of its layer's cell or the domain's
+  /// box
+  scope,
+  p,  ///< sample time: world position, metres
+  q,  ///< sample time: position in the scope of the statement that uses the field, metres
+  u,  ///< sample time: 0..1 along the sweep (tube, beam) around it
 };
 
-/// Functions of values. Positions are in the scope with which the rule starts. A layer's start rule starts at the low
-/// corner of its cell (on axes that the domain does not name: at 0), with the world's axes.
+/// Functions of values. Positions are relative to the scope with which the rule starts. The start rule of a layer
+/// starts with the world's axes at the low corner of its cell; on axes along which the domain has no cells: at 0.
 enum class Builtin : uint8_t {
-  min,           ///< (a, b); any stage
-  max,           ///< (a, b)
-  abs,           ///< (a)
-  floor,         ///< (a) ratio
-  ceil,          ///< (a) ratio, derive time
-  sqrt,          ///< (a): halves the dimension
-  mix,           ///< (a, b, t)
-  clamp,         ///< (a, low, high)
-  smoothstep,    ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high reverses it
-  fract,         ///< (a) ratio: a - floor(a)
-  sin,           ///< (angle), derive time
-  cos,           ///< (angle), derive time
-  atan2,         ///< (y, x) -> angle, derive time
-  pow,           ///< (a, b) ratios, a >= 0, derive time
-  length,        ///< (vector), derive time
-  rand,          ///< (a, b): uniform in [a, b), by derivation path; derive time
-  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face, a segment or a number), the same at every place
-  chance,        ///< (p): true with probability p, by derivation path
+  min,         ///< (a, b); any stage
+  max,         ///< (a, b)
+  abs,         ///< (a)
+  floor,       ///< (a) ratio
+  ceil,        ///< (a) ratio, derive time
+  sqrt,        ///< (a): halves the dimension
+  mix,         ///< (a, b, t)
+  clamp,       ///< (a, low, high)
+  smoothstep,  ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high reverses it
+  fract,       ///< (a) ratio: a - floor(a)
+  sin,         ///< (angle), derive time
+  cos,         ///< (angle), derive time
+  atan2,       ///< (y, x) -> angle, derive time
+  pow,         ///< (a, b) ratios, a >= 0, derive time
+  length,      ///< (vector), derive time
+  rand,        ///< (a, b): uniform in [a, b); depends on the derivation path; derive time
+  /// rand(key, a, b): depends only on the key (a cell, a face, a segment or a number), so it is the same everywhere
+  rand_keyed,
+  chance,        ///< (p): true with probability p; depends on the derivation path
   chance_keyed,  ///< chance(key, p)
-  cell_noise,    ///< cellnoise(cell, period, salt = 0): smooth noise 0..1 at the centre of the cell; derive time
-  fractal,       ///< (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1; sample time. The arguments
-                 ///< are derive time; period is rounded to units; octaves 1..12
-  cell_point,    ///< cell.point(jitter = 0.5): a point of the cell; 0 its centre, 1 anywhere in it. bound[0]: the cell
-  cell_links,    ///< cell.links(tree = 3, extra = 0): faces crossed by a passage; each face by its lower cell only, so
-                 ///< that a link is derived once; connected within blocks of 2^tree cells and between them
-  face_point,    ///< face.point(jitter = 0.5): a point of the face. In a let the receiver may be a cell in one call and
-                 ///< a face in another: decide by the value, not by the enumerator
-  position,      ///< vec(x, y, z), the same as (x, y, z)
-  branch,  ///< branch(n, step, turn, fork = 0): segments of a branching skeleton from the scope's origin along +y, by
-           ///< derivation path; rules only. See derive/layout/skeleton.h
+  /// cellnoise(cell, period, salt = 0): smooth noise in 0..1, sampled at the centre of the cell; derive time
+  cell_noise,
+  fractal,  ///< (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1; sample time. The arguments
+            ///< are derive time; period is rounded to units; octaves 1..12
+  /// cell.point(jitter = 0.5): a random point of the cell; jitter 0: its centre, 1: anywhere in it. bound[0]: the cell
+  cell_point,
+  /// cell.links(tree = 3, extra = 0): the faces of the cell that a passage crosses (Lattice::linked). Only the lower of
+  /// a face's two cells returns it, so that a link is derived once
+  cell_links,
+  /// face.point(jitter = 0.5): a random point of the face. In a let the receiver may be a cell in one call and a face
+  /// in another: test the value's kind, not this enumerator
+  face_point,
+  position,  ///< vec(x, y, z), the same as (x, y, z)
+  /// branch(n, step, turn, fork = 0): the segments of a branching skeleton that grows from the scope's origin along +y;
+  /// depends on the derivation path; rules only. See derive/layout/skeleton.h
+  branch,
 };
 
-/// The most segments of one branch(): further side branches are omitted.
+/// The maximum number of segments of one branch(); further side branches are left out.
 inline constexpr uint32_t kMostSegments = 4096;
 
-/// Terminals. Centred on the scope's origin, axis y, unless said otherwise.
+/// Leaf shapes. Centred on the scope's origin, with axis y, unless specified otherwise.
 enum class Primitive : uint8_t {
   sphere,     ///< (r)
   box,        ///< (x, y, z) full edges, or (edge), or (vector), such as box(scope)
@@ -68,7 +76,7 @@ enum class Primitive : uint8_t {
   ellipsoid,  ///< (x, y, z) radii, or (vector)
   superq,     ///< (radii vector, square): square 0 an ellipsoid, 1 nearly a box (exponent 2 / (1 - s + s*2/kMaxPower))
   blob,       ///< (r): a sphere; the usual leaf of `sum`
-  halfspace,  ///< (below h) or (above h): y under (over) h
+  halfspace,  ///< (below h) or (above h): all points with y < h (y > h)
   tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc with a sagitta of at most bend
   beam,       ///< (a, b, r, bend = 0): like tube, with a square section of half edge r
   prism,      ///< (h, (x, z), (x, z), (x, z) ...): polygon of 3 to 64 corners, extruded to full height h
@@ -76,21 +84,23 @@ enum class Primitive : uint8_t {
               ///< voxels of the world; the shape is its part in the layer's cell; see AutomatonLimits
 };
 
-/// A voxel starts solid with the probability `fill`. In each round all voxels change at once: a voxel becomes solid if
-/// at least the share `threshold` of the voxels around it, itself included, is solid. These form a cube of 2 radius + 1
-/// voxels along the axes that the layer is cut along; along other axes all voxels are alike. The same arguments give
-/// the same voxels in every cell, rule and layer, so neighbours join without a seam; if arguments differ between cells,
-/// voxels end at the face. The field never differs from 0 by more than 7/8 of a voxel: a larger displacement makes it
-/// all solid or all void. Levels with cells larger than `coarsest_voxels` omit it. Johnson, Yannakakis, Togelius 2010.
+/// The cellular automaton `ca` (Johnson, Yannakakis, Togelius 2010, in 3D). A voxel starts solid with probability
+/// `fill`. In each round all voxels change at once: a voxel becomes solid if at least the fraction `threshold` of its
+/// neighbourhood, itself included, is solid. The neighbourhood is a cube of 2 radius + 1 voxels per edge, flat along
+/// axes on which the layer has no cells, where all voxels are equal. The same arguments give the same voxels in every
+/// cell, rule and layer, so that neighbouring cells join without a seam; if arguments differ between cells, voxels end
+/// at the cell's face. The field's absolute value is at most 7/8 of a voxel, so a larger displacement makes everything
+/// solid or void. Levels whose cell edge exceeds `coarsest_voxels` voxels omit the shape.
 struct AutomatonLimits {
-  static constexpr int32_t least_edge = 16;   ///< of a voxel, units
-  static constexpr int32_t most_voxels = 64;  ///< along a cell's edge; the fewest is one
-  static constexpr int32_t most_rounds = 16;  ///< from 0
-  static constexpr int32_t most_radius = 4;   ///< from 1
-  static constexpr int32_t most_halo = 16;    ///< rounds times radius
+  static constexpr int32_t least_edge = 16;   ///< minimum edge of a voxel, units
+  static constexpr int32_t most_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
+  static constexpr int32_t most_rounds = 16;  ///< the minimum is 0
+  static constexpr int32_t most_radius = 4;   ///< the minimum is 1
+  /// maximum of rounds times radius: how far a voxel influences others, in voxels
+  static constexpr int32_t most_halo = 16;
   static constexpr int32_t coarsest_voxels = 4;
 
-  /// The largest cell of a level at which voxels of this edge are visible; both in units.
+  /// The largest cell edge of a level that shows voxels with this edge; both in units.
   static constexpr int32_t coarsestCell(int32_t edge) {
     return edge > std::numeric_limits<int32_t>::max() / coarsest_voxels ? std::numeric_limits<int32_t>::max()
                                                                         : edge * coarsest_voxels;
@@ -104,22 +114,22 @@ struct BuiltinParam {
   Dim dim;
   bool any_dim = false;  ///< numbers of any dimension; the first such argument determines it for all any_dim parameters
   bool required = true;
-  double fallback = 0;      ///< the value if it is omitted
-  bool named_only = false;  ///< must be written `name value`
-  bool derive_only = true;  ///< a sample-time argument is an error
+  double fallback = 0;      ///< the value used if the argument is omitted
+  bool named_only = false;  ///< the argument must be written as `name value`
+  bool derive_only = true;  ///< the argument must be known at derivation time
 };
 
 struct BuiltinInfo {
   std::string_view name;
   Builtin id;
-  std::span<const BuiltinParam> params;  ///< without a method's receiver
+  std::span<const BuiltinParam> params;  ///< without the receiver of a method
 };
 
 struct PrimitiveInfo {
   std::string_view name;
   Primitive id;
   std::span<const BuiltinParam> params;
-  bool variadic = false;  ///< prism: more pairs may follow
+  bool variadic = false;  ///< further arguments may follow; only prism: more corners
 };
 
 /// The valid range of a number.
@@ -130,18 +140,18 @@ struct ValueRange {
   bool holds(double value) const { return value >= low && value <= high; }
 };
 
-std::span<const BuiltinInfo> builtinTable();      ///< functions, by enumerator
-std::span<const PrimitiveInfo> primitiveTable();  ///< by enumerator
-std::span<const ValueRange> branchRangeTable();   ///< by parameter of branch()
-// The binding of calls to these parameters: ExprNode::bound has one entry for each parameter (after the receiver of a
-// method). box and ellipsoid with one argument: only bound[0] (an edge or a vector; box(edge) is a cube), bound[1] and
-// bound[2] are kNoId. halfspace: bound[0] is `below`, bound[1] is `above`; exactly one of them is set. prism: further
-// corners follow the first three.
+std::span<const BuiltinInfo> builtinTable();      ///< functions, indexed by Builtin
+std::span<const PrimitiveInfo> primitiveTable();  ///< indexed by Primitive
+std::span<const ValueRange> branchRangeTable();   ///< valid ranges of branch()'s parameters, in their order
+// ExprNode::bound has one entry for each of these parameters (preceded by the receiver for a method). Exceptions: box
+// and ellipsoid with one argument set only bound[0], an edge or a vector (box(edge) is a cube); bound[1] and bound[2]
+// are kNoId. halfspace sets exactly one of bound[0], `below`, and bound[1], `above`. prism: further corners follow the
+// first three.
 
-/// nullptr if there is none. rand and chance give the form without a key.
+/// nullptr if there is no such function. For rand and chance, returns the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
-/// Whether `word -2m` in the arguments of a builtin or of `at` is a named argument, not a difference.
+/// Whether `word -2m`, as an argument of a builtin or of `at`, is the named argument `word`, not a difference.
 bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// The members of each declaration that the text gives, as members.h lists those of nodes.
+// Lists the written members of each kind of declaration, like members.h for nodes of the syntax tree.
 
 #include "grammar/syntax/members.h"
 #include "grammar/syntax/syntax.h"
@@ -13,7 +13,7 @@ void visitMembers(const Program&, const ImportDecl& node, V& v) {
   v.name(alias);
 }
 
-/// Without `animated` and the text for people, which are for hosts.
+/// Skips `animated` and `doc`, which only concern hosts and do not affect the meaning.
 template <class V>
 void visitMembers(const Program&, const Param& node, V& v) {
   const auto& [name, module, dim, value, low, high, has_range, whole, animated, doc, value_expr, low_expr, high_expr,
@@ -98,7 +98,7 @@ void visitMembers(const Program&, const Expectation& node, V& v) {
   v.name(per_name);
 }
 
-/// The declaration itself, in a file's list of them.
+/// One declaration of a file's ModuleSyntax::items.
 struct Declaration {
   const ModuleSyntax& syntax;
   const Item& item;

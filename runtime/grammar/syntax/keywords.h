@@ -1,6 +1,6 @@
 #pragma once
-// The words of the language. Words of arguments (period, jitter, up ...) and of clauses (reach, uses, of ...) are
-// ordinary names elsewhere; only the keywords below are reserved.
+// The words of the language. Only keywords are reserved. Argument names (period, jitter, up ...) and clause words
+// (reach, uses, of ...) may be used as names elsewhere.
 
 #include <span>
 #include <string_view>
@@ -9,24 +9,24 @@ namespace sgm {
 
 /// Reserved words, sorted.
 std::span<const std::string_view> keywordTable();
-/// Words with a meaning only where a clause expects them, sorted.
+/// Words that have a meaning only where a clause expects them, sorted.
 std::span<const std::string_view> clauseWordTable();
-/// Words reserved for constructs that this version does not have (portal ...), sorted.
+/// Words reserved for future constructs (portal ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
-/// Words that start a declaration.
+/// The words that start a declaration.
 std::span<const std::string_view> declarationTable();
-/// Words of the transforms, in the order of XformKind.
+/// The words of transforms, in the order of XformKind.
 std::span<const std::string_view> transformTable();
-/// Words of the measures, in the order of Measure.
+/// The words of measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
-/// Words of the parts of a box, in the order of BoxPart.
+/// The words for the parts of a box, in the order of BoxPart.
 std::span<const std::string_view> boxPartTable();
 
-/// The word of this language for another language's: `at` for `translate`; empty if it is unknown.
+/// Returns this language's word for a word of another language, such as `at` for `translate`; empty if it is unknown.
 std::string_view wordFor(std::string_view foreign);
 
-/// cell, scope, p, q and u: values that are always available.
+/// Whether the word is cell, scope, p, q or u, the built-in values.
 bool isValueWord(std::string_view word);
 bool isKeyword(std::string_view word);
 bool startsDeclaration(std::string_view word);

@@ -1,5 +1,5 @@
 #pragma once
-// Splits text into tokens: spans, numbers with units, text constants; comments are kept for the printer.
+// Splits text into tokens with spans, numbers with units, and text constants. Comments are stored for the printer.
 
 #include <cstdint>
 #include <memory_resource>
@@ -14,9 +14,9 @@ namespace sgm {
 
 enum class Tok : uint8_t {
   end,
-  word,    ///< a name or keyword; keyword says which
-  number,  ///< value, dim
-  text,    ///< a text constant, quotes included in the span
+  word,    ///< a name or keyword; Token::keyword tells which
+  number,  ///< uses Token::value and Token::dim
+  text,    ///< a text constant; the span includes its quotes
   open_paren,
   close_paren,
   open_brace,
@@ -46,8 +46,8 @@ struct Token {
   Tok kind = Tok::end;
   bool keyword = false;
   bool unavailable = false;
-  bool space_before = false;  ///< white space before it
-  bool broken = false;        ///< a number with an error: it has no value
+  bool space_before = false;  ///< white space precedes the token
+  bool broken = false;        ///< a malformed number; value is not set
   Dim dim;
   double value = 0;
   Span span;
@@ -56,23 +56,25 @@ struct Token {
 struct LexResult {
   std::pmr::vector<Token> tokens;  ///< ends with Tok::end
   std::pmr::vector<Comment> comments;
-  bool readable = true;           ///< false: the file is not UTF-8 text, or too long; do not parse it
-  std::vector<int> broken_lines;  ///< lines with an error, ascending: their other tokens may be wrong
-  size_t torn_at = SIZE_MAX;      ///< from this offset on an unterminated text may hide syntax
+  bool readable = true;  ///< false: the file is not UTF-8 text, or too long, and must not be parsed
+  /// lines with a lexical error, ascending; other tokens of these lines may be wrong, too
+  std::vector<int> broken_lines;
+  /// offset of an unterminated text constant, which may have swallowed syntax behind it; SIZE_MAX: none
+  size_t torn_at = SIZE_MAX;
 };
 
-/// Whether a number may have it as its unit.
+/// Whether the word is a unit of numbers, such as m or deg.
 bool isUnit(std::string_view word);
-/// Whether the text has the form of a name; it may be a word of the language.
+/// Whether the text has the form of a name. Words of the language have it, too.
 bool isName(std::string_view text);
 
-/// Reports errors and continues; the result always has an end token. More than `max_tokens` is an error.
+/// Reports errors and continues; the tokens always end with Tok::end. More than `max_tokens` tokens are an error.
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,
               std::pmr::memory_resource* memory);
 
-/// The content of a text constant without its quotes and escapes.
+/// Returns the content of a text constant: without quotes, with escapes replaced.
 std::string textContent(std::string_view quoted);
-/// The constant for this content, with quotes and escapes.
+/// Returns a text constant with this content: quoted and escaped.
 std::string quoteText(std::string_view content);
 
 }  // namespace sgm

@@ -1,9 +1,9 @@
 #pragma once
-// The members of each node of the syntax tree that the text gives, listed once for all passes that visit them.
+// Lists the members of each node of the syntax tree that are written in the text, once for all passes that visit them.
 //
-// A list names every member of its node, in order, and hands on those that the text gives: a member that is added to a
-// node does not compile until its list names it. The lists of statements are made from stmts.def. What the parser and
-// the checker find besides is not visited: bound arguments, slots, places in the text.
+// Each list destructures its node, so that a new member does not compile until the list names it, and passes the
+// written members to a visitor, in order. Lists of statements are generated from stmts.def. Members computed by the
+// parser or the checker are not visited: bound arguments, slots, spans.
 
 #include <cstdint>
 
@@ -11,20 +11,22 @@
 
 namespace sgm {
 
-/// Ignores all members. A visitor derives from it and hides what it wants to see.
+/// The base of visitors: ignores all members. A visitor derives from it and hides the functions for the members it
+/// needs.
 struct MemberVisitor {
-  void expr(ExprId) {}   ///< kNoId: not written
-  void limit(ExprId) {}  ///< an end of a range that calls must keep, which changes nothing; kNoId: not written
-  void stmt(StmtId) {}   ///< kNoId: not written
-  void name(NameId) {}   ///< a name or a text; kNoId: not written
+  void expr(ExprId) {}  ///< kNoId: not written
+  /// an end of a parameter's declared range, which is only checked and never changes a value; kNoId: not written
+  void limit(ExprId) {}
+  void stmt(StmtId) {}  ///< kNoId: not written
+  void name(NameId) {}  ///< a name or a text; kNoId: not written
   void literal(double, const Type&) {}
   void value(uint64_t) {}  ///< a choice, a flag or a whole number
-  void count(uint32_t) {}  ///< of the nodes that follow
+  void count(uint32_t) {}  ///< the number of nodes that are visited next
 };
 
 namespace members {
 
-/// A choice, a flag or a whole number as a word.
+/// Converts an enumerator, a flag or a whole number for MemberVisitor::value().
 template <class T>
 constexpr uint64_t wordOf(T value) {
   return static_cast<uint64_t>(value);
@@ -48,14 +50,14 @@ void visitNames(const Program& program, IdRange range, V& v) {
   for (uint32_t i = 0; i < range.count; ++i) v.name(program.idAt(range, i));
 }
 
-/// A range of a table of nodes.
+/// Visits a range of nodes in a table.
 template <class Table, class V>
 void visitNodes(const Program& program, const Table& table, IdRange range, V& v) {
   v.count(range.count);
   for (uint32_t i = 0; i < range.count; ++i) visitMembers(program, table[range.first + i], v);
 }
 
-/// Parts, each with its child.
+/// Visits each part, followed by its child statement.
 template <class V>
 void visitParts(const Program& program, IdRange parts, IdRange children, V& v) {
   v.count(parts.count);
@@ -220,8 +222,8 @@ void visitMembers(const Program& program, const StmtNode& node, V& v) {
   }
 }
 
-/// Calls f with each expression that the text gives the node itself, in the order of the text: not with those within
-/// these, and not with those of its statements. The node is an expression, a statement, a declaration
+/// Calls f with each expression that directly belongs to the node, in the order of the text: without expressions nested
+/// in these, and without those of statements in the node. The node is an expression, a statement, a declaration
 /// (declared_members.h) or a part of one.
 template <class Node, class F>
 void forEachExpr(const Program& program, const Node& node, F&& f) {

@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Names of one program, each stored once.
+/// Interns the names of one program: equal texts get equal ids.
 class NameTable {
  public:
   explicit NameTable(Ast& ast) : ast_(ast) {}

@@ -1,5 +1,5 @@
 #pragma once
-// The text of a derivation path, as printed in messages and written in overrides.
+// Parses the text of a derivation path, as printed in messages and written in overrides.
 
 #include <array>
 #include <cstdint>
@@ -10,31 +10,31 @@
 
 namespace sgm {
 
-/// A part of the path's text, in bytes.
+/// A byte range in the path's text.
 struct PathPlace {
   uint32_t begin = 0, end = 0;
 };
 
 struct WrittenStep {
-  std::string_view qualifier, name;  ///< `cave` and `Hall` of cave.Hall[2]; the qualifier may be empty
-  std::optional<uint32_t> index;     ///< 2
+  std::string_view qualifier, name;  ///< `cave` and `Hall` of cave.Hall[2]; qualifier may be empty
+  std::optional<uint32_t> index;     ///< 2 in cave.Hall[2]
   PathPlace place;                   ///< of the whole step
 };
 
-/// Holds views into the parsed text.
+/// A parsed path. Contains views into the parsed text.
 struct WrittenPath {
-  std::string_view layer;  ///< `net` of net(0, 0, -1)/Node; empty if no cell is named
+  std::string_view layer;  ///< `net` of net(0, 0, -1)/Node; empty if the path names no layer and cell
   std::array<int32_t, 3> cell{};
   PathPlace layer_place, cell_place;
   std::vector<WrittenStep> steps;  ///< at least one
 
-  // Set if the text is not a path:
-  std::string wanted;  ///< what should be there instead; empty: the text is a path
+  // Only set if the text is not a valid path:
+  std::string wanted;  ///< the construct that is missing at `wrong`; empty: the path is valid
   PathPlace wrong;
 };
 
-/// [ layer "(" int "," int "," int ")" "/" ] step { "/" step }; step: [ name "." ] name [ "[" int "]" ]. Spaces are
-/// allowed within the parentheses of the cell.
+/// Parses [ layer "(" int "," int "," int ")" "/" ] step { "/" step }; step: [ name "." ] name [ "[" int "]" ]. Spaces
+/// are allowed only within the parentheses.
 WrittenPath parsePath(std::string_view text);
 
 }  // namespace sgm

@@ -1,13 +1,13 @@
 #pragma once
-// The precedence of operators, for the parser and the printer.
+// The precedence of operators, common to parser and printer.
 
 #include "grammar/syntax/ast.h"
 
 namespace sgm {
 
-/// A larger value binds tighter.
+/// Operators with a larger value bind tighter.
 enum Precedence : int {
-  kLoosest = 0,  ///< `if`, ranges
+  kLoosest = 0,  ///< `if` and ranges a..b
   kOr,
   kAnd,
   kComparison,  ///< also the operand of `not`

@@ -1,5 +1,6 @@
 #pragma once
-// The valid ranges for the measures of footprints and roofs. The checker tests constants, derivation all other values.
+// The valid ranges for the measures of footprints and roofs. The checker tests constants; derivation tests other
+// values.
 
 #include "base/math.h"
 #include "grammar/syntax/builtins.h"
@@ -14,8 +15,8 @@ inline constexpr ValueRange kPitchRange{kLeastPitch * (1 - 1e-12), kMostPitch*(1
                                         "the pitch of a roof is 5deg to 80deg", "such as 35deg"};
 inline constexpr ValueRange kOverhangRange{0, 1e5, "the overhang of a roof is 0m or more", "such as overhang 0.5m"};
 
-/// The largest distance that a corner moves outwards, in overhangs: corners sharper than 60 degrees move less than
-/// their edges would require.
+/// The maximum distance by which a corner of a roof moves outwards, as a multiple of the overhang. Limits the miter of
+/// corners sharper than 60 degrees.
 inline constexpr double kMostMiter = 2;
 
 }  // namespace sgm

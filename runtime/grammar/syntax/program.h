@@ -1,5 +1,6 @@
 #pragma once
-// A checked grammar: immutable, shareable between threads, all names resolved. Created by compileGrammar() (compile.h).
+// The result of compilation: immutable, shareable between threads, with all names resolved. Created by compileGrammar()
+// (compile.h).
 
 #include <array>
 #include <compare>
@@ -24,7 +25,7 @@ namespace sgm {
 
 /// One source file: the root (index 0), an import, or a part of the standard library.
 struct Module {
-  std::pmr::string path;  ///< as named by the caller; for imports relative to the root's folder; "std/rock.sgm"
+  std::pmr::string path;  ///< as passed by the caller; for imports relative to the root's folder; or "std/rock.sgm"
   std::pmr::string text;
   std::pmr::vector<Comment> comments;
 
@@ -35,10 +36,9 @@ struct Module {
 struct Asset {
   std::pmr::string path;  ///< relative to the root's folder
   std::shared_ptr<const asset::Polyhedron> solid;
-  std::pmr::vector<std::pmr::string> material_names;  ///< in the order of the faces' indices
-  std::pmr::vector<uint16_t> materials;               ///< resolved: for each name an index in Program::materials; 0
-                                                      ///< inherits
-  uint64_t hash = 0;                                  ///< of its shape and its materials
+  std::pmr::vector<std::pmr::string> material_names;  ///< in the order of the indices in the solid's faces
+  std::pmr::vector<uint16_t> materials;  ///< resolved: for each name, an index in Program::materials; 0: inherited
+  uint64_t hash = 0;                     ///< of the solid and its material names
 
   explicit Asset(std::pmr::memory_resource* memory) : path(memory), material_names(memory), materials(memory) {}
 };
@@ -51,14 +51,14 @@ struct Param {
   double value = 0;          ///< the default
   double low = 0, high = 0;  ///< the range, ends included; low = high = value if none is written
   bool has_range = false;
-  bool whole = false;     ///< default and range are plain whole numbers: a count
+  bool whole = false;     ///< default and range are whole numbers without a unit, so values must be whole, too
   bool animated = false;  ///< meant to be varied over its range while the world is viewed
   NameId doc = kNoId;
   ExprId value_expr = kNoId, low_expr = kNoId, high_expr = kNoId;
   Span span;
 };
 
-/// `let name = expr;` or `let name(a, b) = expr;` outside of rules. Pure. Its frame has only its formals.
+/// `let name = expr;` or `let name(a, b) = expr;` outside of rules. Pure. Its frame contains only its formals.
 struct Let {
   NameId name = kNoId;
   uint32_t module = 0;
@@ -69,9 +69,9 @@ struct Let {
   Span span;
 };
 
-/// A sample-time expression with optional parameters. A global field has its own frame (its formals are the slots). A
-/// local one is evaluated in the frame of its alternative, in which its formals have slots, too; `q` refers to the
-/// scope in which it is used.
+/// A sample-time expression with optional parameters. A global field is evaluated in a frame of its own, whose slots
+/// are its formals. A local field is evaluated in the frame of the rule alternative that declares it, which also has
+/// slots for the field's formals. `q` is relative to the scope of the statement that uses the field.
 struct Field {
   NameId name = kNoId;
   uint32_t module = 0;
@@ -85,27 +85,29 @@ struct Field {
 enum class Guard : uint8_t {
   none,
   when,       ///< holds if the expression is true
-  otherwise,  ///< `else`: holds only if no other alternative does
+  otherwise,  ///< `else`: holds only if the guards of all other alternatives fail
 };
 
-/// One head of a rule with its block. Choice: one of those whose guard holds, by weight (drawn by derivation path);
-/// alternatives with `lod` and those without are derived independently (see lod).
+/// One head of a rule with its block. Derivation chooses one of the alternatives whose guards hold, at random by weight
+/// (drawn by derivation path). The choice is made separately among the alternatives with `lod` and those without.
 struct Alternative {
   IdRange formals;  ///< into Ast::formals: slots 0 .. count - 1
   Guard guard = Guard::none;
   ExprId when = kNoId;
-  ExprId weight = kNoId;      ///< ratio >= 0; kNoId is 1
-  ExprId depth = kNoId;       ///< count: with this many activations of this rule on the path, use depth_call instead
-  ExprId depth_call = kNoId;  ///< call of a rule or primitive
-  ExprId minsize = kNoId;     ///< length: for a smaller size, use minsize_call instead
+  ExprId weight = kNoId;  ///< ratio >= 0; kNoId: 1
+  /// count: if the path already contains this many activations of the rule, depth_call is derived instead
+  ExprId depth = kNoId;
+  ExprId depth_call = kNoId;  ///< a call of a rule or primitive
+  ExprId minsize = kNoId;     ///< length: if the size is smaller, minsize_call is derived instead
   ExprId minsize_call = kNoId;
-  uint32_t size_slot = kNoId;  ///< resolved: the formal that is the size (the first length); kNoId: the longest edge of
-                               ///< the scope
-  ExprId lod = kNoId;          ///< length: replaces the alternatives without `lod` (which choose among themselves) at
-                               ///< levels whose cell edge is at least this
-  StmtId body = kNoId;         ///< a block
-  uint32_t slot_count = 0;     ///< size of the frame
-  Span span;                   ///< of the head
+  /// resolved: slot of the formal that is compared with minsize (the first length); kNoId: the scope's longest edge is
+  /// compared
+  uint32_t size_slot = kNoId;
+  /// length: the alternative replaces those without `lod` at levels whose cell edge is at least this
+  ExprId lod = kNoId;
+  StmtId body = kNoId;      ///< a block
+  uint32_t slot_count = 0;  ///< number of slots in its frame
+  Span span;                ///< of the head
 };
 
 /// All alternatives of one name. A morphic rule has one alternative, whose body is one morph statement.
@@ -113,10 +115,10 @@ struct Rule {
   NameId name = kNoId;
   uint32_t module = 0;
   bool morphic = false;
-  uint64_t name_hash = 0;  ///< hashText of the name, for path keys
+  uint64_t name_hash = 0;  ///< hashText() of the name, part of path keys
   std::pmr::vector<Alternative> alternatives;
-  std::pmr::vector<uint32_t> calls;      ///< rules that it may call, including its overrides, each once, ascending
-  std::pmr::vector<uint32_t> overrides;  ///< those that may apply in it, each once, ascending
+  std::pmr::vector<uint32_t> calls;  ///< rules that it may call, including calls in its overrides, each once, ascending
+  std::pmr::vector<uint32_t> overrides;  ///< overrides that may apply in it (Program::overrides), each once, ascending
   Span span;                             ///< of the first name
 
   explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
@@ -125,43 +127,50 @@ struct Rule {
 /// A step of a derivation path: a use of `rule`.
 struct PathStep {
   uint32_t rule = kNoId;
-  uint32_t index = kNoId;  ///< among its parent's uses of the same rule; kNoId: all
+  uint32_t index = kNoId;  ///< index among the parent's activations of the same rule; kNoId: all of them
 
   friend auto operator<=>(const PathStep&, const PathStep&) = default;
 };
 
-/// `override "net(0, 0, 0)/Node/Chamber[0]" { ... }` or `override tag "cave.hall" { ... }`: a block that replaces a use
-/// of a rule, or a block with that tag. If several apply, the last of them in Program::overrides is derived, and its
-/// `inner` derives the result of the others.
+/// `override "net(0, 0, 0)/Node/Chamber[0]" { ... }` or `override tag "cave.hall" { ... }`: a block that replaces the
+/// use of a rule at that path, or each block with that tag. If several overrides apply to one target, the last of them
+/// in Program::overrides is derived; its `inner` stands for the result of the overrides before it.
 struct Override {
-  NameId address = kNoId;  ///< as written: a path, or a tag
+  NameId address = kNoId;  ///< the path or the tag, as written
   bool by_tag = false;
-  uint32_t layer = kNoId;  ///< by path: kNoId: in every layer
+  uint32_t layer = kNoId;  ///< only by path: the layer that the path names; kNoId: it applies in every layer
   bool one_cell = false;
   Int3 cell;
-  IdRange steps;  ///< by path: into Program::path_steps, from the start on; the last one is the replaced use
+  /// only by path: into Program::path_steps, starting at the layer's start rule; the last step is the replaced use
+  IdRange steps;
   StmtId body = kNoId;
-  uint32_t slot_count = 0;  ///< size of the frame; its first slots are the parameters of the last step's rule
-  uint64_t hash = 0;        ///< of the address, for path keys
+  /// number of slots in its frame; the first slots are the parameters of the rule in the last step
+  uint32_t slot_count = 0;
+  uint64_t hash = 0;  ///< hash of the address, for path keys
   Span span, address_span;
 };
 
-/// Layers are in topological order: a layer uses only layers before it.
+/// A layer. Layers are in topological order: a layer uses only layers before it.
 struct Layer {
-  NameId name = kNoId;  ///< "main" for a top-level start
-  Int3 cell;  ///< edges of a cell in units, at least 1; on axes without cells: 0; without layers: the domain's edges
-  int32_t reach = 0;  ///< in units: shapes stay within the cell's box grown by this
+  NameId name = kNoId;  ///< "main" for a top-level start, in a grammar without layers
+  /// edges of a cell in units, at least 1; 0 on axes without cells; for a top-level start: edges of the domain
+  Int3 cell;
+  int32_t reach = 0;  ///< units: shapes stay within the cell's box grown by this
   std::pmr::vector<uint32_t> uses;
-  ExprId start = kNoId;  ///< a call of a rule
+  ExprId start = kNoId;  ///< a call of a rule, derived in each cell
   ExprId cell_expr = kNoId, reach_expr = kNoId;
-  IntBox bound;  ///< of what the layer adds or cuts, from the cell's low corner; on axes without cells, and without
-                 ///< layers, from the world's origin
-  bool proven = false;  ///< `bound` lies within cell + reach; otherwise derivation must reject shapes that exceed it
-  /// In units. At levels with a longer cell edge the layer shows nothing, whatever its parameters, seed and cell: by
-  /// its own `detail`, or since all its shapes have one. INT32_MAX: no such edge; 0: it has no shapes.
+  /// Box of everything that the layer adds or cuts, in units from the cell's low corner; on axes without cells, and for
+  /// a top-level start, from the world's origin.
+  IntBox bound;
+  /// `bound` lies within cell + reach; otherwise derivation must reject shapes that exceed that box
+  bool proven = false;
+  /// The largest cell edge of a level, in units, at which the layer may show anything, whatever its parameters, seed
+  /// and cell. Limited by the layer's own `detail`, or by those of all its shapes. INT32_MAX: no limit; 0: the layer
+  /// has no shapes.
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
-  bool by_level = true;  ///< some of its shapes may be visible only at some levels, apart from its own `detail`
-  bool anchors = true;   ///< it may have anchors
+  /// some of its shapes may be visible only at some levels, by `detail` or `lod` within the layer
+  bool by_level = true;
+  bool anchors = true;  ///< the layer may derive anchors
 
   bool shows(int32_t cell_edge) const { return cell_edge <= coarsest_cell; }
 
@@ -174,36 +183,38 @@ inline constexpr int32_t kDensityEdge = 10 * kUnitsPerMetre;
 
 struct Domain {
   bool infinite = false;
-  std::array<bool, 3> axes{true, true, true};  ///< infinite: axes that are cut into cells
+  std::array<bool, 3> axes{true, true, true};  ///< only infinite: the axes along which the domain is divided into cells
   bool solid = false;
-  bool density = false;  ///< `output density`: the solid is meant as fog
-  /// Units from the surface to full density: `output density edge 20m`, or kDensityEdge if it is not written.
+  bool density = false;  ///< `output density`: the solid is to be rendered as fog
+  /// Distance in units from the surface to full density: `output density edge 20m`, or kDensityEdge if no edge is
+  /// written.
   int32_t density_edge = kDensityEdge;
-  uint16_t material = 0;  ///< of a solid domain
-  /// Finite: the world's box, centred on the origin, in units. A top-level start derives once, with its scope at the
-  /// origin and this box as its size (layer "main", cell 0 0 0, whose low corner counts as the origin). Written as
-  /// `domain finite box(x, y, z)`; otherwise the proven bound of the shapes, grown by 1 m.
+  uint16_t material = 0;  ///< material of a solid domain; index in Program::materials
+  /// Only finite: the world's box in units, centred on the origin. A top-level start (layer "main") is derived once, as
+  /// cell 0 0 0; its scope is at the origin and has this box's edges as its size, and the cell's low corner counts as
+  /// the origin. Written as `domain finite box(x, y, z)`; otherwise the proven bound of the shapes, grown by 1 m.
   IntBox box;
-  bool written = false;  ///< the program has a domain declaration
+  bool written = false;  ///< the program contains a domain declaration
   Span span;
 };
 
 enum class Measure : uint8_t { watertight, components, volume, area, triangles, genus, anchors };
 
-/// `report volume;`, `expect components(air) == 1 in block(8);`, `expect volume in 1m3..2m3 per Chamber;`
-/// For the meaning, place and precision of each measure see region/expectations.h. Volumes are in m3, areas in m2.
+/// `report volume;`, `expect components(air) == 1 in block(8);`, `expect volume in 1m3..2m3 per Chamber;`.
+/// region/expectations.h defines where and how precisely each measure is taken. Volumes are in m3, areas in m2.
 struct Expectation {
-  bool expect = false;  ///< otherwise it is a report
+  bool expect = false;  ///< true: `expect`; false: `report`
   Measure measure = Measure::watertight;
-  NameId of = kNoId;        ///< components(air): "air" or "solid"
-  ExprId above = kNoId;     ///< components(solid above 1m3): a constant
-  double above_number = 0;  ///< m3; 0: not written
+  NameId of = kNoId;        ///< of components(...): "air" or "solid"
+  ExprId above = kNoId;     ///< of components(solid above 1m3): a constant; kNoId: not written
+  double above_number = 0;  ///< value of `above` in m3; 0: not written
   bool compared = false;
   BinaryOp comparison = BinaryOp::equal;
-  ExprId value = kNoId, low = kNoId, high = kNoId;  ///< comparison, or range; constants
+  /// constants: value of a comparison, or low and high of a range; otherwise kNoId
+  ExprId value = kNoId, low = kNoId, high = kNoId;
   double value_number = 0, low_number = 0, high_number = 0;
-  int32_t block = 0;     ///< in block(n): cells along an edge; 0: not written
-  uint32_t per = kNoId;  ///< Program::rules
+  int32_t block = 0;     ///< of `in block(n)`: cells along an edge; 0: not written
+  uint32_t per = kNoId;  ///< of `per RULE`: index in Program::rules; kNoId: not written
   NameId per_name = kNoId;
   Span span;
 };
@@ -230,7 +241,7 @@ class Program {
         canonical(memory) {}
 
   Ast ast;
-  std::pmr::vector<Module> modules;  ///< modules[0] is the root
+  std::pmr::vector<Module> modules;  ///< by module index; [0] is the root
   std::pmr::vector<Asset> assets;
   std::pmr::vector<Param> params;
   std::pmr::vector<Let> lets;
@@ -238,34 +249,37 @@ class Program {
   std::pmr::vector<Rule> rules;
   std::pmr::vector<Layer> layers;
   Domain domain;
-  NameId unit = kNoId;                           ///< `units`: for lengths from outside without a unit
-  uint64_t seed = 0;                             ///< from `seed`; combine with the world's seed
-  std::pmr::vector<std::pmr::string> materials;  ///< [0] is "" (none)
-  std::pmr::vector<std::pmr::string> tags;       ///< [0] is ""
-  std::pmr::vector<std::pmr::string> names;      ///< anchor kinds and names; [0] is ""
+  NameId unit = kNoId;  ///< from `units`: the unit of lengths that the host passes without one; kNoId: not written
+  uint64_t seed = 0;    ///< from `seed`; combined with the world's seed
+  std::pmr::vector<std::pmr::string> materials;  ///< material names; [0] is "" (none)
+  std::pmr::vector<std::pmr::string> tags;       ///< tags; [0] is "" (none)
+  std::pmr::vector<std::pmr::string> names;      ///< kinds and names of anchors; [0] is "" (none)
   std::pmr::vector<Expectation> expectations;
-  /// Specific ones after general ones: by tag, by path in every cell, by path in one cell; otherwise in written order.
+  /// General overrides before specific ones: by tag, by path in every cell, by path in one cell; within each group in
+  /// written order.
   std::pmr::vector<Override> overrides;
   std::pmr::vector<PathStep> path_steps;
-  std::pmr::vector<IdRange> tag_overrides;  ///< for each of `tags`: into Ast::ids, ascending
-  /// Overrides by path in the order of their steps, by rule and then by index; a path comes before its extensions.
+  /// for each element of `tags`: overrides by this tag, a range of Ast::ids, ascending
+  std::pmr::vector<IdRange> tag_overrides;
+  /// Indices of the overrides by path, sorted by their steps (by rule, then by index); a path comes before its
+  /// extensions.
   std::pmr::vector<uint32_t> path_overrides;
-  std::pmr::string canonical;  ///< the root as `sgm fmt` writes it
-  /// Of the meaning of all files: independent of layout, comments, superfluous parentheses, and of asset content other
-  /// than shapes and materials.
+  std::pmr::string canonical;  ///< the text of the root in canonical layout, as `sgm fmt` prints it
+  /// Hash of the meaning of all files. Independent of layout, comments and redundant parentheses; of an asset, only the
+  /// solid and its materials count.
   uint64_t hash = 0;
-  LazyNumber former_hash;  ///< of formerHash (identity/former_hash.h)
+  LazyNumber former_hash;  ///< result of formerHash() (identity/former_hash.h)
 
   std::string_view text(NameId id) const { return id == kNoId ? std::string_view() : std::string_view(ast.names[id]); }
   const ExprNode& expr(ExprId id) const { return ast.exprs[id]; }
   const StmtNode& stmt(StmtId id) const { return ast.stmts[id]; }
-  /// The i-th id of a range of children or bound arguments.
+  /// Returns the i-th id of a range of Ast::ids.
   uint32_t idAt(IdRange range, uint32_t i) const { return ast.ids[range.first + i]; }
-  /// The statement inside of transforms, loops, point sets and details: the core of a block's child.
+  /// Returns the first statement within transforms, loops, scatters and details that is none of these.
   StmtId innermost(StmtId id) const;
-  /// Into Ast::ids: the overrides of blocks with this tag.
+  /// Returns the overrides of blocks with this tag, as a range of Ast::ids.
   IdRange overridesOf(uint16_t tag) const { return tag < tag_overrides.size() ? tag_overrides[tag] : IdRange{}; }
-  /// kNoId if there is none.
+  /// Return the index of the declaration with this name; kNoId if it does not exist.
   uint32_t findParam(std::string_view name) const;
   uint32_t findRule(std::string_view name) const;
   uint32_t findLayer(std::string_view name) const;

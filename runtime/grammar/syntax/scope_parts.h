@@ -1,21 +1,22 @@
 #pragma once
-// Constants shared by the division of scopes into parts and the proof of reach.
+// Constants of statements that divide scopes into parts, used by the checker, derivation and the proof of reach.
 
 #include "base/fixed.h"
 #include "grammar/syntax/builtins.h"
 
 namespace sgm {
 
-/// Metres by which a part extends beyond its border with the next part of its split. Solids that share only a face
-/// would leave a sheet of void where samples lie in that face. This exceeds the rounding of places, and the sampling
-/// step of cells of up to 2 m.
+/// Metres by which a part of a split extends beyond its border with the next part. Solids that only share a face would
+/// leave a thin sheet of void where samples lie exactly in that face. The overlap exceeds the rounding of positions,
+/// and the sampling step of cells of up to 2 m.
 inline constexpr double kSeamOverlap = 2.0 / kUnitsPerMetre;
 
 inline constexpr ValueRange kSnapRange{0.01, 1e5, "snap planes are 1cm or more apart", "such as snap y 3.2m"};
 
 inline constexpr ValueRange kSnapReachRange{0, 1e5, "the snap reach of a split is 0m or more", "such as snap 0.5m"};
 
-/// Metres by which an entrance extends out of the floor of a treemap, and doors into the spaces they join.
+/// Metres by which the entrance of a treemap extends outwards beyond its floor, and doors into the spaces that they
+/// join.
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 
 inline constexpr size_t kMostRooms = 32;

@@ -1,6 +1,6 @@
 #pragma once
-// The parser's result for one file besides the shared arrays of Program: the order of its declarations, and the parts
-// that the checker resolves. Exists only while compiling and printing.
+// The parser's result for one file, apart from the arrays in Program: the order of its declarations, and what the
+// checker resolves. Exists only during compilation and printing.
 
 #include <cstdint>
 #include <memory_resource>
@@ -27,7 +27,8 @@ enum class ItemKind : uint8_t {
   expectation
 };
 
-/// A declaration in source order. index: in the array of its kind; sub: the alternative of a rule.
+/// A declaration in source order. index: into the array of its kind in Program or ModuleSyntax; sub: only for rules,
+/// the index of the alternative.
 struct Item {
   ItemKind kind = ItemKind::version;
   uint32_t index = 0, sub = 0;
@@ -36,12 +37,12 @@ struct Item {
 
 struct ImportDecl {
   NameId path = kNoId, alias = kNoId;
-  uint32_t module = kNoId;  ///< once loaded; kNoId for an asset
-  uint32_t asset = kNoId;   ///< Program::assets, once loaded
+  uint32_t module = kNoId;  ///< index of the loaded module; kNoId: not loaded, or an asset
+  uint32_t asset = kNoId;   ///< index in Program::assets of the loaded asset; kNoId: not loaded, or a grammar file
   Span path_span, alias_span;
 };
 
-/// A word of the source that is not resolved yet.
+/// A name in the source that is not resolved yet.
 struct NamedPlace {
   NameId name = kNoId;
   Span span;
@@ -50,7 +51,7 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
-  ExprId detail = kNoId;  ///< or kNoId: visible at every level
+  ExprId detail = kNoId;  ///< kNoId: the layer is visible at every level
   std::vector<NamedPlace> uses;
   Span span;
 };
@@ -63,7 +64,7 @@ struct DomainDecl {
   ExprId density_edge = kNoId;
   NameId material = kNoId;
   bool box = false;
-  IdRange box_args;  ///< into Ast::args
+  IdRange box_args;  ///< into Ast::args: arguments of box(...), if `box` is set
   Span span;
 };
 
@@ -74,15 +75,16 @@ struct ModuleSyntax {
   std::vector<LayerDecl> layers;
   DomainDecl domain;
   NameId unit = kNoId;
-  ExprId seed = kNoId;   ///< a whole number or a text
-  ExprId start = kNoId;  ///< top level
+  ExprId seed = kNoId;   ///< a whole number or a text; kNoId: not written
+  ExprId start = kNoId;  ///< a top-level start; kNoId: not written
   Span unit_span, seed_span, start_span;
 
-  /// Whether all of the text was parsed.
+  /// The whole text was parsed without skipping a part after an error.
   bool complete = true;
-  bool readable = true;       ///< false: none of it was parsed
-  bool bounded = true;        ///< false: an unparsed part may bound the rest: a domain, or an operand of meet or sum
-  std::set<NameId> in_doubt;  ///< words of unparsed parts, where they may be declared
+  bool readable = true;  ///< false: nothing of the text was parsed
+  /// false: a skipped part may have bounded the shapes: a domain, or an operand of a meet or a sum
+  bool bounded = true;
+  std::set<NameId> in_doubt;  ///< words in skipped parts that may be names declared there
 
   bool mayDeclare(NameId name) const { return !readable || in_doubt.contains(name); }
 };

@@ -1,12 +1,12 @@
 #pragma once
-// Dimensions and types of the language's values.
+// Dimensions and types of values.
 
 #include <cstdint>
 #include <string>
 
 namespace sgm {
 
-/// Exponents of length and angle. Ratios, counts and percentages are {0, 0}; an area is {2, 0}.
+/// A physical dimension: exponents of length and angle. Ratios, counts and percentages are {0, 0}; an area is {2, 0}.
 /// Numbers are stored in metres, radians and plain ratios (30% is 0.3).
 struct Dim {
   int8_t length = 0, angle = 0;
@@ -15,16 +15,16 @@ struct Dim {
 
 inline constexpr Dim kRatio{0, 0}, kLength{1, 0}, kAngle{0, 1}, kArea{2, 0}, kVolume{3, 0};
 
-/// "length", "angle", "ratio", "area", "volume", otherwise "length^2 angle".
+/// Returns "length", "angle", "ratio", "area", "volume", or a product such as "length^2 angle".
 std::string dimName(Dim dim);
 
 enum class ValueKind : uint8_t {
-  unknown,  ///< a parameter of an uncalled rule; agrees with everything
+  unknown,  ///< type of a parameter of a rule without calls, or of an invalid expression; agrees with every type
   number,   ///< one number of dimension dim
   boolean,
   vector,    ///< three numbers of dimension dim; a point if dim is length
   pair,      ///< two numbers of dimension dim (corners of a prism, x and z)
-  cell,      ///< a cell of the layer: `cell`, or `other` of a face
+  cell,      ///< a cell of the layer: `cell`, or the member `other` of a face
   face,      ///< a face of a cell, from cell.faces or cell.links
   faces,     ///< a list of faces, for `for`
   segment,   ///< one step of a branching skeleton
@@ -37,16 +37,16 @@ enum class ValueKind : uint8_t {
 struct Type {
   ValueKind kind = ValueKind::unknown;
   Dim dim;
-  bool sample = false;   ///< known only at sample time (depends on p, q, u or noise)
-  bool any_dim = false;  ///< fits every dimension: the literal 0, and vectors of unknown content
+  bool sample = false;   ///< the value is known only at sample time, since it depends on p, q, u or noise
+  bool any_dim = false;  ///< agrees with every dimension: the literal 0, and vectors of unknown content
   friend constexpr bool operator==(const Type&, const Type&) = default;
 };
 
 inline constexpr Type kUnknownType{};
 
-/// "length", "point", "cell", "sample-time ratio" ...
+/// Returns a name for messages: "length", "point", "cell", "sample-time ratio" ...
 std::string typeName(const Type& type);
-/// "a length", "an angle": the noun with its article.
+/// Returns a noun with its article: "a length", "an angle".
 std::string withArticle(const std::string& noun);
 
 }  // namespace sgm

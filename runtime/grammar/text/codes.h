@@ -1,5 +1,5 @@
 #pragma once
-// The stable name of every diagnostic. For each, a test has a program with the exact line and column.
+// The stable code of every diagnostic. A test for each code checks the exact line and column of an example.
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Diagnostics of a grammar: the problem, its place, and the remedy. Plain values; safe to copy between threads.
+// Diagnostics of a grammar: the problem, its position and a hint. Plain values; safe to copy between threads.
 
 #include <cstdint>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// A stretch of one source file. Lines and columns count from 1, columns in bytes; end_column is one past the last
-/// byte and lies on the line of `end_line`. Offsets are bytes from the start of the file.
+/// A range of text in one source file. Lines and columns count from 1, columns in bytes. end_column is one past the
+/// last byte, on the line `end_line`. begin and end are byte offsets from the start of the file.
 struct Span {
   uint32_t file = 0;  ///< index into Program::modules (or CompileResult::files)
   uint32_t begin = 0, end = 0;
@@ -23,17 +23,17 @@ struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;     ///< stable kebab-case name, such as "unit-mismatch"; the list is in codes.h
   std::string message;  ///< one line, no full stop
-  std::string file;     ///< as named by the caller, or the path of an import
+  std::string file;     ///< file name as passed by the caller, or the path of an import
   int line = 0, column = 0, end_column = 0;
-  std::string hint;                ///< what to write instead; may be empty
-  std::vector<std::string> notes;  ///< further places and facts, one line each
+  std::string hint;                ///< how to correct the text; may be empty
+  std::vector<std::string> notes;  ///< related positions and facts, one line each
 };
 
-/// "file:line:column: error: message", the source line, a caret line, the hint and the notes. `source`: the text of the
-/// diagnostic's file; if empty, source line and caret are omitted. Ends with a line feed.
+/// Returns "file:line:column: error: message", the source line, a line with a caret, the hint and the notes, each
+/// ending with a line feed. source: the text of the diagnostic's file; if empty, source line and caret are omitted.
 std::string renderDiagnostic(const Diagnostic& diagnostic, std::string_view source);
 
-/// "1 error, 2 warnings"
+/// Returns a summary such as "1 error, 2 warnings".
 std::string countDiagnostics(const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace sgm

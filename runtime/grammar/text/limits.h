@@ -1,5 +1,5 @@
 #pragma once
-// The inputs and the limits of a compilation: grammar text is untrusted.
+// The options and the limits of a compilation. Limits are needed since grammar text is untrusted.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace sgm {
 
-/// Returns the text of an import, or the bytes of an asset. Paths are already checked: relative to the root file's
-/// folder, forward slashes, no empty part, no "." or "..", no drive, not absolute, ending in ".sgm" or ".glb", at most
-/// 255 bytes. A resolver that reads a disk must also refuse links that leave the folder. Called only on the compiling
-/// thread.
+/// Reads imported grammar files and assets. The compiler passes only valid paths: relative to the root file's folder,
+/// with forward slashes, without empty parts, "." or "..", without a drive, ending in ".sgm" or ".glb", at most 255
+/// bytes. A resolver that reads from a disk must also reject links that lead out of the folder. Called only on the
+/// compiling thread.
 class ImportResolver {
  public:
   virtual ~ImportResolver() = default;
-  /// Error io if there is no such file; limit if it is longer than `limit` bytes.
+  /// Returns the content of a file. Errors: io if it does not exist; limit if it is longer than `limit` bytes.
   virtual Result<std::string> read(std::string_view path, size_t limit) = 0;
 };
 
@@ -27,17 +27,17 @@ struct CompileLimits {
   size_t total_bytes = 4u << 20;         ///< of all files
   size_t asset_bytes = 16u << 20;        ///< of one asset
   size_t total_asset_bytes = 64u << 20;  ///< of all assets
-  uint32_t files = 64;                   ///< the same limit applies to assets
+  uint32_t files = 64;                   ///< maximum number of grammar files; the same limit applies to assets
   uint32_t import_depth = 16;
   uint32_t nesting = 64;            ///< of blocks and of expressions
-  uint32_t nodes = 1u << 20;        ///< tokens, expressions and statements together
-  uint32_t diagnostics = 50;        ///< errors after which the compiler gives up
-  uint32_t bound_steps = 1u << 18;  ///< for the analyses that evaluate rules
-  int32_t neighbours = 4;           ///< cells that a layer's reach may cover to each side
+  uint32_t nodes = 1u << 20;        ///< maximum number of tokens, and of expressions and statements together
+  uint32_t diagnostics = 50;        ///< number of errors after which the compiler stops
+  uint32_t bound_steps = 1u << 18;  ///< for each attempt of the analyses that evaluate rules over intervals
+  int32_t neighbours = 4;           ///< maximum number of cells that a layer's reach may span on each side
 };
 
 struct CompileOptions {
-  ImportResolver* resolver = nullptr;  ///< nullptr: only std/ imports
+  ImportResolver* resolver = nullptr;  ///< nullptr: only imports of "std/..." are available
   CompileLimits limits;
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();  ///< must outlive the Program
 };

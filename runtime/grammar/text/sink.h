@@ -1,5 +1,5 @@
 #pragma once
-// Collects the diagnostics of all compiler stages. Also text functions that they share.
+// Collects the diagnostics of all compiler stages. Also text functions that the stages share.
 
 #include <initializer_list>
 #include <string>
@@ -14,24 +14,24 @@ namespace sgm {
 std::string join(std::initializer_list<std::string_view> parts);
 /// The shortest decimal number that reads back as the same double.
 std::string numberText(double value);
-/// A length for people: "214 m", "2.5 m", "unbounded" if it is not finite.
+/// Formats a length for messages: "214 m", "2.5 m"; "unbounded" if it is not finite.
 std::string metresText(double metres);
 
 class DiagnosticSink {
  public:
   explicit DiagnosticSink(uint32_t error_limit) : error_limit_(error_limit) {}
 
-  /// Names a file for spans; the index is Span::file.
+  /// Adds the next file, whose spans have Span::file equal to the number of files added before.
   void addFile(std::string_view path) { files_.emplace_back(path); }
 
   Diagnostic& error(const Span& span, std::string_view code, std::string message, std::string hint = {});
   Diagnostic& warning(const Span& span, std::string_view code, std::string message, std::string hint = {});
 
   uint32_t errorCount() const { return errors_; }
-  /// Whether the limit is exceeded: stages then stop early.
+  /// Whether there are more errors than the limit; compiler stages then stop early.
   bool full() const { return errors_ > error_limit_; }
   std::string place(const Span& span) const;
-  /// Takes the diagnostics, sorted by file and place, without duplicates.
+  /// Removes and returns the diagnostics, sorted by file and position, without duplicates.
   std::vector<Diagnostic> take();
 
  private:
@@ -49,15 +49,15 @@ class DiagnosticSink {
   Diagnostic surplus_;
 };
 
-/// Finds the candidate nearest to a misspelt word; empty if none is near enough.
+/// Finds, among the offered candidates, the one most similar to a misspelt word; empty if none is similar enough.
 class Suggestion {
  public:
   explicit Suggestion(std::string_view word) : word_(word) {}
   void offer(std::string_view candidate);
   std::string_view best() const { return best_; }
-  /// "did you mean `x`?" or empty.
+  /// Returns "did you mean `x`?", or an empty text if there is no similar candidate.
   std::string hint() const;
-  /// The same, or another hint if it is empty.
+  /// Like hint(), but returns `other` instead of an empty text.
   std::string hintOr(std::string_view other) const { return best_.empty() ? std::string(other) : hint(); }
 
  private:
