@@ -8,16 +8,18 @@
 
 namespace sgm {
 
-/// For one chunk, which must outlive it unchanged. Const calls are thread-safe.
+/// Computes bounds of the shapes of one chunk, which must outlive this object unchanged. Const functions are
+/// thread-safe.
 class ShapeBounds {
  public:
   explicit ShapeBounds(const GrammarChunk& chunk);
 
-  /// Contains every integer point where the shape's field is <= a units, at every level (whatever `detail` leaves out),
-  /// including float rounding: one unit and 1e-6 of the size. An unbounded axis extends to the ends of int32.
+  /// Returns a box that contains every integer point where the shape's field is at most `a` units, at every level
+  /// (whether or not `detail` drops parts there). Includes a margin for float rounding: one unit and 1e-6 of the size.
+  /// Axes without a bound extend to the ends of int32.
   IntBox level(uint32_t shape, double a) const;
 
-  /// The range of an expression over all space.
+  /// The range of an expression's values at all positions.
   Range range(uint32_t expr) const { return ranges_[expr]; }
 
  private:
@@ -25,10 +27,10 @@ class ShapeBounds {
   std::vector<Range> ranges_;
 };
 
-/// ShapeBounds(chunk).level(shape, a), for a single query.
+/// Same as ShapeBounds(chunk).level(shape, a), for a single query.
 IntBox levelBounds(const GrammarChunk& chunk, uint32_t shape, double a);
 
-/// True if the box ends on every axis before the ends of int32.
+/// Whether the box has a bound on every axis, that is, does not extend to the ends of int32.
 bool isBounded(const IntBox& box);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Operations on a whole derived chunk.
+// Operations on a whole grammar chunk.
 
 #include <cstdint>
 
@@ -7,12 +7,13 @@
 
 namespace sgm {
 
-/// Moves everything by an integer offset in units: frames, group bounds, anchors, sweeps, the anchors of coordinates
-/// and the origins of noise. The field of the result at p + offset equals that of the chunk at p, to the bit. Positions
+/// Moves all content by an integer offset in units: frames, group bounds, anchors, sweeps, the origins of coordinates
+/// and of noise. The field of the result at p + offset equals that of the original at p, bit for bit. Positions
 /// saturate at the ends of the world. `cell` is unchanged.
 void translate(GrammarChunk& chunk, Int3 offset);
 
-/// Hash of everything visible to a mesh or a game: all except notes and the order in memory. Equal on every machine.
+/// Returns a hash of everything that affects a mesh or a game: all except notes and the order in memory. Equal on every
+/// machine.
 uint64_t hashChunk(const GrammarChunk& chunk);
 
 }  // namespace sgm

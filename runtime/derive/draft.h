@@ -1,5 +1,5 @@
 #pragma once
-// A grammar chunk under construction: appends shapes and expressions, folds constants, and finally keeps the used ones.
+// A grammar chunk under construction: appends shapes and expressions, folds constants, and finally copies what is used.
 
 #include <array>
 #include <compare>
@@ -13,29 +13,30 @@
 
 namespace sgm {
 
-/// A number known during derivation, or else an expression of the field (`node`, into GrammarChunk::exprs).
+/// A number: either a constant known during derivation, or an expression that the field evaluates (`node`, into
+/// GrammarChunk::exprs).
 struct Num {
   double value = 0;
   uint32_t node = kNone;
   bool constant() const { return node == kNone; }
 };
 
-/// The origin of a shape.
+/// Where a shape comes from.
 struct Origin {
   PathKey key;
-  uint32_t activation = 0;  ///< of a rule, in interpret::Activations
+  uint32_t activation = 0;  ///< index in interpret::Activations of the rule's activation
   Span span;
 };
 
-/// Copies groups out of a draft with everything that they refer to, in the same order. One copier serves many copies:
-/// each takes time only for its own content. The chunk must outlive it unchanged.
+/// Copies groups, and everything that they refer to, from one chunk to others, preserving the order. One copier can
+/// make many copies; each takes time only for its own content. The chunk must outlive the copier unchanged.
 class DraftCopier {
  public:
   explicit DraftCopier(const GrammarChunk& from);
 
-  /// Appends to `out`, which must be empty; the caller sets layer, cell, anchors and notes.
+  /// Appends the groups' content to `out`, which must be empty. The caller must set layer, cell, anchors and notes.
   void copy(std::span<const Group> groups, GrammarChunk& out);
-  /// For each shape of the last copy, in its order: its index in the original chunk.
+  /// For each shape of the last copy, in order: its index in the original chunk.
   std::span<const uint32_t> copied() const { return shapes_; }
 
  private:
@@ -47,8 +48,9 @@ class DraftCopier {
   uint32_t copyBlock(uint32_t block, GrammarChunk& out) const;
 
   const GrammarChunk& from_;
-  std::vector<uint32_t> shape_at_, expr_at_, noise_at_;  ///< index in the copy; kNone: not in it
-  std::vector<uint32_t> shapes_, exprs_, noises_;        ///< the contents of the copy, ascending
+  /// by index in the original: index in the copy; kNone: not copied
+  std::vector<uint32_t> shape_at_, expr_at_, noise_at_;
+  std::vector<uint32_t> shapes_, exprs_, noises_;  ///< the copied elements as original indices, ascending
   std::vector<uint32_t> open_;
 };
 
@@ -56,39 +58,40 @@ class Draft {
  public:
   explicit Draft(std::pmr::memory_resource* memory);
 
-  // Arithmetic: folds constants in double, shares equal expressions.
+  // Arithmetic. Folds constants in double precision, and shares equal expressions.
   Num unary(ExprOp op, Num a);
   Num binary(ExprOp op, Num a, Num b);
   Num mix(Num a, Num b, Num t);
   Num smoothstep(double low, double high, Num x);
   Num clamp(Num x, Num low, Num high) { return binary(ExprOp::minimum, binary(ExprOp::maximum, x, low), high); }
-  /// dot(row, p - anchor) in metres; row has no unit.
+  /// The expression dot(row, p - anchor), in metres; the row is dimensionless.
   Num coordinate(Int3 anchor, std::array<double, 3> row);
   Num noise(const NoiseSpec& spec);
   Num sweep(uint32_t polyline);
 
-  /// The expression of a number; a constant gets a new one.
+  /// Returns the expression for a number; creates one for a constant.
   uint32_t expression(Num n);
-  /// Places three expressions one after another, as `warp` reads them; returns the first.
+  /// Appends three consecutive expressions, as `warp` requires them; returns the index of the first.
   uint32_t triple(const std::array<Num, 3>& n);
 
   uint32_t addPolyline(std::vector<Int3> points);
-  /// Links the shape to the line that it follows (Shape::first_point).
+  /// Links the shape to the polyline that it follows, for texture coordinates (Shape::first_point).
   void setLine(uint32_t shape, uint32_t polyline);
-  /// Corners in any order; they are stored counter-clockwise seen from +y, as ProgramBuilder::prism requires.
+  /// Accepts corners in either direction; stores them counter-clockwise seen from +y, as ProgramBuilder::prism
+  /// requires.
   uint32_t addPrismPoints(std::span<const Int3> points);
-  /// solid: block.size() values, x fastest. Sets block.first_word.
+  /// Appends the children, sets s.first_child and s.child_count, and returns the shape's index.
   uint32_t addVoxels(VoxelBlock block, std::span<const uint8_t> solid);
 
   /// Appends the children and sets s.first_child and s.child_count.
   uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});
-  /// Replaces the children by a subset of them, in the same order.
+  /// Replaces a shape's children by a subset of them, in the same order.
   void keepChildren(uint32_t shape, std::span<const uint32_t> children);
 
   Shape& shape(uint32_t i) { return chunk_.shapes[i]; }
   const Shape& shape(uint32_t i) const { return chunk_.shapes[i]; }
   const Origin& origin(uint32_t shape) const { return origins_[shape]; }
-  /// The first polyline along which the shape or one of its parts is swept; kNone if there is none.
+  /// Returns the first polyline along which the shape or one of its parts is swept; kNone if none is.
   uint32_t sweepOf(uint32_t shape) const { return sweeps_[shape]; }
   void setSweep(uint32_t shape, uint32_t polyline) { sweeps_[shape] = polyline; }
   const GrammarChunk& chunk() const { return chunk_; }
@@ -103,7 +106,8 @@ class Draft {
   GrammarChunk chunk_;
   std::pmr::vector<Origin> origins_;
   std::pmr::vector<uint32_t> sweeps_;
-  std::pmr::vector<uint32_t> polyline_first_;  ///< into chunk_.points; one more than there are polylines
+  /// first point of each polyline, into chunk_.points; one extra element at the end
+  std::pmr::vector<uint32_t> polyline_first_;
   std::pmr::vector<uint32_t> polyline_count_;
   std::pmr::map<ExprKey, uint32_t> interned_;
   std::pmr::map<std::array<uint64_t, 2>, uint32_t> noises_;

@@ -1,5 +1,5 @@
 #pragma once
-// Interval bounds of expressions that are evaluated per sample.
+// Interval bounds of expressions that the field evaluates per sample.
 
 #include <span>
 #include <vector>
@@ -13,11 +13,12 @@ struct Range {
   double lo = 0, hi = 0;
 };
 
-/// The range of every expression of the chunk over `box` (coordinates are unbounded if box is nullptr), widened for the
-/// float arithmetic of the field. The ranges of noise and sweep are -1..1 and 0..1.
+/// Returns the range of every expression of a chunk over `box` (null: over all positions), widened to include the
+/// rounding of the field's float arithmetic. Noise has the range -1..1, a sweep 0..1.
 std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box = nullptr);
 
-/// Contains the image of the box under a warp by the three expressions from `offset` on, in metres. Saturates.
+/// Returns a box that contains all positions to which a warp moves the points of `box`. offset: index of the first of
+/// the three expressions of the displacement, in metres. Saturates.
 IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box);
 
 }  // namespace sgm

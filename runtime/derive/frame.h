@@ -1,6 +1,6 @@
 #pragma once
-// Placement of a scope during derivation: double precision in metres from an integer base, so that a cell 2,000 km from
-// the origin computes the same numbers as one at the origin.
+// The placement of a scope during derivation: double precision, in metres from an integer base, so that a cell 2,000 km
+// from the origin computes the same numbers as one at the origin.
 
 #include <array>
 
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Metres (or a direction) in double precision.
+/// A position in metres, or a direction, in double precision.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -22,34 +22,35 @@ struct Vec3 {
 double dot(Vec3 a, Vec3 b);
 Vec3 cross(Vec3 a, Vec3 b);
 double length(Vec3 a);
-Vec3 normalised(Vec3 a);  ///< zero stays zero
-/// A unit vector perpendicular to `tangent` (of length 1), as close to `wanted` as possible.
+Vec3 normalised(Vec3 a);  ///< a zero vector stays zero
+/// Returns the unit vector perpendicular to `tangent` (of length 1) that is closest to `wanted`.
 Vec3 across(Vec3 tangent, Vec3 wanted);
 
 /// Converts metres to units, rounded to nearest, saturating at the ends of the world. NaN gives 0.
 int32_t toUnits(double metres);
 
-/// World to local and back: world = base + offset + scale * (axes * local). The axes are orthonormal columns; a mirror
-/// makes their determinant -1. Scale is uniform and positive: any other would shear rotated contents.
+/// A transform from local coordinates to the world: world = base + offset + scale * (axes * local). The axes are
+/// orthonormal; with a mirror their determinant is -1. The scale is uniform and positive, since a non-uniform scale
+/// would shear rotated content.
 struct Placement {
-  Int3 base;                                              ///< units; low corner of the deriving cell
-  Vec3 offset;                                            ///< metres from base
+  Int3 base;                                              ///< low corner of the cell being derived, units
+  Vec3 offset;                                            ///< metres, relative to base
   std::array<double, 9> axes{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major matrix whose columns are the local axes
   double scale = 1;
 
-  Vec3 direction(Vec3 local) const;  ///< rotated (and mirrored), not scaled
-  Vec3 toCell(Vec3 local) const;     ///< metres from base
-  Vec3 fromCell(Vec3 cell) const;    ///< the inverse of toCell
-  Int3 snap(Vec3 local) const;       ///< world units, to nearest
+  Vec3 direction(Vec3 local) const;  ///< to a direction in the world: rotated and mirrored, but not scaled
+  Vec3 toCell(Vec3 local) const;     ///< to metres relative to base
+  Vec3 fromCell(Vec3 cell) const;    ///< inverse of toCell()
+  Int3 snap(Vec3 local) const;       ///< to world units, rounded to nearest
 
   Placement moved(Vec3 local) const;
-  /// Rotated right-handed by `angle` radians (at most 1e6) about `axis`, which need not have length 1. Quarter turns
-  /// are exact. A zero axis leaves the placement unchanged.
+  /// Returns the placement rotated right-handed by `angle` radians (at most 1e6) about `axis`, which may have any
+  /// length. Quarter turns about a coordinate axis are exact. A zero axis changes nothing.
   Placement turned(Vec3 axis, double angle) const;
   Placement scaled(double factor) const;
   Placement mirrored(int axis) const;
 
-  /// The frame of a shape centred at `local`: the centre is snapped to units, and the rows are rounded once to float.
+  /// Returns the frame of a shape centred at `local`. The centre is rounded to units, and the rows once to float.
   Frame frame(Vec3 local = {}) const;
 };
 

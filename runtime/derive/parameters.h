@@ -1,5 +1,5 @@
 #pragma once
-// The values of a program's parameters, as set by a host.
+// The values of a program's parameters, as set by the host.
 
 #include <string_view>
 #include <vector>
@@ -9,21 +9,22 @@
 
 namespace sgm {
 
-/// One number per Program::params, in its order; metres, radians and plain ratios.
+/// One number for each of Program::params, in their order; metres, radians or plain ratios.
 struct ParameterValues {
   std::vector<double> values;
 
   static ParameterValues defaults(const Program& program);
 
-  /// Rejects an unknown name, a number outside the declared range, or a fraction for an integer parameter, and then
-  /// leaves the values unchanged.
+  /// Sets a parameter. Returns an error, and changes nothing, if the name is unknown, the value is outside of the
+  /// declared range, or it is not an integer although the parameter requires one.
   Result<void> set(const Program& program, std::string_view name, double value);
 };
 
-/// Represents a parameter in a set of parameters, by its index; several may share one bit.
+/// Returns the bit that stands for a parameter in a bit set of parameters. Parameters whose indices are equal modulo 64
+/// share a bit.
 inline uint64_t parameterBit(uint32_t index) { return uint64_t{1} << (index % 64); }
 
-/// The parameters whose values differ. Precondition: both belong to the same program.
+/// Returns the bit set of the parameters whose values differ. Precondition: both belong to the same program.
 uint64_t changedParameters(const ParameterValues& a, const ParameterValues& b);
 
 }  // namespace sgm

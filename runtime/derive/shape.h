@@ -1,8 +1,8 @@
 #pragma once
-// The result of deriving a cell: implicit nodes with bounds, tags and anchors, never triangles.
+// The result of deriving a cell: implicit shapes with bounds and tags, and anchors; never triangles.
 //
-// Everything here is plain data in world units (1/1024 m), so that a grammar chunk can be hashed, cached, moved by an
-// integer offset and compiled to a field program (field/compile.h) without the grammar.
+// All types are plain data in world units (1/1024 m), so that a grammar chunk can be hashed, cached, moved by an
+// integer offset, and compiled to a field program (field/compile.h) without the grammar.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,8 @@ namespace sgm {
 
 inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 
-/// World to local: q = rows * float(p - origin). Rows are orthonormal (scale is folded into sizes).
+/// A transform from the world to local coordinates: q = rows * float(p - origin). The rows are orthonormal; scales are
+/// already applied to the sizes of shapes.
 struct Frame {
   Int3 origin;
   std::array<float, 9> rows{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -26,24 +27,24 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// Leaves give a distance in units, negative inside; each line describes its `size`, in units unless noted. Combiners
-/// act on children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
+/// Leaves give a distance in units, negative inside; their comments describe Shape::size, in units unless noted.
+/// Combiners combine the fields of their children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
 enum class ShapeKind : uint8_t {
   sphere,           ///< size: r
   box,              ///< size: half extents x y z
   cylinder,         ///< axis y, centre at origin; size: r, half height
   truncone,         ///< axis y, centre at origin; size: bottom radius, top radius, half height
-  capsule,          ///< from the origin to origin + `axis` (size[1..3], world axes, units); size[0]: r. Rows are unused
+  capsule,          ///< from the origin to origin + size[1..3] (in world axes); size[0]: r. Frame::rows is unused
   torus,            ///< axis y; size: ring radius, tube radius
   ellipsoid,        ///< size: radii x y z; field (|q/radii| - 1) * min(radii)
   superquadric,     ///< size: radii x y z, exponent n >= 2 (no unit); field (||q/radii||_n - 1) * min(radii)
   halfspace,        ///< solid below the plane local y = 0
   prism,            ///< polygon in local xz, counter-clockwise seen from +y, extruded along y; size: half height
   unite,            ///< hard union of the children
-  meet,             ///< hard intersection
+  meet,             ///< hard intersection of the children
   subtract,         ///< the first child minus all others
   unite_smooth,     ///< round union, radius `amount` units: max(k, min d) - sqrt(sum max(k - d, 0)^2)
-  meet_smooth,      ///< the same by negation
+  meet_smooth,      ///< round intersection, as unite_smooth of the negated children
   subtract_smooth,  ///< the first child minus the others, rounded by `amount`
   sum,              ///< compact-kernel sum over leaves d with inner radius r (Shape::inner_radius):
         ///< (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L, T = the kernel at d = 0, so that a lone leaf keeps
@@ -56,34 +57,36 @@ enum class ShapeKind : uint8_t {
   voxels,       ///< no child; size: half extents x y z, upright; max(samples of `block` (field/voxels.h), that box)
 };
 
-inline constexpr float kSumSupport = 1.6f;  ///< support of the sum's kernel, in inner radii
-inline constexpr float kMaxPower = 20.0f;   ///< exponent of the squarest superquadric
+inline constexpr float kSumSupport = 1.6f;  ///< support of the sum's kernel as a multiple of the inner radius
+inline constexpr float kMaxPower = 20.0f;   ///< exponent of the superquadric at squareness 1
 
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  uint16_t material = 0;  ///< index into the grammar's materials; 0: inherit the existing one (a cut) or the default
-  uint16_t tag = 0;       ///< index into the grammar's tags; 0: none
+  /// index into the grammar's materials; 0: inherits the material of the solid (for a cut), or the default
+  uint16_t material = 0;
+  uint16_t tag = 0;                           ///< index into the grammar's tags; 0: none
   uint32_t first_child = 0, child_count = 0;  ///< range in GrammarChunk::children
   uint32_t expr = kNone;                      ///< root in GrammarChunk::exprs
-  /// Range in GrammarChunk::points: a prism's corners; for a sweep, which is a shape or the union of its pieces, the
-  /// line that it follows, used only for texture coordinates.
+  /// Range in GrammarChunk::points. A prism: its corners. A sweep (one shape, or the union of its pieces): the polyline
+  /// that it follows, used only for texture coordinates.
   uint32_t first_point = 0, point_count = 0;
-  uint32_t block = kNone;       ///< in GrammarChunk::blocks (voxels)
-  int32_t detail = 0;           ///< drop the shape at levels whose cell edge is larger, in units; 0: never
-  int32_t coarsest = 0;         ///< with lod alternatives: keep only where the cell edge >= this, in units; 0: always
-  float amount = 0;             ///< smooth radius in units, or a constant morph t
-  float inner_radius = 0;       ///< leaves under a sum, in units
-  std::array<float, 6> size{};  ///< of a sweep's union: its radius in units
+  uint32_t block = kNone;  ///< voxels: index in GrammarChunk::blocks
+  int32_t detail = 0;      ///< the shape is dropped at levels whose cell edge is larger than this, in units; 0: never
+  /// by `lod`: the shape is dropped at levels whose cell edge is smaller than this, in units; 0: never
+  int32_t coarsest = 0;
+  float amount = 0;             ///< radius of a smooth combiner in units, or t of a morph with constant t
+  float inner_radius = 0;       ///< only for leaves in a sum, units
+  std::array<float, 6> size{};  ///< by kind; for the union of a sweep's pieces: its radius, units
   Frame frame;
 };
 
-/// Expressions that are evaluated per sample (`field ...`), as a directed acyclic graph in child-before-parent order.
-/// Lengths are metres here; a comparison yields 0 or 1.
+/// Expressions that the field evaluates per sample (`field ...`): a directed acyclic graph, children before parents.
+/// Lengths are in metres; a comparison gives 0 or 1.
 enum class ExprOp : uint8_t {
   constant,    ///< value
-  coordinate,  ///< (row . float(p - anchor)) / 1024: any axis of the world or of a local frame, from an integer anchor
-  noise,       ///< fractal gradient noise in -1..1; see NoiseSpec in `noise`
-  sweep,       ///< 0..1 along the polyline points[first .. first + count), nearest segment
+  coordinate,  ///< (row . float(p - anchor)) / 1024: the coordinate along any axis of the world or of a local frame
+  noise,       ///< fractal gradient noise in -1..1, with the settings GrammarChunk::noises[Expr::noise]
+  sweep,       ///< 0..1 along the polyline points[first_point .. first_point + point_count), at the nearest segment
   negate,
   absolute,
   floor,
@@ -94,7 +97,7 @@ enum class ExprOp : uint8_t {
   divide,
   minimum,
   maximum,
-  less,        ///< less: a < b ? 1 : 0
+  less,        ///< 1 if a < b, otherwise 0
   smoothstep,  ///< a: x, b: lower edge, c: upper edge (both constants, lower < upper or the reverse)
   mix,         ///< (1 - c) a + c b, exactly a at c = 0 and b at c = 1
 };
@@ -110,9 +113,10 @@ struct Expr {
 };
 
 struct NoiseSpec {
-  Int3 origin;                      ///< a corner of the lattice
-  int32_t period = kUnitsPerMetre;  ///< of the first octave, in units, at least 1; each next octave halves it
-  uint32_t octaves = 1;             ///< 1..12; the field drops those with a period under two cells
+  Int3 origin;  ///< position of a lattice corner, units
+  /// lattice edge of the first octave in units, at least 1; each further octave halves it
+  int32_t period = kUnitsPerMetre;
+  uint32_t octaves = 1;  ///< 1..12; the field drops octaves whose period is shorter than two cells
   uint32_t seed = 0;
 };
 
@@ -134,15 +138,15 @@ struct VoxelBlock {
   size_t words() const { return (size() + 63) / 64; }
 };
 
-/// The number of voxels that a block holds on every side beyond the cell of the grammar whose shape reads it: enough to
+/// A top-level shape. Groups are combined by hard min (add) or max (cut), each as a whole.
 /// determine the field wherever that shape does, at every level (see field/voxels.h).
 inline constexpr int32_t kVoxelMargin = 12;
 
-/// A top-level node. A group is atomic: it adds or cuts as a whole, by hard min and max against other groups.
+/// contains every point where the root shape's field is <= 0, at every level
 struct Group {
   uint32_t root = 0;  ///< in GrammarChunk::shapes
   bool cut = false;
-  IntBox bounds;  ///< contains every point where the root's field is <= 0, at every level
+  IntBox bounds;  ///< An oriented point for gameplay, emitted only by the cell that contains it.
   PathKey key;    ///< canonical order of groups within a layer
 };
 
@@ -170,6 +174,7 @@ struct GrammarChunk {
   /// The parameters that were read (parameterBit): changing only the others does not change the result. Includes the
   /// parameters read by the layers below.
   uint64_t parameters = 0;
+  /// of a sweep: positions in the world, units; of a prism: x and z are local coordinates in units
   std::pmr::vector<Shape> shapes;
   std::pmr::vector<uint32_t> children;
   std::pmr::vector<Expr> exprs;

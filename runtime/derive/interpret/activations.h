@@ -1,5 +1,5 @@
 #pragma once
-// The uses of rules in one cell, and their names.
+// The activations of rules in one cell, and their derivation paths.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace sgm::interpret {
 
-/// A range of the overrides by path that may apply in the cell, in the order of Program::path_overrides.
+/// A range of Program::path_overrides, limited to those that may apply in the cell.
 struct PathRange {
   uint32_t first = 0, end = 0;
 };
@@ -20,25 +20,26 @@ struct PathRange {
 /// One activation of a rule, or of an override's block.
 struct Activation {
   uint32_t rule = 0;
-  uint32_t edit = kNone;     ///< index in Program::overrides if a block: below the activation that it replaces
-  NameId qualifier = kNoId;  ///< of the rule in its call: `cave` of cave.Hall
+  /// for an override's block: index in Program::overrides; its parent is the activation that the block replaces
+  uint32_t edit = kNone;
+  NameId qualifier = kNoId;  ///< the module alias in the rule's call: `cave` of cave.Hall; kNoId: none
   uint32_t parent = kNone;
-  uint32_t index = 0;                  ///< among the parent's activations of the same rule, for the readable path
-  Placement start;                     ///< the initial scope of the rule
-  std::vector<PathRange> leads;        ///< the overrides by path whose first steps lead here
-  uint32_t steps = 0;                  ///< the number of these steps
-  std::vector<uint32_t> child_counts;  ///< pairs: rule, activations
+  uint32_t index = 0;            ///< index among the parent's activations of the same rule, for the derivation path
+  Placement start;               ///< the initial scope of the rule
+  std::vector<PathRange> leads;  ///< the overrides by path whose first `steps` steps lead to this activation
+  uint32_t steps = 0;            ///< number of steps from the layer's start to this activation
+  std::vector<uint32_t> child_counts;  ///< pairs: a rule, and the number of its activations directly below this one
 };
 
-/// All activations of the cell so far, in order of derivation. An activation is denoted by its index; kNone is the
-/// layer itself, outside of all rules.
+/// All activations in the cell so far, in order of derivation, identified by their indices. kNone stands for the layer
+/// itself, outside of all rules.
 class Activations {
  public:
   explicit Activations(const CellInputs& in) : in_(in) {}
 
-  /// Returns the index of the new activation. References to others become invalid.
+  /// Appends an activation and returns its index. Invalidates references to other activations.
   uint32_t add(Activation&& activation);
-  /// Counts one more activation of `rule` directly below `parent`, and returns its index among them.
+  /// Counts a new activation of `rule` directly below `parent`. Returns its index among them.
   uint32_t countChild(uint32_t parent, uint32_t rule);
 
   Activation& operator[](uint32_t i) { return all_[i]; }
@@ -46,9 +47,10 @@ class Activations {
   uint32_t count() const { return static_cast<uint32_t>(all_.size()); }
   size_t bytes() const { return all_.size() * sizeof(Activation); }
 
-  /// The derivation path, "net(0, 0, -1)/Node/Chamber[0]"; empty for kNone.
+  /// Returns the derivation path, "net(0, 0, -1)/Node/Chamber[0]"; empty for kNone.
   std::string pathText(uint32_t activation) const;
-  /// The nearest activation that a path can name: activations within the blocks of overrides cannot be overridden.
+  /// Returns the nearest enclosing activation that is not within an override's block: only such activations have a path
+  /// that can be overridden.
   uint32_t outsideOfEdits(uint32_t activation) const;
 
  private:

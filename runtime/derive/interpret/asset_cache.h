@@ -1,5 +1,5 @@
 #pragma once
-// Assets fitted into scopes.
+// Caches assets that are fitted into scopes.
 
 #include <cstdint>
 #include <map>
@@ -13,25 +13,25 @@
 
 namespace sgm::interpret {
 
-/// The convex pieces of an asset in one size, or the reason why there are none.
+/// The convex pieces of an asset that is fitted to one size.
 struct FittedAsset {
   std::vector<asset::ConvexPiece> pieces;
-  std::string trouble;
+  std::string trouble;  ///< why it cannot be fitted; empty: `pieces` is valid
 };
 
-/// The assets of the cell in the sizes to which they were fitted so far.
+/// The fitted assets of the cell, by asset, size and zones.
 class AssetCache {
  public:
   explicit AssetCache(const Program& program) : program_(program) {}
 
-  /// number: in Program::assets. size: metres. Counts the work of a new size. The result stays valid with the cache,
-  /// and is empty if the budget has failed.
+  /// number: index in Program::assets. size: metres. Counts steps in the budget for a new size. The result is valid as
+  /// long as the cache, and is empty if the budget has failed.
   const FittedAsset& fit(uint32_t number, asset::Point size, const std::vector<asset::FitZone>& zones, const Span& span,
                          uint32_t activation, Budget& budget);
 
  private:
   const Program& program_;
-  std::map<std::vector<uint64_t>, FittedAsset> fitted_;  ///< by asset, size and zones
+  std::map<std::vector<uint64_t>, FittedAsset> fitted_;  ///< key: asset, size and zones
 };
 
 }  // namespace sgm::interpret

@@ -1,5 +1,5 @@
 #pragma once
-// The limits of a derivation, and its messages.
+// Enforces the limits of a derivation, and collects its messages.
 
 #include <algorithm>
 #include <cstddef>
@@ -28,14 +28,14 @@ class [[nodiscard]] Nested {
   uint32_t& depth_;
 };
 
-/// The part of its limits that the cell has used up so far, the error that ended it, and the notes on parts left out.
-/// Messages name the span in the grammar and the path of the activation.
+/// What the cell has consumed of its limits so far, the error that ended it, and notes on shapes left out. Messages
+/// contain the span in the grammar and the derivation path of the activation.
 class Budget {
  public:
   Budget(const CellInputs& in, const Activations& activations, const Draft& draft)
       : in_(in), limits_(in.limits), activations_(activations), draft_(draft) {}
 
-  /// Counts steps of work. Returns false if the cell has failed, or fails because of them.
+  /// Counts steps of work. Returns false if the cell has failed, or fails now because the limit is exceeded.
   bool step(uint64_t count, const Span& span, uint32_t activation) {
     if (failed()) return false;
     steps_ += std::min(count, limits_.steps + 1);
@@ -43,40 +43,40 @@ class Budget {
     failBySteps(span, activation);
     return false;
   }
-  /// Meaningless if the cell has failed.
+  /// Undefined if the cell has failed.
   uint64_t stepsLeft() const { return limits_.steps - steps_; }
 
-  /// Counts memory of the cell outside of its draft and its activations.
+  /// Counts memory of the cell that is not part of the draft or the activations.
   void hold(size_t bytes) { held_bytes_ += bytes; }
-  /// Returns false, and fails, if the cell takes too much memory.
+  /// Fails the cell and returns false if it uses too much memory.
   bool withinBytes(const Span& span, uint32_t activation);
 
-  /// Counts one more statement or expression around the next ones during the lifetime of the result.
+  /// Counts one level of nested statements or expressions, for the lifetime of the result.
   Nested nest() { return Nested(nesting_); }
-  /// Returns false, and fails, if statements and expressions are nested too deep.
+  /// Fails the cell and returns false if statements and expressions are nested too deep.
   bool withinNesting(const Span& span, uint32_t activation) {
     if (nesting_ <= limits_.nesting) return true;
     failByNesting(span, activation);
     return false;
   }
 
-  /// Ends the derivation with an error; only the first counts.
+  /// Ends the derivation with an error. Only the first error is stored.
   void fail(const std::string& what, const Span& span, uint32_t activation);
   bool failed() const { return error_.has_value(); }
   /// Precondition: failed().
   const Error& error() const { return *error_; }
 
-  /// Keeps a note, or only counts it if there are too many.
+  /// Stores a note; if there are already too many, only counts it.
   void note(const std::string& message, const Span& span, uint32_t activation);
   bool isFullOfNotes() const { return notes_.size() >= limits_.notes; }
   void dropNote() { ++dropped_notes_; }
-  /// Moves the notes to the end of `out`, with one more that counts the dropped ones.
+  /// Moves the notes to the end of `out`, followed by a note with the number of dropped ones, if any.
   void moveNotes(std::pmr::vector<DeriveNote>& out);
 
  private:
   void failBySteps(const Span& span, uint32_t activation);
   void failByNesting(const Span& span, uint32_t activation);
-  /// Names the file of a span to the message if it is not the root.
+  /// Appends the file name of a span to the message if the file is not the root.
   void addFile(const Span& span, std::string& message) const;
 
   const CellInputs& in_;

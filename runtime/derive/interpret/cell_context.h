@@ -1,8 +1,9 @@
 #pragma once
-// The derivation of one cell. Everything outside of this folder calls derive.h.
+// The state of the derivation of one cell. Code outside of this folder only uses derive.h.
 //
-// A statement is a function over the context and an Env (statements.h). It gets numbers from the Evaluator, adds shapes
-// and anchors to the ShapeSink, and calls rules through the RuleRunner; each of these counts its work in the Budget.
+// Each kind of statement is a function of the context and an Env (statements.h). It evaluates numbers with the
+// Evaluator, adds shapes and anchors to the ShapeSink, and calls rules through the RuleRunner; each of these counts its
+// work in the Budget.
 
 #include <cstdint>
 #include <memory_resource>
@@ -23,25 +24,26 @@
 namespace sgm::interpret {
 
 struct CellOptions {
-  int32_t coarse_edge = 0;     ///< derive only for levels with this cell edge (units) or a larger one; 0: for all
-  RuleWatch* watch = nullptr;  ///< must outlive the context
+  /// derive only what is visible at levels with this cell edge (units) or a larger one; 0: derive everything
+  int32_t coarse_edge = 0;
+  RuleWatch* watch = nullptr;  ///< records the calls of one rule; null: none. Must outlive the context
 };
 
-/// The state that all statements of one cell share. Its parts refer to each other, so it stays in its place.
+/// The state shared by all statements of one cell. Not movable, since its members refer to each other.
 struct CellContext {
   CellContext(const CellInputs& inputs, const CellOptions& options, std::pmr::memory_resource* memory);
   CellContext(const CellContext&) = delete;
   CellContext& operator=(const CellContext&) = delete;
 
-  /// True if this derivation is for levels that do not show shapes with this `detail`, and nothing else depends on
-  /// them.
+  /// Whether shapes with this `detail` (units; 0: none) can be left out: this derivation is only for levels that do not
+  /// show them, and no other shape depends on them.
   bool skips(int32_t detail, const Env& env) const { return !env.whole && detail > 0 && coarse_edge > detail; }
 
   const CellInputs in;
-  const Program& program;  ///< that of `in`
+  const Program& program;  ///< same as in.program
   Activations activations;
   PathOverrides path_overrides;
-  const int32_t coarse_edge;  ///< as in CellOptions; 0 if overrides by path may apply
+  const int32_t coarse_edge;  ///< CellOptions::coarse_edge; 0 if overrides by path may apply in the cell
   Draft draft;
   Budget budget;
   ShapeSink sink;

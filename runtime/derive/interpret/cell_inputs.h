@@ -1,5 +1,5 @@
 #pragma once
-// The constant inputs of the derivation of one cell.
+// The inputs of the derivation of one cell.
 
 #include <cstdint>
 
@@ -13,13 +13,13 @@
 
 namespace sgm::interpret {
 
-/// The arguments of deriveCell(), and the constants that follow from them. The arguments must outlive it.
+/// The arguments of deriveCell(), and constants computed from them. The arguments must outlive this object.
 struct CellInputs {
   CellInputs(const Program& of, const ParameterValues& values, uint64_t world_seed, uint32_t layer_number, Int3 at,
              const LowerLayers& below, const DeriveLimits& most);
 
-  /// The origin of the layer's own activation in metres from `base`: a whole domain is one cell, which is centred on
-  /// the origin of its scope instead of beginning there.
+  /// Returns the origin of the start rule's scope in metres from `base`. It is 0, except for a top-level start, whose
+  /// only cell is centred on the origin of its scope.
   Vec3 origin() const;
 
   const Program& program;
@@ -29,7 +29,7 @@ struct CellInputs {
   const Layer& layer;
   const uint32_t layer_index;
   const Int3 cell;
-  const uint64_t seed;  ///< of the world and the grammar
+  const uint64_t seed;  ///< combines the seeds of the world and the grammar
   Lattice lattice;
   Int3 base;  ///< low corner of the cell, units
 };

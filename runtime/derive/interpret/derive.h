@@ -15,47 +15,50 @@
 
 namespace sgm {
 
-/// Limits for untrusted grammars. Reaching one fails the whole cell; none depends on a clock.
+/// Limits of the derivation of one cell, for untrusted grammars. Exceeding a limit fails the whole cell. No limit
+/// depends on time, so the result is reproducible.
 struct DeriveLimits {
-  uint64_t steps = 4'000'000;       ///< statements, expressions, candidates of point sets, segments, samples of probes
-  uint32_t depth = 64;              ///< rules within rules
-  uint32_t nesting = 768;           ///< statements within statements, over all rules; bounds the machine's stack
-  uint32_t shapes = 200'000;        ///< before unused ones are dropped
-  size_t bytes = size_t{64} << 20;  ///< of the draft, activations, anchors, segments and candidates of a point set
-  uint32_t notes = 64;              ///< further notes are counted, not kept
+  /// counts statements, expressions, candidates of point sets, segments, samples of probes
+  uint64_t steps = 4'000'000;
+  uint32_t depth = 64;        ///< maximum depth of rules that call rules
+  uint32_t nesting = 768;     ///< maximum depth of nested statements, over all rules; bounds the stack
+  uint32_t shapes = 200'000;  ///< counts all derived shapes, including those that are later dropped as unused
+  /// memory of the draft, activations, anchors, segments and candidates of point sets
+  size_t bytes = size_t{64} << 20;
+  uint32_t notes = 64;  ///< maximum number of notes; further ones are only counted
 };
 
-/// True for a top-level start, without layers: it derives once, over the domain, as cell 0 0 0; its scope is at the
-/// origin.
+/// Whether the layer is the top-level start of a grammar without layers. It is derived once for the whole domain, as
+/// cell 0 0 0, with its scope at the origin.
 bool isWhole(const Layer& layer);
 
-/// The box of a cell of the layer; all of an axis if it is not divided into cells; everything without layers. hi is the
-/// last unit that still belongs to the cell. Saturates.
+/// Returns the box of a cell in units, both ends included. It covers the whole axis where the layer has no cells, and
+/// everything for a top-level start. Saturates.
 IntBox cellBox(const Layer& layer, Int3 cell);
 
-/// Units by which bounds may exceed the declared reach: bounds are rounded outwards, and a shape that reaches exactly
-/// as far as declared must not fail because of that rounding.
+/// Tolerance in units by which bounds may exceed the declared reach: bounds are rounded outwards, and a shape that
+/// extends exactly to the declared reach must not fail because of that.
 inline constexpr int32_t kReachSlack = 64;
 
 /// The limit of shapes of the cell: cellBox() grown by the reach and kReachSlack; unlimited along axes that are not
 /// divided into cells. Without layers (a top-level start): the domain's box, grown by the slack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
-/// The interval along an axis that may contain shapes of a layer's cells, both ends included. In units from a cell's
-/// low corner, or from the world's origin along axes that are not divided into cells, and without layers. Empty if lo >
-/// hi.
+/// The interval along one axis that may contain shapes of a layer's cell, both ends included, in units. Relative to the
+/// cell's low corner; along axes without cells, and for a top-level start, relative to the world's origin. Empty if lo
+/// > hi.
 struct ShapeSpan {
   int64_t lo = 0, hi = 0;
 };
 
-/// cellLimit() as a span, the same for all cells.
+/// Returns the interval of cellLimit() along an axis, which is the same for all cells.
 ShapeSpan reachSpan(const Program& program, const Layer& layer, int axis);
 
-/// The part of reachSpan() within Layer::bound, with a margin for rounding, if the layer is proven; otherwise all of
-/// it.
+/// Returns the part of reachSpan() that lies within Layer::bound plus a margin for rounding, if the layer is proven;
+/// otherwise the whole reachSpan().
 ShapeSpan shapeSpan(const Program& program, const Layer& layer, int axis);
 
-/// The box that contains every group of the cell: shapeSpan() at the cell. Saturates.
+/// Returns the box that contains all groups of the cell, from shapeSpan() on each axis. Saturates.
 IntBox shapeLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// Derives a cell. Pure: depends only on the arguments and on the answers of `lower` for layers that this one uses.
@@ -73,28 +76,29 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
                                 uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Derives only the part of the cell that is visible at levels with this cell edge, in units, or a larger one; without
-/// anchors, which belong to the whole cell, and only with notes on derived shapes. Far levels show little of a cell
-/// full of windows; this is many times faster and takes a fraction of the memory.
+/// Derives only the part of the cell that is visible at levels with cell edges of `cell_edge` units or more. Returns no
+/// anchors, which belong to the complete cell, and notes only about shapes that are derived. At coarse levels little of
+/// a cell full of windows is visible, so this is many times faster and needs a fraction of the memory.
 ///
-/// Pure and thread-safe as deriveCell, and with its errors; but shapes that `detail` leaves out count against no limit.
-/// At these levels the shapes produce the same field as those of the whole cell, bit for bit if the field is exact.
+/// Pure and thread-safe, with the same errors as deriveCell(), except that shapes left out by `detail` do not count
+/// against limits. At these levels the result has the same field as the complete cell, bit for bit if the field is
+/// exact.
 Result<GrammarChunk> deriveCoarseCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
                                       uint32_t layer, Int3 cell, int32_t cell_edge, const LowerLayers& lower,
                                       const DeriveLimits& limits = {},
                                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// The origin of a shape of a cell.
+/// Where a shape comes from.
 struct ShapeOrigin {
-  uint32_t use = 0;  ///< of its statement, into TracedCell::uses
-  Span span;         ///< of the statement, or of the call in it
+  uint32_t use = 0;  ///< index in TracedCell::uses of the activation that contains the shape's statement
+  Span span;         ///< of the shape's statement, or of the call in that statement
 };
 
-/// A cell, and the origins of its shapes.
+/// A derived cell with the origin of each shape.
 struct TracedCell {
   GrammarChunk chunk;                ///< the result of deriveCell
-  std::vector<ShapeOrigin> origins;  ///< of each of its shapes
-  std::vector<std::string> uses;     ///< activations of rules: derivation paths, as in DeriveNote
+  std::vector<ShapeOrigin> origins;  ///< one for each of chunk.shapes
+  std::vector<std::string> uses;     ///< derivation paths of the activations, as in DeriveNote
 };
 
 /// deriveCell with the origin of every shape. Takes longer and much more memory.
@@ -102,20 +106,20 @@ Result<TracedCell> traceCell(const Program& program, const ParameterValues& para
                              uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                              std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// One activation of a rule by itself: the shapes derived below the call as groups that add, wherever the call is.
-/// Enclosing statements (a cut, a meet, a sum, a smooth union, a displacement, a warp, a morph) are left out, except
-/// for the levels of an enclosing `detail` or `lod`. If the rule is a layer's start, its cuts of the domain cut the
-/// other shapes; if it has only such cuts, the removed parts count as its shapes.
+/// The content of one activation of a rule: the shapes derived below its call, as groups that add, whatever statements
+/// enclose the call. The effects of enclosing statements (cut, meet, sum, smooth union, displace, warp, morph) are
+/// ignored, except the levels of an enclosing `detail` or `lod`. If the rule is a layer's start, its cuts of the domain
+/// cut the rule's other shapes; if it has only such cuts, the removed solids count as its shapes.
 struct RuleInstance {
-  Int3 origin;          ///< of the rule's initial frame, units
+  Int3 origin;          ///< origin of the rule's initial scope, units
   std::string path;     ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as in overrides
-  bool bounded = true;  ///< otherwise some shape has no bound, and the chunk holds no group
-  GrammarChunk chunk;   ///< with the anchors below the call that the cell owns; without notes
+  bool bounded = true;  ///< false: some shape has no bound, and the chunk contains no groups
+  GrammarChunk chunk;   ///< includes the anchors below the call that lie within the cell; no notes
 };
 
-/// Same as deriveCell, but returns every activation of `rule` in the cell instead of the whole cell; in order of
-/// derivation, nested ones after the enclosing ones. Shapes may exceed the layer's reach. Errors: as deriveCell; also
-/// limit if the copies have more than limits.shapes shapes in total.
+/// Like deriveCell(), but returns each activation of `rule` in the cell separately, in order of derivation; nested ones
+/// follow their enclosing one. Shapes may exceed the layer's reach. Errors: those of deriveCell(); also limit, if all
+/// copies together have more than limits.shapes shapes.
 Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const ParameterValues& parameters,
                                                   uint64_t world_seed, uint32_t layer, Int3 cell, uint32_t rule,
                                                   const LowerLayers& lower, const DeriveLimits& limits = {},

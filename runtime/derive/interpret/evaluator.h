@@ -1,6 +1,7 @@
 #pragma once
-// Expressions. One evaluator for both stages: a number is a constant, or a node of the field that Draft folds and
-// shares. evaluate.cpp: operators and names. functions.cpp: the functions of the language.
+// Evaluates expressions, both those known at derivation time and those evaluated per sample: a number is either a
+// constant, or a node of the field, which Draft folds and shares. evaluate.cpp: operators and names. functions.cpp: the
+// functions of the language.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,28 +18,28 @@
 
 namespace sgm::interpret {
 
-/// The lists to which values refer, of segments and of pieces of plans, and the set of parameters that were read.
+/// Evaluates expressions. Stores the segments and plan pieces to which values refer, and the set of parameters read.
 class Evaluator {
  public:
   Evaluator(const CellInputs& in, const Activations& activations, Draft& draft, Budget& budget)
       : in_(in), program_(in.program), activations_(activations), draft_(draft), budget_(budget) {}
 
-  /// Returns zeros if the cell has failed, or fails in the expression.
+  /// Returns zeros if the cell has failed, or fails while the expression is evaluated.
   Value evaluate(ExprId id, const Env& env);
   double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
 
-  /// The argument of a call at an index of its bound arguments; kNoId if there is none.
+  /// Returns the expression of a call's argument, by index into its bound arguments; kNoId if it is omitted.
   ExprId boundAt(const ExprNode& node, uint32_t index) const;
-  /// The key of draws that depend on a value.
+  /// Returns the key for random draws that depend only on this value.
   PathKey keyOf(const Value& value) const;
 
   const Segment& segment(uint32_t i) const { return segments_[i]; }
   const PlanPiece& piece(uint32_t i) const { return pieces_[i]; }
   uint32_t pieceCount() const { return static_cast<uint32_t>(pieces_.size()); }
-  /// References to other pieces become invalid.
+  /// Invalidates references to other pieces.
   void addPiece(PlanPiece piece);
 
-  /// As in GrammarChunk::parameters.
+  /// The parameters read so far, as a bit set like GrammarChunk::parameters.
   uint64_t parametersRead() const { return parameters_read_; }
 
  private:
@@ -64,8 +65,8 @@ class Evaluator {
   const Activations& activations_;
   Draft& draft_;
   Budget& budget_;
-  std::vector<Segment> segments_;  ///< of all skeletons
-  std::vector<PlanPiece> pieces_;  ///< of all footprints
+  std::vector<Segment> segments_;  ///< of all skeletons in the cell
+  std::vector<PlanPiece> pieces_;  ///< of all plans in the cell
   uint64_t parameters_read_ = 0;
 };
 

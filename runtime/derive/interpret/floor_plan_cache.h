@@ -1,5 +1,5 @@
 #pragma once
-// Floor plans that are laid out once for all storeys of a tower.
+// Caches floor plans, so that equal storeys of a tower are laid out only once.
 
 #include <cstdint>
 #include <map>
@@ -11,16 +11,16 @@
 
 namespace sgm::interpret {
 
-/// Some of the floor plans of the cell so far.
+/// A cache of the most expensive part of treemaps: floor plans of the cell.
 class FloorPlanCache {
  public:
-  /// layOutFloor(), or the known plan of the same inputs. Counts the work; if the budget fails, the result is
-  /// meaningless.
+  /// Returns the result of layOutFloor(), cached by all inputs. Counts steps in the budget; if the budget fails, the
+  /// result must not be used.
   FloorPlan layOut(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
                    const Span& span, uint32_t activation, Budget& budget);
 
  private:
-  std::map<std::vector<uint64_t>, FloorPlan> plans_;  ///< by all inputs
+  std::map<std::vector<uint64_t>, FloorPlan> plans_;  ///< key: all inputs of layOutFloor()
 };
 
 }  // namespace sgm::interpret

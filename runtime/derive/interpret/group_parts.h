@@ -1,5 +1,5 @@
 #pragma once
-// The remainder of a group that exceeds its reach, if levels may leave parts of it out.
+// Trims a group that exceeds its cell's limit, if some of its parts are visible only at some levels.
 
 #include <functional>
 #include <optional>
@@ -9,27 +9,28 @@
 
 namespace sgm {
 
-/// A part of a group that is left out, and the extent that it, or the shape that contains it, would have.
+/// A part that is removed from a group, and the bounds that it, or the shape that contains it, would have.
 struct LeftOutPart {
   uint32_t shape = 0;
   IntBox bounds;
 };
 
 struct GroupParts {
-  bool any = false;  ///< otherwise the whole group is left out
-  IntBox bounds;     ///< of the remainder
+  bool any = false;  ///< false: nothing remains, so the whole group must be left out
+  IntBox bounds;     ///< of the remaining parts
   std::vector<LeftOutPart> left_out;
 };
 
-/// Removes parts until the remainder has bounds within `limit`. Levels with large cells do not derive parts that they
-/// do not show, and must produce the same result: so the coarsest level that shows a part decides whether it stays.
+/// Removes parts until the bounds of the remainder are within `limit`. A part is removed or kept by the coarsest level
+/// that shows it: a derivation for coarse levels only must give the same result as the complete one, although it does
+/// not derive parts that are invisible at these levels.
 ///
-/// group: a chunk with only that group. step: receives the amount of work before each step; nullopt if it returns
-/// false.
+/// group: a chunk that contains only that group. step: called with the amount of work before each step; if it returns
+/// false, the function returns nullopt.
 std::optional<GroupParts> partsWithin(const GrammarChunk& group, const IntBox& limit,
                                       const std::function<bool(uint64_t)>& step);
 
-/// True if a cell with this limit may own a group with these bounds.
+/// Whether a cell with this limit may contain a group with these bounds.
 bool isWithin(const IntBox& bounds, const IntBox& limit);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Terminals of the grammar to leaves.
+// Derives leaf shapes from primitives.
 
 #include <cstdint>
 #include <initializer_list>
@@ -9,11 +9,11 @@
 
 namespace sgm::interpret {
 
-/// Derives a call of a primitive; a leaf with impossible sizes is left out, with a note. node: the call.
+/// Derives a call of a primitive. A leaf with an invalid size is left out, with a note. node: the call.
 void addPrimitive(Primitive kind, const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env,
                   ShapeList& out);
 
-/// The primitive `ca`: the voxels of a cellular automaton in the whole cell (voxels.cpp).
+/// Derives the primitive `ca`: the voxels of a cellular automaton in the whole cell (voxels.cpp).
 void addAutomaton(const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out);
 
 /// The exponent of a superquadric: 2 at squareness 0, kMaxPower at 1.

@@ -1,5 +1,6 @@
 #pragma once
-// The view of a layer on the layers below it. stream/ implements it for finished cells; a pure function of the world.
+// Access of a layer's derivation to the layers below it. A pure function of the world; stream/ implements it for
+// finished cells.
 
 #include <array>
 #include <cstdint>
@@ -10,9 +11,10 @@
 
 namespace sgm {
 
-inline constexpr int32_t kProbeStep = 256;  ///< units between samples of a probe: thinner walls may be missed
+/// Units between samples of a probe. Walls thinner than this may be missed.
+inline constexpr int32_t kProbeStep = 256;
 
-/// The content of all positions of a box, if proven.
+/// What is proven about all positions in a box: all void (open), all solid, or neither (unknown).
 enum class BoxContent : uint8_t { open, solid, unknown };
 
 /// All integer positions (units) at most `radius` units from the centre.
@@ -21,38 +23,40 @@ struct Ball {
   int32_t radius = 0;
 };
 
-inline constexpr int kBallHalvings = 6;            ///< of the ball's box along each axis: 64 pieces of it
-inline constexpr uint32_t kMostBallPieces = 4096;  ///< visited pieces; a ball that needs more stays unproven
+/// number of times that the ball's box is halved along each axis; 64 pieces per axis
+inline constexpr int kBallHalvings = 6;
+/// maximum number of pieces to visit; if a ball needs more, nothing is proven
+inline constexpr uint32_t kMostBallPieces = 4096;
 
 struct BallProof {
   bool holds = false;
-  uint32_t pieces = 0;  ///< visited pieces: the cost of the proof
+  uint32_t pieces = 0;  ///< number of visited pieces, a measure of the work
 };
 
-/// Tries to prove that the ball contains only `wanted`. Its box is halved along each axis until every piece that meets
-/// the ball is proven, one of them is proven to differ, or the halvings or pieces are used up. content: of boxes of
-/// positions; it must give a proven answer for boxes of one position.
+/// Tries to prove that all positions in the ball are `wanted`. Subdivides the ball's box, halving each axis, until
+/// every piece that intersects the ball is proven, one piece is proven to differ, or the limits above are reached.
+/// content: classifies a box of positions; must not return `unknown` for a box of one position.
 BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<BoxContent(const IntBox&)>& content);
 
-/// Thread-safe: called from every deriving thread.
+/// Thread-safe: called concurrently by all deriving threads.
 class LowerLayers {
  public:
   virtual ~LowerLayers() = default;
 
-  /// True if the world of the domain and the layers up to and including `layer` is solid at p.
+  /// Whether the domain with all layers up to and including `layer` is solid at p.
   virtual bool solid(uint32_t layer, Int3 p) const = 0;
 
-  /// The distance in units from `from` along `direction` (length 1) to the first solid point within `length` units;
-  /// nullopt if there is none, or if `from` itself is solid. The default samples every kProbeStep units (and at the
-  /// end), then halves the interval down to one unit: position t is solid and t - 1 is not.
+  /// Returns the distance in units from `from`, along `direction` (of length 1), to the first solid position within
+  /// `length` units; nullopt if there is none, or if `from` is solid. The default implementation samples every
+  /// kProbeStep units and at the end, then bisects to one unit: position t is solid and t - 1 is not.
   virtual std::optional<int32_t> probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
                                        int32_t length) const;
 
-  /// proveBall() for the world of solid(). The default only answers for boxes of one position.
+  /// Runs proveBall() on solid(). The default implementation only classifies boxes of one position.
   virtual BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const;
 };
 
-/// The point t units from `from` along `direction`, rounded to nearest on each axis.
+/// Returns the position t units from `from` along `direction`, rounded to nearest on each axis.
 Int3 probePoint(Int3 from, std::array<double, 3> direction, int32_t t);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Overrides by path: `override "net(0, 0, 0)/Node/Chamber[0]" { ... }`.
+// Finds where overrides by path apply, such as `override "net(0, 0, 0)/Node/Chamber[0]" { ... }`.
 
 #include <cstdint>
 #include <vector>
@@ -10,17 +10,19 @@
 
 namespace sgm::interpret {
 
-/// The overrides by path that may apply in the cell, and for each whether its path has led to an activation.
+/// The overrides by path that may apply in the cell. Records for each whether its path led to an activation.
 class PathOverrides {
  public:
   PathOverrides(const CellInputs& in, Activations& activations);
 
   bool isEmpty() const { return all_.empty(); }
 
-  /// Follows paths into a new activation of a rule. Returns those that end there, as in Program::overrides.
+  /// Advances paths into a new activation of a rule. Returns the overrides whose path ends there, in the order of
+  /// Program::overrides.
   std::vector<uint32_t> enter(uint32_t activation);
 
-  /// If the path of an override leads nowhere in the only cell that it names, notes how far it does lead.
+  /// Adds a note for each override that names this cell but whose path leads to no activation; the note says how much
+  /// of the path exists.
   void noteMissed(Budget& budget) const;
 
  private:
@@ -29,7 +31,7 @@ class PathOverrides {
     bool found = false;
   };
 
-  /// True if the activation is where the first `count` steps of the path lead.
+  /// Whether the first `count` steps of the override's path lead to the activation.
   bool isAt(uint32_t activation, const Override& edit, uint32_t count) const;
 
   const CellInputs& in_;

@@ -1,5 +1,5 @@
 #pragma once
-// Calls of rules, and the choice among their alternatives.
+// Derives calls of rules, and chooses among their alternatives.
 
 #include <cstdint>
 #include <vector>
@@ -12,15 +12,15 @@ namespace sgm::interpret {
 
 struct CellContext;
 
-/// The rules that are being derived at the moment: how many in all, and how many activations of each.
+/// Calls rules. Counts the rules that are being derived at the moment: in total, and the activations of each rule.
 class RuleRunner {
  public:
-  /// watch: is told of the calls of its rule; may be null. Both must outlive the runner.
+  /// watch: records the calls of one rule; may be null. Both arguments must outlive the runner.
   RuleRunner(CellContext& context, RuleWatch* watch);
 
-  /// Derives a call of a rule with its overrides, and appends its shapes. node: the call.
+  /// Derives a call of a rule with its overrides, and appends its shapes to `out`. node: the call.
   void call(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
-  /// Derives an activation of a rule without its overrides: one alternative for each range of levels.
+  /// Derives an activation of a rule without overrides: one of the alternatives without `lod`, and one of those with.
   void runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out);
 
  private:
@@ -31,7 +31,7 @@ class RuleRunner {
 
   CellContext& c_;
   RuleWatch* const watch_;
-  std::vector<uint32_t> active_;  ///< for each rule: number of its activations on the path
+  std::vector<uint32_t> active_;  ///< by rule: number of its activations on the current path
   uint32_t depth_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Observes the calls of one rule.
+// Records what the calls of one rule derive.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,26 +10,27 @@
 
 namespace sgm::interpret {
 
-/// The output of one call of the watched rule.
+/// What one call of the watched rule derived: shapes, cuts of the domain, and anchors first_anchor to end_anchor - 1 of
+/// the cell.
 struct WatchedCall {
   uint32_t activation = 0;
   ShapeList shapes, layer_cuts;
   size_t first_anchor = 0, end_anchor = 0;
 };
 
-/// The outputs of all calls of one rule in a cell, in order of their beginnings.
+/// The outputs of all calls of one rule in a cell, in the order in which the calls begin.
 class RuleWatch {
  public:
   explicit RuleWatch(uint32_t rule) : rule_(rule) {}
 
   bool watches(uint32_t rule) const { return rule == rule_; }
 
-  /// anchors: how many the cell has before the call. Returns the number of the call.
+  /// Records the start of a call. anchors: number of the cell's anchors so far. Returns the call's index.
   size_t begin(uint32_t activation, size_t anchors) {
     calls_.push_back({activation, {}, {}, anchors, anchors});
     return calls_.size() - 1;
   }
-  /// The call has added these shapes and cuts of the domain; anchors: how many the cell has after it.
+  /// Records the end of a call. shapes, layer_cuts: what the call derived. anchors: number of the cell's anchors now.
   void end(size_t number, std::span<const uint32_t> shapes, std::span<const uint32_t> layer_cuts, size_t anchors) {
     WatchedCall& call = calls_[number];
     call.shapes.assign(shapes.begin(), shapes.end());

@@ -1,5 +1,5 @@
 #pragma once
-// The output of a derivation: shapes, cuts of the domain, anchors.
+// Collects the output of a derivation: shapes, cuts of the domain, anchors.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace sgm::interpret {
 
-/// A shape with the material and the tag of the environment.
+/// Returns a shape with the material and the tag of the environment.
 Shape shapeIn(const Env& env, ShapeKind kind);
 
-/// The output of the cell so far: the shapes in its draft, those of them that cut the domain, and its anchors.
+/// The output of the cell so far: shapes (in the draft), which of them cut the domain, and anchors.
 class ShapeSink {
  public:
   ShapeSink(const CellInputs& in, Draft& draft, Budget& budget) : limits_(in.limits), draft_(draft), budget_(budget) {}
 
-  /// Returns the index of the new shape in the draft; the cell fails if it has too many shapes or takes too much
-  /// memory. Without an inner radius of its own, the shape gets that of its children. ordinal: of the statement or the
-  /// expression, for its key.
+  /// Returns the index of the new shape in the draft. Fails the cell if it has too many shapes or uses too much memory.
+  /// A shape with inner_radius 0 gets that of its children. ordinal: of the statement or expression, part of the
+  /// shape's key.
   uint32_t addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children = {});
   /// Returns one shape for a non-empty list: its only element, or a hard union.
   uint32_t unite(const ShapeList& list, const StmtNode& s, const Env& env);
 
-  /// Restricts the shapes of a list from an index on to levels with cell edges from `coarsest` to `detail` units; 0:
-  /// any.
+  /// Restricts the shapes of a list, from index `from` on, to levels with cell edges from `coarsest` to `detail` units;
+  /// 0: no limit.
   void limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail);
 
-  /// Shapes that cut the layer's domain; in the draft.
+  /// Indices in the draft of the shapes that cut the layer's domain.
   ShapeList& layerCuts() { return layer_cuts_; }
 
   void addAnchor(const Anchor& anchor);

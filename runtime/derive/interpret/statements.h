@@ -1,6 +1,6 @@
 #pragma once
-// A function for each kind of statement. They derive it in an environment, and append the shapes that it adds to its
-// block to `out`. After the budget has failed they add nothing more that counts.
+// One function for each kind of statement. It derives the statement in an environment, and appends to `out` the shapes
+// that the statement adds to its block. After the budget has failed, results are ignored.
 
 #include <cstdint>
 
@@ -10,15 +10,15 @@
 namespace sgm::interpret {
 
 // statements.cpp
-/// Any statement, with the overrides of its tag; nothing if id is kNoId.
+/// Derives any statement, with the overrides of its tag; does nothing for kNoId.
 void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out);
 /// A call of a rule or a primitive.
 void runCall(ExprId id, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out);
 void runBlock(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
-/// The statements of a block, derived as if they were in the block of `out`.
+/// Derives the statements of a block directly into the block that owns `out`, without a block of their own.
 void runContents(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runDetail(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
-/// Gives the environment the material and the tag of a block.
+/// Sets the environment's material and tag to those of a block.
 void label(const StmtNode& block, Env& env);
 
 // combine.cpp and morph.cpp
@@ -41,7 +41,8 @@ void runScatter(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
 void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runSnap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
-/// A child of a split, comp or wfc, as a block of its own in `scope` at `place`; number: of the part, for its key.
+/// Derives a child of a split, comp or wfc as a block of its own, in `scope` at `place`. index: of the child; number:
+/// distinguishes parts, for their keys.
 void runPart(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, CellContext& c,
              const Env& env, ShapeList& out);
 

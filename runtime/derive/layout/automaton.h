@@ -10,14 +10,16 @@
 
 namespace sgm {
 
-/// Every voxel of the world, one per integer triple. Along an axis that is not in `axes`, all voxels are equal.
+/// An automaton over all voxels of the world, one per integer triple. Along an axis that is not in `axes`, all voxels
+/// are equal.
 struct Automaton {
   uint64_t seed = 0;
   std::array<bool, 3> axes{true, true, true};
-  double fill = 0.45;  ///< the probability that a voxel starts solid, to 1/65536
+  double fill = 0.45;  ///< probability that a voxel starts solid; rounded to 1/65536
   int32_t rounds = 4;
-  int32_t least = 14;  ///< solid voxels in the cube, itself included, that make a voxel solid in the next round
-  int32_t radius = 1;  ///< of the cube (square) that is counted, 1 to 15
+  /// a voxel becomes solid if at least this many voxels of the cube around it, itself included, are solid
+  int32_t least = 14;
+  int32_t radius = 1;  ///< the cube (or square) has 2 * radius + 1 voxels per edge; 1 to 15
 
   /// The maximum distance, in voxels, at which a voxel influences another.
   int32_t halo() const { return rounds * radius; }
@@ -28,9 +30,9 @@ struct VoxelBox {
   Int3 first, count;
 };
 
-/// The state after all rounds: 1 solid, 0 not, x fastest; exactly as if the automaton had run over the whole world,
-/// since it starts from the box grown by the halo. `count` is 1 along an axis that is not one of the automaton's; the
-/// indices of the grown box must fit int32. Memory: six bytes per voxel of the grown box.
+/// Returns the state after all rounds: 1 solid, 0 void; x fastest. The result is the same as if the automaton had run
+/// over the whole world, since it starts from the box grown by the halo. box.count must be 1 along axes that are not
+/// the automaton's; indices in the grown box must fit int32. Memory: six bytes per voxel of the grown box.
 std::vector<uint8_t> runAutomaton(const Automaton& automaton, const VoxelBox& box);
 
 }  // namespace sgm

@@ -13,49 +13,49 @@
 
 namespace sgm {
 
-/// Metres: default thickness of walls in a treemap.
+/// Default thickness of walls in a treemap, metres.
 inline constexpr double kTreemapWall = 0.2;
 
-/// Units, above 0.
+/// The measures of a floor plan in units; all above 0.
 struct FloorPlanSizes {
   int32_t x = 0, z = 0;  ///< of the floor, including outer walls
-  int32_t wall = 0;      ///< thickness of all walls
-  int32_t door = 0;      ///< width of doors without a link
-  int32_t corridor = 0;  ///< clear width
+  int32_t wall = 0;      ///< thickness of all walls, inner and outer
+  int32_t door = 0;      ///< width of doors that no link requests
+  int32_t corridor = 0;  ///< clear width of the corridor
 };
 
-/// The open space of a room: rectangles, overlapping if the room is not a rectangle, the largest first.
+/// The open space of a room: rectangles, largest first; several overlapping ones if the room is not a rectangle.
 struct PlanRoom {
-  PlanRect cell;  ///< its part of the treemap, to the middle of its walls
+  PlanRect cell;  ///< the room's part of the treemap, which extends to the middle of its walls
   std::vector<PlanRect> clear;
 };
 
-/// A hole through a wall, which extends slightly into the adjacent spaces.
+/// An opening in a wall; it extends slightly into the spaces on both sides.
 struct PlanDoor {
   static constexpr size_t kCorridor = SIZE_MAX - 1, kOutside = SIZE_MAX, kNoLink = SIZE_MAX;
   PlanRect hole;
-  size_t from = 0, to = 0;  ///< rooms, or the constants above
-  size_t link = kNoLink;    ///< that requested it
+  size_t from = 0, to = 0;  ///< indices of rooms, or kCorridor or kOutside
+  size_t link = kNoLink;    ///< index of the link that requested the door; kNoLink: none
 };
 
-/// The part of a room's outer wall without an entrance. side: in the order front (+z), right (+x), back, left; low and
-/// high: units along x or z.
+/// A stretch of a room's outer wall without an entrance. side: 0 front (+z), 1 right (+x), 2 back, 3 left. low, high:
+/// ends of the stretch, in units along x or z.
 struct PlanFacade {
   size_t room = 0;
   int side = 0;
   int32_t low = 0, high = 0;
 };
 
-/// All in units about the middle of the floor.
+/// A finished floor plan. Positions are in units, relative to the centre of the floor.
 struct FloorPlan {
-  bool fits = false;  ///< every room has space between its walls; otherwise all else is empty
+  bool fits = false;  ///< every room has open space between its walls; if false, all other members are empty
   std::vector<PlanRoom> rooms;
-  std::vector<PlanRect> corridor;  ///< overlapping
-  std::vector<PlanDoor> doors;     ///< the entrance first, if there is one
+  std::vector<PlanRect> corridor;  ///< rectangles, which may overlap
+  std::vector<PlanDoor> doors;     ///< the entrance comes first, if there is one
   std::vector<PlanFacade> facades;
-  std::vector<size_t> closed;  ///< inaccessible rooms: no wall of theirs is wide enough
-  uint64_t work = 0;           ///< as counted by PlanWork
-  std::vector<size_t> unmet;   ///< links whose rooms share no wall of sufficient width
+  std::vector<size_t> closed;  ///< indices of inaccessible rooms, none of whose walls is wide enough for a door
+  uint64_t work = 0;           ///< amount of work, as counted by PlanWork
+  std::vector<size_t> unmet;   ///< indices of links whose rooms share no wall of sufficient width
 };
 
 /// areas: above 0, one per room. Room sizes are exact except for walls and the corridor, which take space from the

@@ -16,32 +16,34 @@ struct PlanCorner {
   double x = 0, z = 0;
 };
 
-/// A simple polygon of 3 to 64 corners, counter-clockwise as seen from below (x towards z), about its own middle.
+/// A simple polygon of 3 to 64 corners, counter-clockwise as seen from below (from x towards z), relative to its own
+/// middle.
 struct PlanPiece {
-  PlanCorner middle;                ///< of its box, in the scope of the plan; of a regular polygon its centre
-  double x = 0, z = 0;              ///< edges of its box, which contains it and is centred on the middle
-  bool rect = false;                ///< its first corner is the lowest along both axes
+  PlanCorner middle;    ///< centre of the bounding box in the plan's scope, metres; for a regular polygon: its centre
+  double x = 0, z = 0;  ///< edges of a box that is centred on the middle and contains the polygon
+  bool rect = false;    ///< a rectangle; its first corner has the lowest x and z
   std::vector<PlanCorner> corners;  ///< relative to the middle
 };
 
 PlanPiece rectPiece(double x, double z);
-/// The middle of the first edge lies towards +z. corners: 3 to 64.
+/// Returns a regular polygon; the middle of its first edge lies in direction +z. corners: 3 to 64.
 PlanPiece regularPiece(int corners, double radius);
 PlanPiece polygonPiece(std::span<const PlanCorner> corners);
 
-/// Puts the middle of a piece on the outline of another, at a position drawn from key: a piece that contains its middle
-/// overlaps with the other.
+/// Moves a piece so that its middle lies on the outline of another piece, at a position drawn from key. If the piece
+/// contains its own middle, the two overlap.
 void putOnOutline(PlanPiece& piece, const PlanPiece& other, PathKey key);
 
 bool isConvex(const PlanPiece& piece);
 
-/// True if it has an area, and no two of its edges cross.
+/// Whether the polygon has an area, and none of its edges cross.
 bool isSimple(const PlanPiece& piece);
-/// True if an outline grown from the piece's is still valid: no edge is reversed, and none cross. Otherwise the growth
-/// closed a notch.
+/// Whether an outline that was grown from the piece is still valid: no edge is reversed, and no edges cross. If not,
+/// the growth has closed a notch.
 bool isSimple(const PlanPiece& piece, const std::vector<PlanCorner>& grown);
 
-/// The corners with all edges moved outwards by `margin`, at least 0; a corner moves by at most kMostMiter margins.
+/// Returns the corners after all edges are moved outwards by `margin`, at least 0. A corner moves by at most kMostMiter
+/// * margin.
 std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin);
 
 }  // namespace sgm

@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles of the rooms, corridors and doors of a floor plan.
+// Operations on rectangles of the rooms, corridors and doors of a floor plan.
 
 #include <algorithm>
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace sgm {
 
-/// How far the opening of a door extends into the spaces that it joins, in units.
+/// Distance by which a door's opening extends into the spaces that it joins, units.
 inline constexpr int32_t kDoorReachUnits = static_cast<int32_t>(kDoorReach * kUnitsPerMetre);
-/// The step of the layout in units, so that middles and halves are whole numbers.
+/// All coordinates of a layout are multiples of this, in units, so that centres and halves are whole numbers.
 inline constexpr int32_t kPlanStep = 2;
 
 using Rects = std::vector<PlanRect>;
@@ -24,17 +24,19 @@ inline PlanRect common(const PlanRect& a, const PlanRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.z0, b.z0), std::min(a.x1, b.x1), std::min(a.z1, b.z1)};
 }
 
-/// True if a square with edges of `width` fits.
+/// Whether a square with edges of `width` units fits into the rectangle.
 inline bool admits(const PlanRect& r, int32_t width) { return std::min(r.width(), r.depth()) >= width; }
 
-/// Removes r; leaves all maximal rectangles of the rest.
+/// Subtracts r; afterwards `from` contains all maximal rectangles of the rest.
 void takeAway(Rects& from, const PlanRect& r);
 
-/// Keeps the maximal rectangles from which a square of that width can be moved to the first one; narrower space is not
-/// usable. Returns false if that removes any rectangle in which the square would fit.
+/// Keeps only the maximal rectangles that a square with edges of `width` units can reach from the first rectangle;
+/// narrower space is unusable. Returns false if a rectangle that the square fits into was removed, since it is
+/// unreachable.
 bool keepWalkable(Rects& room, int32_t width);
 
-/// The widest hole through a wall between the two, limited to `width` in its middle.
+/// Returns the widest opening through the wall between spaces a and b; if wider than `width`, its middle part of that
+/// width. nullopt if they share no wall. wall: thickness in units.
 std::optional<PlanRect> holeBetween(const Rects& a, const Rects& b, int32_t wall, int32_t width);
 
 }  // namespace sgm

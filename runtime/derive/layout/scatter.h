@@ -1,5 +1,5 @@
 #pragma once
-// Point sets that do not depend on the order of visits.
+// Point sets that do not depend on the order in which points or cells are visited.
 
 #include <optional>
 #include <vector>
@@ -9,27 +9,28 @@
 
 namespace sgm {
 
-/// A point relative to the low corner of its cell, in units, and the key of all its draws.
+/// A point of a lattice-wide set: its offset from the low corner of its cell, in units, and the key for its random
+/// draws.
 struct LatticePoint {
   Int3 offset;
   PathKey key;
 };
 
-/// The points in a cell of the layer's infinite set in which no two are nearer than `radius` units (at least 1): one
-/// jittered candidate per cube of that edge, kept if its hash exceeds those of all candidates within the radius (the
-/// second rule of Matern). Depends on nothing farther than the radius. `key` identifies the set, the same in all cells.
-/// nullopt if it would have to examine more than `limit` candidates.
+/// Returns the points in one cell of an infinite set in which no two points are closer than `radius` units (at least
+/// 1). The set has one jittered candidate per cube with that edge; a candidate is kept if its hash exceeds those of all
+/// candidates within the radius (Matern's second thinning rule). Depends on nothing farther away than the radius. key:
+/// identifies the set, the same in all cells. nullopt if more than `limit` candidates would have to be examined.
 std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, Int3 cell, PathKey key, int32_t radius,
                                                        size_t limit);
 
-/// `count` points spread over the fraction `up` (0..1, from the top) of the sphere of the given radius: strips of equal
-/// area, turned by the golden angle, jittered by the key.
+/// Returns `count` points spread over the top fraction `up` (0..1) of the area of a sphere: strips of equal area,
+/// rotated by the golden angle, jittered by the key.
 std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, double up);
 /// Independent uniform points in a centred box with the given edges, or on the disc in the plane y = 0.
 std::vector<Vec3> scatterInBox(PathKey key, size_t count, Vec3 edges);
 std::vector<Vec3> scatterOnDisc(PathKey key, size_t count, double radius);
 
-/// The indices of the points whose hash exceeds the hashes of all points nearer than `radius`.
+/// Returns the indices of the points whose hash exceeds the hashes of all points closer than `radius`.
 std::vector<size_t> thinned(PathKey key, const std::vector<Vec3>& points, double radius);
 
 }  // namespace sgm

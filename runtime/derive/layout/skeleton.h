@@ -11,34 +11,38 @@
 
 namespace sgm {
 
-/// One step of the turtle. The next step and a side branch begin at `to`, bit for bit.
+/// One step of the turtle. The next step, and a side branch that starts there, begin exactly at `to`, bit for bit.
 struct Segment {
   Vec3 from, to;
-  double along = 0;    ///< steps from the root to `from` as a fraction of `steps`: 0 at the root, 1 at the tips
-  uint32_t depth = 0;  ///< 0 on the stem, 1 on its side branches, 2 on their side branches
-  PathKey key;         ///< depends only on its branch and its number on it
+  /// distance from the root to `from`, as a fraction of the longest path: 0 at the root, 1 at the tips
+  double along = 0;
+  uint32_t depth = 0;  ///< 0 on the stem, 1 on its side branches, 2 on the side branches of these, and so on
+  PathKey key;         ///< depends only on the segment's branch and its index in the branch
 };
 
 struct Turtle {
-  double steps = 0;   ///< of the longest path from the root to a tip; a whole number, at most kMostSegments
-  double length = 0;  ///< of a step, positive
-  double turn = 0;    ///< radians, 0 to a right angle
-  double fork = 0;    ///< probability, 0 to 1
+  /// number of steps of the longest path from the root to a tip; a whole number, at most kMostSegments
+  double steps = 0;
+  double length = 0;  ///< of a step, above 0
+  double turn = 0;    ///< maximum turn between steps, radians; 0 to a right angle
+  double fork = 0;    ///< probability of a side branch after a step, 0 to 1
 };
 
 struct Skeleton {
-  std::vector<Segment> segments;  ///< the stem, then branches by depth, each after the one it leaves
-  bool whole = true;              ///< false if branches are left out that would exceed kMostSegments
+  /// the stem first, then branches in order of depth, each after the branch it starts from
+  std::vector<Segment> segments;
+  bool whole = true;  ///< false: branches are missing because they would exceed kMostSegments
 };
 
-/// The turtle starts at the origin and faces +y. Its first step is straight; each further one turns by a direction
-/// drawn uniformly from the cone of half-angle `turn` around the previous step. After each step but the last, with
-/// probability `fork`, a side branch starts and takes the remaining steps: at an angle drawn from turn to 2 turn (at
-/// most a right angle) to the previous step, and on the opposite side of the continuing branch, so that it is at least
-/// `turn` away from both. If `turn` is 0 it would coincide with that branch, so there are no side branches.
+/// The turtle starts at the origin, facing +y. Its first step is straight; each further step turns to a direction drawn
+/// uniformly from the cone with half-angle `turn` around the previous step. After each step except the last, with
+/// probability `fork`, a side branch starts and takes the remaining steps. Its angle to the previous step is drawn from
+/// turn to 2 turn (at most a right angle), on the side opposite to the continuing branch, so that it is at least `turn`
+/// away from both. If `turn` is 0 there are no side branches, since they would coincide with the continuing branch.
 ///
-/// Draws hash `key`, the side branches on the path from the root, and the step. So a smaller `fork` leaves branches
-/// out, and fewer steps cut them short, and the rest stays in place; `length` and `turn` change no draw.
+/// Each draw hashes `key`, the side branches on the path from the root, and the step. Therefore a smaller `fork` only
+/// removes branches, fewer steps only shorten them, and everything else stays in place; `length` and `turn` change no
+/// draw.
 Skeleton grownSkeleton(PathKey key, const Turtle& turtle);
 
 }  // namespace sgm

@@ -16,23 +16,24 @@ struct PlanRect {
   friend bool operator==(const PlanRect&, const PlanRect&) = default;
 };
 
-/// Parts side by side along the shorter side of the space that previous rows left.
+/// A row of a squarified treemap: parts side by side along the shorter side of the space left by previous rows.
 struct TreemapRow {
-  std::vector<size_t> parts;  ///< from the low end of that side
-  bool behind = false;        ///< at the high end of the longer side
-  bool last = false;          ///< fills the remaining space
+  std::vector<size_t> parts;  ///< indices of the parts, from the low end of the row
+  bool behind = false;        ///< true: the row lies at the high end of the longer side; false: at the low end
+  bool last = false;          ///< the row fills all of the remaining space
 };
 
-/// Rows of descending weights, each with the number of parts that makes them most nearly square. The end at which a row
-/// lies, and the order of its parts, do not change the shape of a part, up to the step. weights: 1e-6 to 1e6.
+/// Divides the weights in descending order into rows, each with the number of parts that makes these most nearly
+/// square. Moving a row to the other end, or permuting its parts, changes the shape of parts by at most `step`.
+/// weights: 1e-6 to 1e6.
 std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
-/// The rectangles of such rows, after parts may have been permuted within a row, and rows moved to the other end.
+/// Returns the rectangles of rows from squarifiedRows(), in which parts may have been permuted and `behind` changed.
 std::vector<PlanRect> placedRows(const PlanRect& whole, std::span<const double> weights,
                                  std::span<const TreemapRow> rows, int32_t step);
 
-/// The part of each weight, in the order of the weights. All lines between parts lie on multiples of `step` from x0 and
-/// z0, and neighbours share them; thinner parts are empty. weights: 1e-6 to 1e6.
+/// Returns the rectangle of each weight, in the order of the weights. All borders between parts lie at multiples of
+/// `step` from x0 and z0, and neighbours share them; parts thinner than a step are empty. weights: 1e-6 to 1e6.
 std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
 }  // namespace sgm

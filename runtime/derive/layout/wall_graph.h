@@ -1,5 +1,5 @@
 #pragma once
-// The possible paths of corridors: along the walls between the rooms of a plan.
+// A graph of the possible paths of a corridor: along the walls between the rooms of a floor plan.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Centre lines of inner walls. Edges go from the lower corner to the higher and meet only at corners.
+/// The centre lines of inner walls. An edge leads from its lower corner to its higher one; edges meet only at corners.
 struct WallGraph {
   struct Corner {
     int32_t x = 0, z = 0;
@@ -24,14 +24,14 @@ struct WallGraph {
   std::vector<Edge> edges;
 };
 
-/// cells: of a treemap of `whole`.
+/// cells: the rectangles of a treemap of `whole`.
 WallGraph wallGraph(const PlanRect& whole, std::span<const PlanRect> cells);
 
-/// Shortest paths between all corners (Floyd 1962). Edges in `walked` (a flag per edge) cost nothing.
+/// Shortest paths between all pairs of corners (Floyd 1962). Edges in `walked` (a flag for each edge) have length 0.
 class WallPaths {
  public:
   WallPaths(const WallGraph& graph, const std::vector<bool>& walked);
-  /// Adds the edges of the path to `edges`; returns false if there is no path.
+  /// Sets the flags of the path's edges in `edges`; returns false if there is no path.
   bool walk(size_t from, size_t to, std::vector<bool>& edges) const;
   int64_t length(size_t from, size_t to) const { return length_[from * corners_ + to]; }
   static constexpr int64_t kNone = int64_t{1} << 60;
@@ -39,7 +39,7 @@ class WallPaths {
  private:
   size_t corners_;
   std::vector<int64_t> length_;
-  std::vector<size_t> next_;  ///< next edge from there; kNoEdge if there is none
+  std::vector<size_t> next_;  ///< by corner pair: first edge of the path from one corner to the other; kNoEdge: none
   const WallGraph& graph_;
   static constexpr size_t kNoEdge = SIZE_MAX;
 };

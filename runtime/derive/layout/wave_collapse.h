@@ -3,7 +3,7 @@
 // label. The simple tiled model of M. Gumin (WaveFunctionCollapse, 2016) as a search with propagated constraints, after
 // I. Karth and A. M. Smith, WaveFunctionCollapse is Constraint Solving in the Wild, FDG 2017.
 //
-// Only integers and hashes, so the tiles are the same on every machine.
+// Uses only integers and hashes, so the result is the same on every machine.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ inline constexpr size_t kWaveSides = 6;
 /// Labels of a side, one bit each. Two sides match if they have a label in common.
 using WaveLabels = uint64_t;
 
-/// A tile in one orientation: a rotatable tile is four of these.
+/// A tile in one orientation; a tile that may be rotated is passed as four of these.
 struct WaveTile {
   std::array<WaveLabels, kWaveSides> sides{};
   uint32_t weight = 1;  ///< 1 to 2^24: relative probability among the tiles that fit
@@ -26,30 +26,31 @@ struct WaveTile {
 inline constexpr uint32_t kNoPlace = 0xFFFFFFFFu;
 
 struct WaveLattice {
-  std::array<uint32_t, 3> size{1, 1, 1};        ///< places along x, y, z; their product is below 2^24
-  std::array<WaveLabels, kWaveSides> border{};  ///< the labels outside each side of the lattice
+  std::array<uint32_t, 3> size{1, 1, 1};  ///< places along x, y, z; their product is below 2^24
+  /// the labels that border places must match at each side of the lattice
+  std::array<WaveLabels, kWaveSides> border{};
 };
 
 enum class WaveEnd : uint8_t {
   solved,
-  impossible,  ///< proven: no choice of tiles fits
-  gave_up,     ///< after most_visits, at once if these are fewer than the places, or for lack of memory
+  impossible,  ///< it is proven that no choice of tiles fits
+  gave_up,     ///< most_visits is exceeded (at once if it is less than the number of places), or most_bytes is
 };
 
 struct WaveResult {
   WaveEnd end = WaveEnd::solved;
-  std::vector<uint16_t> tiles;  ///< solved: for each place, x first, then y, then z
-  uint64_t visits = 0;          ///< visited places, the measure of the work; at most most_visits
-  uint64_t work = 0;            ///< the cost of these: a visit costs more with many labels and tiles
-  /// If not solved: the place where no tile fitted, most often if there were several, and the labels of which each of
-  /// its sides would have had to match any. kNoPlace: the search ended before there was such a place.
+  std::vector<uint16_t> tiles;  ///< if solved: index of the tile for each place, x first, then y, then z
+  uint64_t visits = 0;          ///< number of places visited, a measure of the work; at most most_visits
+  uint64_t work = 0;            ///< cost of the visits: a visit costs more with many labels and tiles
+  /// If not solved: the place where most often no tile fitted, and for each of its sides the labels that its neighbour
+  /// allows there. kNoPlace: the search ended before such a place was found.
   uint32_t place = 0;
   std::array<WaveLabels, kWaveSides> wanted{};
 };
 
-/// tiles: 1 to 256. Finds a solution if one exists and the visits allow it. Unless it is proven impossible, the search
-/// restarts several times, each time twice as long, and begins with the places that were difficult. key: of the draws;
-/// equal input gives equal output. most_bytes: memory for undoing choices.
+/// Finds a solution if one exists and the limits allow it. Unless it is proven impossible, the search restarts several
+/// times, each time with twice the number of visits, and starts with the places that were difficult before. tiles: 1 to
+/// 256. key: seed of the draws; equal inputs give equal results. most_bytes: limit of the memory for undoing choices.
 WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
                         size_t most_bytes = SIZE_MAX);
 

@@ -300,7 +300,7 @@ struct SocketNode {
 
 /// A side's labels and the labels that it may touch, one bit per label; a side that is not written has all bits set.
 struct SideKind {
-  uint64_t labels = ~uint64_t{0}, meets = ~uint64_t{0};  ///< A tile of a wfc, or the border of a wfc.
+  uint64_t labels = ~uint64_t{0}, meets = ~uint64_t{0};
 
   friend bool operator==(const SideKind&, const SideKind&) = default;
   bool any() const { return ~labels == 0; }
