@@ -28,10 +28,10 @@ struct WideBox {
 
 double wide(float v) { return static_cast<double>(v); }
 
-/// A margin for the field's float arithmetic on lengths of this size.
+/// A margin in units for the rounding of the field's float arithmetic, for lengths of this size.
 double slack(double size) { return 1.0 + 1e-6 * std::fabs(size); }
 
-/// The world box of a local box around `centre` (local) in the frame.
+/// The box in world axes around a local box of the frame; `centre` is local, units.
 WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half) {
   WideBox box;
   double reach = 0;
@@ -55,8 +55,8 @@ WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<doub
 
 WideBox placed(const Frame& frame, double x, double y, double z) { return placed(frame, {0, 0, 0}, {x, y, z}); }
 
-/// A level of a distance lies within the shape's own box grown by that much, for any rotation of the shape. A negative
-/// level lies in the smaller shape.
+/// Bounds of the region where a distance is at most `a`: the shape's box grown by `a`, for any rotation of the shape.
+/// For a negative `a`: the box of the smaller shape.
 WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half, double a) {
   if (a <= 0) return placed(frame, centre, {half[0] + a, half[1] + a, half[2] + a});
   WideBox box = placed(frame, centre, half);
@@ -65,7 +65,8 @@ WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<do
   return box;
 }
 
-/// Half extents of (norm(q / r) - 1) * min(r) <= a, for radii up to `most` of which the smallest is at least `least`.
+/// Bounds of the region where (norm(q / r) - 1) * min(r) <= a. most: the largest possible radii r; least: lower bound
+/// of the smallest radius.
 WideBox scaledRadii(const Frame& frame, std::array<double, 3> most, double least, double a) {
   if (!(least > 0)) return WideBox::everything();
   // Negative levels lie inside the zero set, for any radii.
@@ -73,7 +74,7 @@ WideBox scaledRadii(const Frame& frame, std::array<double, 3> most, double least
   return placed(frame, most[0] * factor, most[1] * factor, most[2] * factor);
 }
 
-/// The same for an ellipsoid, which does not reach the corners of its box.
+/// Like scaledRadii(), but tighter for an ellipsoid, which does not fill the corners of its box.
 WideBox ellipsoid(const Frame& frame, std::array<double, 3> radii, double a) {
   const double least = *std::min_element(radii.begin(), radii.end());
   if (!(least > 0)) return WideBox::everything();
@@ -107,7 +108,8 @@ WideBox halfspace(const Frame& frame, double a) {
   return box;
 }
 
-/// How far one of n leaves of a sum must reach for the sum to be <= a: 1 + d / r is at most this; negative if none can.
+/// For a sum of n leaves to be <= a at some point, a leaf there must have 1 + d / r of at most the returned value (d:
+/// distance, r: inner radius). Negative: no point is possible.
 double kernelReach(double inner_radius_max, size_t n, double a) {
   const double inverse = 1.0 / (wide(kSumSupport) * wide(kSumSupport));
   const double base = 1.0 - inverse;
@@ -207,7 +209,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return box;
     }
     case ShapeKind::morph_power: {
-      // The radii at the ends of the exponent's range: the six given ones may lie far outside.
+      // Radii are linear in t, so the ends of t's range bound them; the six given radii may be far outside that range.
       const Range along = range(s.expr);
       std::array<double, 3> most{};
       double least = kInfinity;
@@ -242,7 +244,7 @@ WideBox Walker::sum(const Shape& s, double a) const {
   return box;
 }
 
-/// At levels that leave out an operand, the intersection is left out, too: so each operand narrows it.
+/// A level that drops an operand of an intersection drops the whole intersection, so every operand limits the box.
 WideBox Walker::allChildren(const Shape& s, double a) const {
   if (s.child_count == 0) return {};
   WideBox box = WideBox::everything();

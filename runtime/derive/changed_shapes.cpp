@@ -7,7 +7,8 @@
 namespace sgm {
 namespace {
 
-/// A shape's content, independent of the memory positions of its parts, and the levels that show it.
+/// A hash of a shape's content, independent of the positions of its parts in memory, and the levels that show the
+/// shape.
 struct Signature {
   uint64_t hash = 0;
   int32_t finest_cell = 0, coarsest_cell = std::numeric_limits<int32_t>::max();
@@ -27,8 +28,8 @@ struct Entry {
   }
 };
 
-/// Hashes content: what a node refers to in place of where that lies. A shape's own numbers come first, and then its
-/// points, voxels, expressions and children.
+/// Hashes the content to which a node refers instead of its index. Order for a shape: its own numbers, then its points,
+/// voxels, expressions and children.
 class Signer {
  public:
   explicit Signer(const CellContent& cell) : program_(cell.program), chunk_(*cell.chunk), exprs_(chunk_.exprs.size()) {

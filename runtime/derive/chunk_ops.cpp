@@ -5,7 +5,7 @@
 namespace sgm {
 namespace {
 
-/// Hashes members as they are in memory: references by their places.
+/// Hashes members as they are in memory; references are hashed as indices.
 class PlaceHasher {
  public:
   template <class T>

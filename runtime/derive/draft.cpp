@@ -163,7 +163,7 @@ uint32_t Draft::triple(const std::array<Num, 3>& n) {
   const uint32_t first = static_cast<uint32_t>(chunk_.exprs.size());
   for (uint32_t node : source) {
     Expr e;
-    e.op = ExprOp::maximum;  // of a value with itself, which is that value
+    e.op = ExprOp::maximum;  // max(x, x) = x, so the copy has the same value
     e.a = e.b = node;
     chunk_.exprs.push_back(e);
   }
@@ -191,7 +191,7 @@ uint32_t Draft::addPrismPoints(std::span<const Int3> points) {
     twice_area += from_first(a.x, o.x) * from_first(b.z, o.z) - from_first(b.x, o.x) * from_first(a.z, o.z);
   }
   chunk_.points.insert(chunk_.points.end(), points.begin(), points.end());
-  // The first corner stays first.
+  // Reverses the order of the corners, except that the first stays first.
   if (twice_area > 0) std::reverse(chunk_.points.begin() + first + 1, chunk_.points.end());
   return first;
 }
@@ -268,7 +268,8 @@ void DraftCopier::mark(std::span<const Group> groups) {
     if (s.expr == kNone) continue;
     for (uint32_t k = 0; k < (s.kind == ShapeKind::warp ? 3u : 1u); ++k) markExpr(s.expr + k);
   }
-  // A node follows everything that it refers to, and the three of a warp are consecutive: in the copy as well.
+  // Sorting keeps the original order, so that children still precede parents, and the three expressions of a warp stay
+  // consecutive.
   std::sort(shapes_.begin(), shapes_.end());
   std::sort(exprs_.begin(), exprs_.end());
 }

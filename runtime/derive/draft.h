@@ -80,10 +80,11 @@ class Draft {
   /// Accepts corners in either direction; stores them counter-clockwise seen from +y, as ProgramBuilder::prism
   /// requires.
   uint32_t addPrismPoints(std::span<const Int3> points);
-  /// Appends the children, sets s.first_child and s.child_count, and returns the shape's index.
+  /// Appends a block of voxels, and returns its index. solid: block.size() values, 0 or 1, x fastest. Sets
+  /// block.first_word.
   uint32_t addVoxels(VoxelBlock block, std::span<const uint8_t> solid);
 
-  /// Appends the children and sets s.first_child and s.child_count.
+  /// Appends the children, sets s.first_child and s.child_count, and returns the shape's index.
   uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});
   /// Replaces a shape's children by a subset of them, in the same order.
   void keepChildren(uint32_t shape, std::span<const uint32_t> children);

@@ -7,7 +7,8 @@
 namespace sgm {
 namespace {
 
-/// Sines and cosines of quarter turns are inexact because pi is rounded; axes must stay axes.
+/// Sets tiny values to 0: sines and cosines of quarter turns are inexact because pi is rounded, but axes must stay
+/// exact.
 double cleaned(double v) { return std::fabs(v) < 1e-15 ? 0.0 : v; }
 
 }  // namespace

@@ -16,7 +16,7 @@ PathKey cellHash(uint64_t seed, uint64_t salt, Int3 c) {
                       coordinate(c.z))};
 }
 
-/// Offset of a jittered point within `size` units.
+/// Returns the coordinate of a random point in 0..size - 1, units. unit: a draw in 0..1; jitter 0: the middle.
 int32_t jittered(int32_t size, double jitter, double unit) {
   const double at = detFloor(size * (0.5 + jitter * (unit - 0.5)));
   return static_cast<int32_t>(std::clamp(at, 0.0, static_cast<double>(size) - 1.0));
@@ -113,7 +113,8 @@ std::vector<FaceId> Lattice::ownedFaces(Int3 cell) const {
 }
 
 bool Lattice::linked(FaceId face, int tree, double extra) const {
-  // The two cells differ from the lowest bit of their coordinate up to its first 0: their common node is one above.
+  // The two cells differ in the bits from the lowest up to the first 0 of the lower coordinate, so their lowest common
+  // octree node is one level above that bit.
   int level = 1;
   while (level <= tree && ((coordinate(face.lower[face.axis]) >> (level - 1)) & 1) != 0) ++level;
   bool compulsory = false;

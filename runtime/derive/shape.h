@@ -49,7 +49,7 @@ enum class ShapeKind : uint8_t {
   sum,              ///< compact-kernel sum over leaves d with inner radius r (Shape::inner_radius):
         ///< (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L, T = the kernel at d = 0, so that a lone leaf keeps
         ///< its surface; L = the largest inner radius / the kernel's slope there. Zero set grows at most to the support
-  morph,        ///< two children: (1 - t) A + t B; t = `expr`, or `amount` if expr is kNone, clamped to 0..1
+  morph,        ///< two children A and B: (1 - t) A + t B; t = `expr`, or `amount` if expr is kNone; clamped to 0..1
   morph_power,  ///< no child; superquadric of radii size[0..2] at t = 0 to size[3..5] at t = 1, its exponent
                 ///< 2 / (1 - t + t/kMaxPower*2): from ellipsoid to box by the exponent
   displace,     ///< one child, plus 1024 * expr (expr in metres)
@@ -120,9 +120,9 @@ struct NoiseSpec {
   uint32_t seed = 0;
 };
 
-/// Part of a world of voxels, solid or not. Voxel i along an axis is the interval around anchor + i * edge. Bit i of
-/// GrammarChunk::voxels from first_word * 64 on is set if voxel i is solid, x fastest. Along an axis with a count of 0
-/// all voxels are equal.
+/// A box of voxels. Voxel i along an axis is centred at anchor + i * edge. Bit i of GrammarChunk::voxels, counted from
+/// bit first_word * 64, is set if the block's i-th voxel (x fastest) is solid. Along an axis with a count of 0 all
+/// voxels are equal.
 struct VoxelBlock {
   Int3 anchor;       ///< units; common to all voxels of the world, so that neighbouring blocks share positions
   int32_t edge = 0;  ///< units
@@ -138,32 +138,32 @@ struct VoxelBlock {
   size_t words() const { return (size() + 63) / 64; }
 };
 
-/// A top-level shape. Groups are combined by hard min (add) or max (cut), each as a whole.
-/// determine the field wherever that shape does, at every level (see field/voxels.h).
+/// The number of voxels that a block contains beyond its cell on every side: enough to determine the field wherever the
+/// shape is evaluated, at every level (see field/voxels.h).
 inline constexpr int32_t kVoxelMargin = 12;
 
-/// contains every point where the root shape's field is <= 0, at every level
+/// A top-level shape. Groups are combined by hard min (add) or max (cut), each as a whole.
 struct Group {
   uint32_t root = 0;  ///< in GrammarChunk::shapes
   bool cut = false;
-  IntBox bounds;  ///< An oriented point for gameplay, emitted only by the cell that contains it.
-  PathKey key;    ///< canonical order of groups within a layer
+  IntBox bounds;  ///< contains every point where the root shape's field is <= 0, at every level
+  PathKey key;    ///< sorts the groups of a layer, so that their order does not depend on derivation
 };
 
-/// An oriented gameplay point, emitted only by the cell that contains it.
+/// An oriented point for gameplay, emitted only by the cell that contains it.
 struct Anchor {
   Frame frame;
-  uint16_t kind = 0, name = 0;  ///< indices into the grammar's names
+  uint16_t kind = 0, name = 0;  ///< indices in Program::names
   uint16_t tag = 0;
   PathKey key;
 
   friend bool operator==(const Anchor&, const Anchor&) = default;
 };
 
-/// A shape that was left out, and the reason; the rest of the cell is complete.
+/// A note about a shape that was left out, with the reason; the rest of the cell is complete.
 struct DeriveNote {
   std::string message;
-  std::string path;  ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as in overrides
+  std::string path;  ///< derivation path of the activation: "net(0, 0, -1)/Node/Chamber[0]", as in overrides
   int line = 0, column = 0;
 };
 
@@ -171,15 +171,14 @@ struct DeriveNote {
 struct GrammarChunk {
   uint32_t layer = 0;
   Int3 cell;  ///< cell coordinates, in cells
-  /// The parameters that were read (parameterBit): changing only the others does not change the result. Includes the
-  /// parameters read by the layers below.
+  /// Bit set (parameterBit) of the parameters read by this cell and by the layers below it. Changing only other
+  /// parameters does not change the result.
   uint64_t parameters = 0;
-  /// of a sweep: positions in the world, units; of a prism: x and z are local coordinates in units
   std::pmr::vector<Shape> shapes;
   std::pmr::vector<uint32_t> children;
   std::pmr::vector<Expr> exprs;
   std::pmr::vector<NoiseSpec> noises;
-  std::pmr::vector<Int3> points;  ///< world units (sweep), or local xz in units in x and z (prism)
+  std::pmr::vector<Int3> points;  ///< sweep: positions in the world, units; prism: local coordinates in x and z, units
   std::pmr::vector<VoxelBlock> blocks;
   std::pmr::vector<uint64_t> voxels;
   std::pmr::vector<Group> groups;
@@ -199,9 +198,9 @@ struct GrammarChunk {
         notes(memory) {}
 };
 
-// The members of each of these, listed once for all that hash or compare them. A list names every member of its struct:
-// a new one does not compile until the list has it. The visitor gets what refers to other parts of the chunk by names
-// of its own, so that it may take the place of that content in memory, or the content.
+// Lists the members of each struct once, for all functions that hash or compare them. Each list destructures its
+// struct, so that a new member does not compile until it is listed. References to other parts of the chunk are passed
+// to visitor functions of their own, which may process either the index or the content that it refers to.
 
 template <class V>
 void visitMembers(const Shape& shape, V& v) {
@@ -240,7 +239,7 @@ void visitMembers(const NoiseSpec& spec, V& v) {
   v.value(uint64_t{octaves} | uint64_t{seed} << 32);
 }
 
-/// Without the place of its voxels, which are visited apart.
+/// Without first_word: the block's voxels are visited separately.
 template <class V>
 void visitMembers(const VoxelBlock& block, V& v) {
   const auto& [anchor, edge, first, count, first_word] = block;

@@ -6,7 +6,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// The cost of fitting a triangle of an asset, in steps of the cell.
+/// Budget steps for fitting one triangle of an asset.
 constexpr uint64_t kStepsATriangle = 64;
 
 FittedAsset cover(const asset::Polyhedron& body) {

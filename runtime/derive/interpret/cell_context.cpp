@@ -2,7 +2,8 @@
 
 namespace sgm::interpret {
 
-// An override's path counts all activations of a rule, including those in shapes that would be left out.
+// Overrides by path count all activations of a rule, including those in shapes that a coarse derivation would leave
+// out, so such a cell is derived completely.
 CellContext::CellContext(const CellInputs& inputs, const CellOptions& options, std::pmr::memory_resource* memory)
     : in(inputs),
       program(in.program),

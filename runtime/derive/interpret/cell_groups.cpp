@@ -35,7 +35,7 @@ bool endsWithWorld(const Layer& layer, const IntBox& limit, IntBox box) {
   return isBounded(box);
 }
 
-/// Notes a shape that is left out because its box exceeds the limit of the cell.
+/// Adds a note about a shape that is left out because its box exceeds the limit of the cell.
 void noteBeyond(uint32_t shape, const IntBox& box, CellContext& c) {
   const IntBox limit = cellLimit(c.program, c.in.layer_index, c.in.cell);
   const Origin& origin = c.draft.origin(shape);
@@ -56,7 +56,7 @@ void noteBeyond(uint32_t shape, const IntBox& box, CellContext& c) {
 void addGroup(Group group, CellContext& c, GrammarChunk& out) {
   const IntBox proven = shapeLimit(c.program, c.in.layer_index, c.in.cell);
   if (!proven.contains(group.bounds)) {
-    // Each warp rounds positions to units; its bounds include a margin for that.
+    // A warp rounds positions to units, and its bounds include a margin for that, which the proven bound lacks.
     const std::pmr::vector<Shape>& shapes = c.draft.chunk().shapes;
     const auto warps =
         std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
@@ -68,7 +68,8 @@ void addGroup(Group group, CellContext& c, GrammarChunk& out) {
                         " m and ends there: a bug in the library, please report it",
                     origin.span, origin.activation);
     }
-    // Gathering the cells of a chunk relies on the proven bound: parts beyond it would show in only some chunks.
+    // A chunk loads only the cells whose proven bounds reach it, so parts beyond that would be visible in only some
+    // chunks.
     group.bounds = group.bounds.clipped(proven);
   }
   if (!group.bounds.empty()) out.groups.push_back(group);

@@ -16,7 +16,7 @@ bool isSilent(StmtKind kind) {
          kind == StmtKind::anchor || kind == StmtKind::footprint;
 }
 
-/// nullopt if the statement has no radius, or one that is not positive.
+/// Returns the radius of a smooth combiner in units; nullopt if the statement has none, or it is not positive.
 std::optional<double> smoothRadius(const StmtNode& s, CellContext& c, const Env& env) {
   if (s.amount == kNoId) return std::nullopt;
   const double units = c.evaluator.real(s.amount, env) * env.place.scale * kUnitsPerMetre;
@@ -26,7 +26,7 @@ std::optional<double> smoothRadius(const StmtNode& s, CellContext& c, const Env&
   return std::nullopt;
 }
 
-/// Converts a vector of the field from the scope to the world.
+/// Rotates and scales a sample-time vector from the scope to world axes.
 std::array<Num, 3> inWorld(const std::array<Num, 3>& local, const Placement& place, Draft& draft) {
   std::array<Num, 3> world;
   for (size_t i = 0; i < 3; ++i) {
@@ -91,7 +91,7 @@ void runMeet(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
   for (uint32_t i = 0; i < body.children.count && !c.budget.failed(); ++i) {
     const StmtNode& child = c.program.stmt(c.program.idAt(body.children, i));
     if (c.program.stmt(c.program.innermost(c.program.idAt(body.children, i))).kind == StmtKind::cut) {
-      // Cuts from the intersection of the preceding operands.
+      // A cut within a meet cuts from the intersection of the operands before it.
       if (operands.size() > 1)
         operands = {c.sink.addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
       runStatement(c.program.idAt(body.children, i), c, inner, operands);

@@ -40,8 +40,8 @@ IntBox cellBox(const Layer& layer, Int3 cell);
 /// extends exactly to the declared reach must not fail because of that.
 inline constexpr int32_t kReachSlack = 64;
 
-/// The limit of shapes of the cell: cellBox() grown by the reach and kReachSlack; unlimited along axes that are not
-/// divided into cells. Without layers (a top-level start): the domain's box, grown by the slack.
+/// Returns the box within which shapes of the cell must lie: cellBox() grown by the reach and kReachSlack, unlimited
+/// along axes without cells. For a top-level start: the domain's box grown by kReachSlack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// The interval along one axis that may contain shapes of a layer's cell, both ends included, in units. Relative to the

@@ -176,7 +176,7 @@ Value Evaluator::sampleCoordinates(const Env& env, bool local) {
     const Num z = draft_.coordinate({}, {0, 0, 1});
     return Value::vector(x, y, z);
   }
-  // The anchor is the scope's origin rounded to units; the rounding error is added back.
+  // The anchor of a coordinate is the scope's origin rounded to units; the rounding error is added back below.
   const Placement& at = env.place;
   const Int3 anchor = at.snap({});
   const Int3 from_base = saturatingSub(anchor, at.base);
@@ -192,7 +192,7 @@ Value Evaluator::sampleCoordinates(const Env& env, bool local) {
 
 Value Evaluator::evaluateMember(const ExprNode& node, const Env& env) {
   const Value v = evaluate(program_.idAt(node.children, 0), env);
-  // An expression that has failed may have returned another kind of value.
+  // After an error, evaluation may have returned a value of another kind.
   const auto segmentOf = [&](const Value& of) {
     return of.kind == ValueKind::segment ? segments_[of.first] : Segment{};
   };
@@ -255,7 +255,7 @@ Value Evaluator::evaluateCall(const ExprNode& node, const Env& env) {
 Value Evaluator::evaluateLet(const ExprNode& node, const Env& env) {
   const Let& let = program_.lets[node.id];
   std::vector<Value> slots(std::max(let.slot_count, let.formals.count));
-  // Draws inside depend on the path and the arguments, so that two uses with different arguments draw independently.
+  // Random draws in a let depend on the path and the arguments, so that uses with different arguments are independent.
   uint64_t given = 0;
   for (uint32_t i = 0; i < let.formals.count; ++i) {
     slots[i] = evaluate(boundAt(node, i), env);

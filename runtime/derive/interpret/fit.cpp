@@ -13,14 +13,14 @@
 namespace sgm::interpret {
 namespace {
 
-/// Units by which the box around an asset is larger: its faces must make the surface, never the box's.
+/// Units by which the box around an asset is enlarged, so that the asset's faces, never the box's, form the surface.
 constexpr double kBoxMargin = 2;
 constexpr double kUnitsOfMetre = kUnitsPerMetre;
 
 Vec3 vecOf(asset::Point p) { return {p.x, p.y, p.z}; }
 
-/// At the foot of `from` on the plane, y pointing out of it; if the plane is vertical, x is horizontal and z points
-/// down, for textures.
+/// Returns a placement on the plane, at the point nearest to `from`, with y along the plane's normal. If the plane is
+/// vertical, x is horizontal and z points down, for textures.
 Placement onPlane(const Placement& scope, const asset::Plane& plane, Vec3 from) {
   const Vec3 out = vecOf(plane.normal);
   const double away = dot(out, from) - plane.offset;
@@ -34,7 +34,8 @@ Placement onPlane(const Placement& scope, const asset::Plane& plane, Vec3 from) 
   return place;
 }
 
-/// The frame of a half-space there. Its origin has integer units: among the nearby ones, the one nearest to the plane.
+/// Returns the frame of the half-space below the placement's xz plane. A frame's origin has integer units; among nearby
+/// integer points, the one nearest to the plane is chosen.
 Frame frameOn(const Placement& place) {
   Frame frame = place.frame();
   const Vec3 out = place.direction({0, 1, 0}), cell = place.toCell({});
@@ -80,7 +81,7 @@ void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   if (!body.trouble.empty()) return c.budget.note(body.trouble + "; it is left out", s.span, env.activation);
   const Asset& from = c.program.assets[node.asset];
   const Vec3 corner = -0.5 * env.scope;
-  // Pieces that lie behind one face share its half-space, and therefore the texture.
+  // Pieces behind the same face share its half-space, and thus its texture coordinates.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
   ShapeList pieces;
   for (const asset::ConvexPiece& piece : body.pieces) {
@@ -102,7 +103,7 @@ void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
                          : c.sink.addShape(shapeIn(env, ShapeKind::meet), s.ordinal, s.span, env, planes));
     if (c.budget.failed()) return;
   }
-  // Inclined planes have no bounds of their own.
+  // Half-spaces with inclined planes have no bounds, so each piece is intersected with a box.
   Shape box = shapeIn(env, ShapeKind::box);
   box.frame = env.place.frame();
   double inner = kInfinity;

@@ -10,12 +10,12 @@
 namespace sgm::interpret {
 namespace {
 
-/// A method's receiver is bound before the parameters of the table.
+/// Whether bound[0] of a call is a receiver, which precedes the parameters in the builtin table.
 bool isMethod(Builtin id) {
   return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
 }
 
-/// True if sine and cosine support the angle; the proof of reach relies on results between -1 and 1 for any number.
+/// Whether detSin and detCos support the angle. The proof of reach relies on results between -1 and 1 for any number.
 bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace
@@ -55,7 +55,7 @@ Value Evaluator::evaluateBuiltin(const ExprNode& node, const Env& env) {
 Value Evaluator::evaluatePure(const ExprNode& node, const Env& env) {
   const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
   const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
-  // In sequence: the order in which a compiler evaluates a call's arguments must not affect the chunk.
+  // Arguments are evaluated in sequence: the compiler's evaluation order of arguments must not affect the chunk.
   const auto all = [&](uint32_t count) {
     std::array<Num, 3> values;
     for (uint32_t i = 0; i < count; ++i) values[i] = num(i);

@@ -48,7 +48,8 @@ class PartSearch {
 
   IntBox bounds(const Shown& at) const { return at.shows[root_] ? levelBounds(at.chunk, root_, 0) : IntBox{}; }
 
-  /// Among the levels from `from` on, the coarsest at which the group exceeds the limit: finer ones show more.
+  /// Returns the index of the coarsest level, from index `from` on, at which the group exceeds the limit; bisects,
+  /// since finer levels show more.
   size_t firstBeyond(size_t from) {
     size_t end = levels_.size();
     while (from < end && !refused_) {
@@ -61,8 +62,8 @@ class PartSearch {
     return end;
   }
 
-  /// Removes the parts that first show at that level: those that exceed the limit by themselves, or else all. Returns
-  /// false if the whole group first shows there.
+  /// Removes parts that become visible at this level (index): those that exceed the limit by themselves, or else all of
+  /// them. Returns false if the whole group first becomes visible there.
   bool takeOut(size_t level) {
     if (level == 0) return false;
     const std::vector<bool> sooner = shown(level - 1).shows;
@@ -97,7 +98,7 @@ class PartSearch {
   const IntBox& limit_;
   const std::function<bool(uint64_t)>& step_;
   const uint32_t root_;
-  std::vector<int32_t> levels_;  ///< the largest cells that show something more, from coarse to fine
+  std::vector<int32_t> levels_;  ///< cell edges at which further parts become visible, from coarse to fine
   std::vector<bool> gone_;
   bool refused_ = false;
   GroupParts out_;

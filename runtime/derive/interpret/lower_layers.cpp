@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// The position of a box nearest to the ball's centre is found for each coordinate separately.
+/// Whether the ball intersects the box. The box's point nearest to the centre is found for each coordinate separately.
 bool meets(const Ball& ball, const IntBox& box) {
   uint64_t square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<Box
       const BoxContent found = content(piece);
       if (found == wanted) continue;
       if (found != BoxContent::unknown) return proof;
-      // A single position of another kind ends the search early.
+      // If the middle of the piece differs, the proof has failed, and the search ends early.
       const IntBox middle = onePosition(middleOf(piece));
       if (meets(ball, middle) && content(middle) != wanted) return proof;
       halve(piece, halves);

@@ -9,14 +9,14 @@
 namespace sgm::interpret {
 namespace {
 
-/// A shape as a superquadric: its radii, and its squareness (0 an ellipsoid, 1 the squarest, used as a box).
+/// A shape as a superquadric: its radii, and its squareness, from 0 (an ellipsoid) to 1 (used as a box).
 struct Squared {
   std::array<double, 3> radii{};
   double square = 0;
-  bool turns = true;  ///< it has axes
+  bool turns = true;  ///< the shape's axes matter; false for a sphere
 };
 
-/// For a sphere, an ellipsoid, a box or a superquadric.
+/// Converts a sphere, an ellipsoid, a box or a superquadric.
 Squared squaredOf(const Shape& s) {
   Squared result;
   const bool ball = s.kind == ShapeKind::sphere;
@@ -31,7 +31,7 @@ Squared squaredOf(const Shape& s) {
 }
 
 void morphByPower(const StmtNode& s, CellContext& c, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
-  // The checker ensures that both are leaves of the same scope: they have the same centre and axes.
+  // The checker ensures that both shapes are leaves of the same scope, so they have the same centre and axes.
   const Squared from = squaredOf(c.draft.shape(a)), to = squaredOf(c.draft.shape(b));
   const auto mixed = [](double low, double high, double at) { return low + (high - low) * at; };
   Shape node = shapeIn(env, ShapeKind::superquadric);
@@ -43,8 +43,8 @@ void morphByPower(const StmtNode& s, CellContext& c, const Env& env, uint32_t a,
     out.push_back(c.sink.addShape(node, s.ordinal, s.span, env));
     return;
   }
-  // The node covers squareness 0 to 1; ends in between are two points on the way, and the radii are extrapolated
-  // linearly.
+  // The morph_power node runs from squareness 0 to 1. If the two shapes have squarenesses in between, radii and t are
+  // extrapolated linearly to that range.
   node.kind = ShapeKind::morph_power;
   const double step = to.square - from.square;
   for (size_t i = 0; i < 3; ++i) {
@@ -74,7 +74,7 @@ double exponentOfSquare(double square) {
 
 void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const StmtId from = c.program.idAt(s.children, 0), to = c.program.idAt(s.children, 1);
-  // A parameter of the field may run along the morphed shapes (`u`), so it is evaluated after both ends.
+  // A sample-time t may use `u` along the morphed shapes, so it is evaluated after both shapes are derived.
   const bool sampled = c.program.expr(s.expr).type.sample;
   Num t = sampled ? Num{} : c.evaluator.evaluate(s.expr, env).n[0];
   if (!sampled && !(t.value > 0)) return runStatement(from, c, env, out);

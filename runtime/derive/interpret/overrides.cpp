@@ -9,7 +9,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// The overrides of a tag, apart from those whose own block contains the statement.
+/// Returns the overrides of a tag, except those whose own block contains the statement.
 std::vector<uint32_t> overridesOf(uint16_t tag, const Program& program, const Env& env) {
   std::vector<uint32_t> found;
   const IdRange all = program.overridesOf(tag);
@@ -22,7 +22,7 @@ std::vector<uint32_t> overridesOf(uint16_t tag, const Program& program, const En
   return found;
 }
 
-/// Derives the block of an override of the target, an index into its edits.
+/// Derives the block of the override what.edits[at].
 void runEdit(const UnderEdit& what, size_t at, CellContext& c, const Env& env, ShapeList& out) {
   const uint32_t index = what.edits[at];
   const Override& edit = c.program.overrides[index];
@@ -74,14 +74,15 @@ void runUnderEdits(const UnderEdit& what, size_t below, CellContext& c, Env& env
 void runInner(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   if (env.under == nullptr) return;
   const UnderEdit& what = *env.under;
-  // With the position, labels and levels of this statement; everything else as without the override.
+  // Derives the replaced content as without the override, except for the position, labels and levels of this `inner`.
   Env below = env;
   below.activation = what.env->activation;
   below.slots = what.env->slots;
   below.under = what.env->under;
   below.within = what.env->within;
   below.top = env.top && s.layer_level;
-  // The first copy keeps its key, so that it is identical to the byte; further copies have keys of their own.
+  // The first `inner` keeps the key of the replaced content, so that its result is bitwise identical; further ones get
+  // keys of their own.
   below.key = env.key == what.own_key && s.extra == 0 ? what.env->key : env.key.child(what.env->key.value, s.ordinal);
   if (env.forced_material == 0) below.forced_material = env.written_material;
   if (env.forced_tag == 0) below.forced_tag = env.written_tag;

@@ -46,7 +46,7 @@ void transform(IdRange xforms, CellContext& c, Env& env) {
         if (whole) {
           env.scope = first.vec();
         } else {
-          // All edges are read in the original scope: `size(scope.z, scope.y, scope.x)` swaps two.
+          // All edges are evaluated in the original scope, so that `size(scope.z, scope.y, scope.x)` swaps two edges.
           Vec3 edges = env.scope;
           if (x.a != kNoId) edges.x = first.real();
           if (x.b != kNoId) edges.y = part(x.b);
@@ -91,14 +91,14 @@ void runForEach(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
     return !c.budget.failed() && c.budget.step(1, s.span, env.activation);
   };
   if (list.kind == ValueKind::faces) {
-    // With the face's own key: a face that opens or closes changes nothing at the others.
+    // Each copy is keyed by its face, so that a face that opens or closes does not change the content at other faces.
     for (const FaceId& face : list.faces) {
       if (!body(Value::ofFace(face), c.in.lattice.faceKey(face).value)) return;
     }
     return;
   }
   if (list.kind == ValueKind::segments) {
-    // In the same way, shapes at one segment do not depend on the others.
+    // Each copy is keyed by its segment, so that its shapes do not depend on other segments.
     for (uint32_t i = list.first; i < list.first + list.count; ++i) {
       if (!body(Value::ofSegment(i), c.evaluator.segment(i).key.value)) return;
     }

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's edge
 
-/// Appends `metres`, scaled, to Shape::size after the present entries (an exponent); `inner`: inner radius in metres.
+/// Adds a leaf. metres: sizes to append to shape.size after the entries already set (an exponent), scaled to units.
+/// inner: inner radius in metres.
 void addLeaf(Shape shape, std::initializer_list<double> metres, double inner, const ExprNode& node, uint32_t ordinal,
              CellContext& c, const Env& env, ShapeList& out) {
   if (c.budget.failed()) return;
@@ -103,7 +104,7 @@ void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, CellContext&
     return c.budget.note("a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out",
                          node.span, env.activation);
   }
-  // Depends on the ends alone, so that a tube and a beam between the same points bend alike.
+  // The key of the bend depends only on the ends, so that a tube and a beam between the same points bend equally.
   PathKey key = c.in.lattice.cellKey(c.in.cell).child(kBendSalt, 0);
   for (const Int3& end : {saturatingSub(a, c.in.base), saturatingSub(b, c.in.base)}) {
     for (int i = 0; i < 3; ++i) key = {hashCombine(key.value, static_cast<uint32_t>(end[i]))};

@@ -62,7 +62,7 @@ std::optional<PlanPiece> planPiece(const FootprintNode& node, CellContext& c, co
   return std::nullopt;
 }
 
-/// A profile that stands on y = 0, metres; x, z: edges of its box.
+/// A polygon to be extruded from y = 0 to height, metres; x, z: edges of its box.
 struct Profile {
   std::vector<PlanCorner> corners;
   double x, z, height;
@@ -92,7 +92,8 @@ std::optional<uint32_t> prismShape(const Profile& profile, const Placement& plac
   return c.sink.addShape(shape, ordinal, span, env);
 }
 
-/// The outline extruded to the maximal height of the roof, below one plane for each edge from which it slopes up.
+/// Derives a roof: the outline, extruded to the roof's maximum height, intersected with one inclined half-space for
+/// each edge from which the roof slopes up.
 void roofOver(const PlanPiece& piece, double floor, const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const RoofNode& node = c.program.ast.roofs[s.extra];
   const double measure = c.evaluator.real(node.measure, env);
@@ -117,7 +118,8 @@ void roofOver(const PlanPiece& piece, double floor, const StmtNode& s, CellConte
     return edge;
   };
   const double x = grown(piece.x, &PlanCorner::x), z = grown(piece.z, &PlanCorner::z);
-  // Cutting a plane off exactly at its peak would leave a ridge because of rounding.
+  // The extrusion is slightly higher than the peak: ending exactly at the peak would flatten the ridge because of
+  // rounding.
   const double height =
       flat ? measure : 0.5 * std::min(x, z) * detSin(measure) / detCos(measure) + 2.0 / kUnitsPerMetre;
   const Placement place = env.place.moved({piece.middle.x, floor, piece.middle.z});
@@ -198,7 +200,7 @@ void runRoof(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
     if (!c.budget.step(1, s.span, env.activation)) return;
     Env inner = env;
     inner.key = env.key.child(kLoopSalt + s.ordinal, i);
-    // It overlaps the extrusion of the plan instead of touching its face: see kSeamOverlap.
+    // The roof overlaps the extrusion below instead of only touching its face; see kSeamOverlap.
     roofOver(c.evaluator.piece(plan.first + i), -kSeamOverlap, s, c, inner, out);
   }
 }

@@ -30,7 +30,8 @@ Vec3 edgesOf(const PlanRect& r, double y) {
   return {static_cast<double>(r.width()) / kUnitsPerMetre, y, static_cast<double>(r.depth()) / kUnitsPerMetre};
 }
 
-/// A number in the treemap's head or of a link; the fallback if it is missing or out of range.
+/// Evaluates a measure of a treemap or a link; returns the fallback if it is missing or, with a note, if it is out of
+/// range.
 double floorMeasure(ExprId id, double fallback, const ValueRange& range, CellContext& c, const Env& env) {
   if (id == kNoId) return fallback;
   const double value = c.evaluator.real(id, env);
@@ -51,7 +52,8 @@ void addBox(const PlanRect& r, double y, double height, const StmtNode& s, CellC
   out.push_back(c.sink.addShape(shape, s.ordinal, s.span, env));
 }
 
-/// Derives the open space, to which the part's block adds and from which it cuts; the scope is the first rectangle.
+/// Derives a room or corridor: its open space, to which the part's block adds and from which it cuts. The block's scope
+/// is the first rectangle.
 void runRoom(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, CellContext& c,
              const Env& env, ShapeList& out) {
   if (!c.budget.step(1, s.span, env.activation)) return;
@@ -80,7 +82,8 @@ void runRoom(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear,
   out.insert(out.end(), own.begin(), own.end());
 }
 
-/// Like the faces of a box: x along the outer wall, y up, z outwards, without depth.
+/// Derives facades. Their scopes are oriented like the faces of a box: x along the outer wall, y up, z outwards, with
+/// depth 0.
 void runFacades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, CellContext& c, const Env& env,
                 ShapeList& out) {
   const Vec3 edges = env.scope;
@@ -125,7 +128,7 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   sizes.x = static_cast<int32_t>(edges.x * kUnitsPerMetre);
   sizes.z = static_cast<int32_t>(edges.z * kUnitsPerMetre);
 
-  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // parts, and their indices among the rooms
+  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // rooms: their part indices; number: room index by part
   std::vector<double> areas;
   for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::room) continue;
@@ -167,7 +170,7 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   std::vector<PathKey> keys;
   for (size_t i = 0; i < plan.rooms.size(); ++i) {
     const PartNode& part = parts[rooms[i]];
-    // By their names, so that rooms do not depend on each other.
+    // Rooms are keyed by their names, so that they do not depend on each other.
     keys.push_back(key.child(hashText(c.program.text(part.label)), 0));
     runRoom(s, rooms[i], plan.rooms[i].clear, keys[i], c, env, out);
     if (c.budget.failed()) return;

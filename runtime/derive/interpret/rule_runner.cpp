@@ -14,7 +14,8 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr uint32_t kInsteadOrdinal = 0xFFFFFFFEu;  ///< of the call that `depth` or `minsize` makes
+/// ordinal of the call that replaces the body at a `depth` or `minsize` limit
+constexpr uint32_t kInsteadOrdinal = 0xFFFFFFFEu;
 
 std::vector<Value> frameOf(const Alternative& alternative, const std::vector<Value>& arguments) {
   std::vector<Value> slots = arguments;
@@ -29,7 +30,7 @@ RuleRunner::RuleRunner(CellContext& context, RuleWatch* watch)
 
 bool RuleRunner::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
   if (alternative.guard != Guard::when) return true;
-  // Conditions in a head depend only on the arguments: no frame is created for them.
+  // Conditions in a head depend only on the rule's arguments, so no frame with locals is needed.
   env.slots = &arguments;
   const bool holds = c_.evaluator.evaluate(alternative.when, env).truth();
   env.slots = nullptr;
@@ -105,13 +106,13 @@ void RuleRunner::call(uint32_t index, const ExprNode& node, uint32_t ordinal, co
   if (!c_.budget.step(edits.size(), node.span, env.activation)) return;
   runUnderEdits({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), c_, inner, out);
   if (!watched) return;
-  // A rule's block appends to the shapes before its call and does not change them.
+  // The call only appended to `out` and to the cuts, so its own shapes are those behind the counts before the call.
   const ShapeList& cuts = c_.sink.layerCuts();
   watch_->end(number, std::span(out).subspan(before), std::span(cuts).subspan(cuts_before), c_.sink.anchors().size());
 }
 
 void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
-  // Alternatives with `lod` coexist with those without; each set is for its own range of levels.
+  // Alternatives are grouped by `lod`: one of each group is derived, for that group's range of levels.
   std::vector<const Alternative*> plain;
   std::vector<std::pair<int32_t, std::vector<const Alternative*>>> coarse;
   for (const Alternative& a : rule.alternatives) {
@@ -136,7 +137,7 @@ void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& 
     c_.sink.limitLevels(c_.sink.layerCuts(), first_cut, coarsest, detail_edge);
   };
   run(choose(plain, env, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
-  // Gameplay points are the same at every level: only one set may emit them.
+  // Anchors are the same at every level, so only one group may emit them.
   if (!plain.empty()) env.anchors = false;
   for (size_t i = 0; i < coarse.size(); ++i) {
     const int32_t end = i + 1 < coarse.size() ? coarse[i + 1].first - 1 : 0;
@@ -147,7 +148,7 @@ void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& 
 
 void RuleRunner::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
                         ShapeList& out) {
-  // The cost of a frame with many slots is that of filling it.
+  // Filling the frame costs time in proportion to its slots.
   if (!c_.budget.step(chosen.slot_count, chosen.span, env.activation)) return;
   std::vector<Value> slots = frameOf(chosen, arguments);
   Env inner = env;

@@ -14,13 +14,13 @@
 namespace sgm::interpret {
 namespace {
 
-/// The points of one scatter: the number of probed ones, and of those that began inside a solid.
+/// Statistics of one scatter: the number of points probed, and how many of these started inside a solid.
 struct ProbedPoints {
   uint64_t all = 0, buried = 0;
 };
 
-/// In a domain of rock most points are inside the rock, and are meant to find the caves. Elsewhere a solid is the
-/// ground on which the points are probably meant to be.
+/// Adds a note if most probed points started in solid. Not in a solid domain, where most points are inside the rock and
+/// are meant to find the caves; elsewhere the points were probably meant to lie on the ground.
 void noteBuried(const StmtNode& s, CellContext& c, const Env& env, const ProbedPoints& probed) {
   if (c.program.domain.solid || 2 * probed.buried < probed.all) return;
   const ScatterNode& node = c.program.ast.scatters[s.extra];
@@ -32,7 +32,7 @@ void noteBuried(const StmtNode& s, CellContext& c, const Env& env, const ProbedP
                 s.span, env.activation);
 }
 
-/// Moves the environment to the first surface; returns false if there is none.
+/// Moves the environment to the first surface in the probe's direction; returns false if there is none.
 bool probe(const ScatterNode& node, CellContext& c, Env& env, ProbedPoints& probed) {
   const int32_t distance = toUnits(c.evaluator.real(node.distance, env) * env.place.scale);
   if (c.budget.failed() || distance <= 0) return false;
@@ -63,7 +63,7 @@ void scatterPoint(const StmtNode& s, CellContext& c, const Env& at, ProbedPoints
   const ScatterNode& node = c.program.ast.scatters[s.extra];
   if (!c.budget.step(1, s.span, at.activation)) return;
   const auto wanted = [&] { return node.when == kNoId || c.evaluator.evaluate(node.when, at).truth(); };
-  // Probes are expensive; a point depends only on a probe that yields a gap.
+  // Probes are expensive, so the condition is evaluated first, unless it may use the gap that the probe measures.
   const bool asks_gap = node.gap != kNoId;
   if (!asks_gap && !wanted()) return;
   Env moved = at;
@@ -83,7 +83,7 @@ void scatterPoints(const StmtNode& s, CellContext& c, const Env& env, ProbedPoin
     return !c.budget.failed();
   };
   if (node.area == ScatterArea::cell) {
-    // The set is common to the whole layer: its key depends on the statement, not on the cell.
+    // The point set extends over the whole layer: its key depends on the statement, not on the cell.
     const Activation& use = c.activations[env.activation];
     const uint64_t owner = use.edit == kNone ? c.program.rules[use.rule].name_hash : c.program.overrides[use.edit].hash;
     const PathKey set = PathKey{c.in.lattice.seed}.child(kSetSalt + owner, s.ordinal);
@@ -91,7 +91,7 @@ void scatterPoints(const StmtNode& s, CellContext& c, const Env& env, ProbedPoin
       c.budget.note("the distance between points must be positive; there are no points", s.span, env.activation);
       return;
     }
-    // Candidates are all held at once: their memory is counted before they are allocated.
+    // All candidates are in memory at once, so their number is limited by the memory before they are allocated.
     constexpr size_t kCandidate = 64;
     const size_t most = std::min<size_t>(c.budget.stepsLeft(), c.in.limits.bytes / kCandidate);
     const auto points = poissonInCell(c.in.lattice, c.in.cell, set, toUnits(amount), most);

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kMostParts = 1e6;
 
-/// A face of a box: rotated so that z points out of it.
+/// A face of a box, with the rotation that turns z outwards.
 struct Face {
   BoxPart part;
   int turn_axis;
   double quarters;
   int width, height, depth;  ///< axes of the box that run along its x, y and z
-  double sign;               ///< of the side that it is on
+  double sign;               ///< +1 or -1: on which side of the box's centre the face is
 };
 
 constexpr Face kFaces[] = {{BoxPart::front, 1, 0, 0, 1, 2, 1}, {BoxPart::right, 1, 1, 2, 1, 0, 1},
@@ -38,7 +38,7 @@ Placement facePlace(const Face& face, const Placement& box, Vec3 edges) {
   return box.moved(out).turned(axis, face.quarters * (kPi / 2));
 }
 
-/// The signed distance along the axis to the nearest plane within `reach` of a point; 0 if there is none.
+/// Returns the signed distance from a point along the axis to the nearest snap plane; 0 if none is within `reach`.
 double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis, Vec3 local, double reach) {
   constexpr double kParallel = 1 - 1e-9;
   Vec3 along;
@@ -57,7 +57,7 @@ double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis
   return best;
 }
 
-/// Moves the lines between the parts onto planes if the parts on both sides keep a positive size.
+/// Moves the borders between parts to snap planes, if the parts on both sides keep a positive size.
 void snapLines(std::vector<SplitPlace>& places, double length, const SnapPlanes* planes, const Placement& place,
                int axis, double reach) {
   for (size_t i = 0; i + 1 < places.size(); ++i) {
@@ -160,7 +160,8 @@ void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out)
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);
     const double below = std::min(low, kSeamOverlap);
-    // A part is longer by its own seams than the length for which its rigid parts were made: the last one fills that.
+    // A part's scope is longer than its place by the seam overlaps, while the rigid parts in it were sized for the
+    // place alone; the last part fills the rest.
     const bool last = &place == &layout.places.back();
     const double above = !last ? std::min(rest, kSeamOverlap) : rest <= 2 * kSeamOverlap ? rest : 0;
     Vec3 at, scope = env.scope;
@@ -195,7 +196,7 @@ void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
         continue;
       }
       const Placement place = facePlace(face, env.place, edges);
-      // Keys depend only on the face: the other named faces do not affect it.
+      // The key depends only on the face, so that adding other faces to the comp does not change this one.
       const uint64_t number = static_cast<uint64_t>(face.part);
       if (edge)
         runPart(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, c, env, out);

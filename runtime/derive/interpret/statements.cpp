@@ -121,7 +121,7 @@ void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out) {
     case StmtKind::field:  // evaluated when used
     case StmtKind::mat:    // the checker has put both on the block
     case StmtKind::tag:
-    case StmtKind::link:  // its treemap has read it
+    case StmtKind::link:  // evaluated by its treemap
     case StmtKind::border:
       break;
   }

@@ -17,7 +17,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// Tiles in all their orientations, and for each the part of the wfc and its rotation about y in quarter turns.
+/// All tiles in all their orientations; for each, the part of the wfc and the rotation about y in quarter turns.
 struct StandingTiles {
   struct Stand {
     uint32_t part;
@@ -27,14 +27,15 @@ struct StandingTiles {
   std::vector<Stand> stands;
 };
 
-/// The weight of the heaviest tile.
+/// Weights are scaled so that the heaviest tile has this weight.
 constexpr double kFullWeight = 1 << 20;
 /// The limit of visits is this number times (places + this number).
 constexpr uint64_t kMostVisits = 128;
-/// The share of a cell's steps that one search may use, and the number of visits with few tiles that count as a step.
+/// One search may use 1 / kSearchShare of the cell's steps; kVisitsOfStep cheap visits (with few tiles) count as a
+/// step.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
-/// The part of an edge that belongs to a place, overlapping its neighbours like the parts of a split.
+/// The interval of an edge that belongs to one place; it overlaps those of its neighbours, as parts of a split do.
 struct Stretch {
   double low, high;
 };
@@ -86,7 +87,7 @@ void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLat
       for (size_t k = 0; k < kinds.size(); ++k)
         if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
     }
-    // A side that every tile would fit is not a constraint.
+    // A side that every tile fits does not explain the failure.
     if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
                     [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
       continue;
@@ -107,7 +108,7 @@ void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLat
                 s.span, env.activation);
 }
 
-/// Returns false, with a note, if there is nothing to fill.
+/// Computes the lattice of places. Returns false, with a note, if the scope has no room for a tile.
 bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice& lattice) {
   const Vec3 edges = env.scope;
   const Value size = c.evaluator.evaluate(s.expr, env);
@@ -136,14 +137,14 @@ bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice&
   const std::span<const SideKind> kinds = sideKinds(c.program, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = c.program.ast.parts[s.parts.first + i];
-    // The border is seen from outside: beyond the front is a back side.
+    // Border labels belong to the places outside the lattice: beyond the front there is a back side.
     for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
       lattice.border[side] = sideLabels(kinds, c.program.ast.tiles[part.tile].sides[side], !isHigh(side));
   }
   return true;
 }
 
-/// Returns false, with a note, if there is no tile to fill a lattice with.
+/// Collects the tiles in all their orientations. Returns false, with a note, if there are no tiles.
 bool waveTiles(const StmtNode& s, CellContext& c, const Env& env, StandingTiles& out) {
   std::vector<double> weights(s.parts.count, 0);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
@@ -189,12 +190,13 @@ void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   WaveLattice lattice;
   StandingTiles standing;
   if (!waveLattice(s, c, env, lattice) || !waveTiles(s, c, env, standing)) return;
-  // This must not depend on the remaining steps: other contents of the cell, at any level, must not change these tiles.
+  // The limit of visits must not depend on the remaining steps of the cell, or other content of the cell would change
+  // the tiles.
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
   const uint64_t most = std::min(kMostVisits * (places + kMostVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
-  // Visits are cheap steps: it is better to have no tiles in a hundred scopes than to lose the whole cell.
+  // Visits count only as fractions of a step: a hundred scopes without tiles are better than a failed cell.
   if (!c.budget.step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, c, env);
   uint64_t number = 0;

@@ -11,7 +11,8 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr uint64_t kUpdatesInStep = 16;  ///< of voxels: each costs far less than an expression
+/// voxel updates that count as one step: an update costs far less than an expression
+constexpr uint64_t kUpdatesInStep = 16;
 
 /// Half extent along an axis without cells: beyond the world.
 constexpr float kEndless = 2147483648.0f;
@@ -19,7 +20,7 @@ constexpr float kEndless = 2147483648.0f;
 int32_t solidNeighbours(double threshold, int32_t radius, int axes) {
   double all = 1;
   for (int i = 0; i < axes; ++i) all *= 2 * radius + 1;
-  // A fraction such as 5/9 is not exact.
+  // Rounded up, with a tolerance since a fraction such as 5/9 is not exact.
   return static_cast<int32_t>(-detFloor(-(threshold * all - 1e-6)));
 }
 
@@ -64,7 +65,8 @@ void addAutomaton(const ExprNode& node, uint32_t ordinal, CellContext& c, const 
     box.first[axis] = block.first[axis] = static_cast<int32_t>(first);
     box.count[axis] = block.count[axis] = static_cast<int32_t>(last - first + 1);
     updates *= static_cast<uint64_t>(box.count[axis] + 2 * automaton.halo());
-    // The cell and one voxel around it. Half a unit of an odd edge is rounded up; the margin allows for that.
+    // The shape's box is the cell plus one voxel on each side. Half of an odd edge is rounded up; kVoxelMargin allows
+    // for that.
     shape.frame.origin[axis] = own.lo[axis] + c.in.layer.cell[axis] / 2;
     shape.size[a] = static_cast<float>((c.in.layer.cell[axis] + 1) / 2 + block.edge);
   }

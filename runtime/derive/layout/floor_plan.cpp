@@ -10,12 +10,12 @@
 namespace sgm {
 namespace {
 
-/// Rooms, and the corridor along some of the walls.
+/// A candidate layout: the rooms' open space, after a corridor is carved along some of the walls.
 struct Carving {
   std::vector<Rects> rooms;
   Rects corridor;
-  std::vector<size_t> part;  ///< of the corridor, for each rectangle: connected rectangles have the same
-  /// False if the corridor cuts a room in two, or leaves it narrower than a door: that room is then the last here.
+  std::vector<size_t> part;  ///< by corridor rectangle: number of the connected part of the corridor it belongs to
+  /// False if the corridor divides a room or leaves it narrower than a door. That room is then the last in `rooms`.
   bool sound = true;
 };
 
@@ -36,7 +36,7 @@ class FloorLayout {
     middle_ = grown(floor_, -half);
     if (middle_.width() <= 0 || middle_.depth() <= 0) return;
     cells_ = linkedRooms(middle_, areas, links, sizes.wall, kPlanStep, work_);
-    // The largest rooms are in front.
+    // Mirror the treemap, so that the largest rooms are in front (+z).
     for (PlanRect& cell : cells_) cell = {cell.x0, -cell.z1, cell.x1, -cell.z0};
     graph_ = wallGraph(middle_, cells_);
     near_ = roomsNearCorners();
@@ -81,7 +81,7 @@ class FloorLayout {
     return out;
   }
 
-  /// Strips along the walls. They overlap where walls meet, and end before the wall across their end.
+  /// Adds corridor strips along walls. They overlap where walls meet, and stop before the wall that crosses their end.
   void corridor(const std::vector<bool>& walls, Carving& out) const {
     std::vector<int> degree(graph_.corners.size(), 0);
     for (size_t e = 0; e < walls.size(); ++e) {
@@ -117,7 +117,8 @@ class FloorLayout {
                        [&](const PlanFacade& f) { return f.high - f.low >= sizes_.door; });
   }
 
-  /// Doors, and the rooms that they reach. through: also from any room to rooms that are not reached otherwise.
+  /// Places doors, and finds the rooms that they reach. through: allows doors from any room to rooms that are not
+  /// reached otherwise.
   Access connected(const Carving& carving, bool through) const {
     const size_t rooms = cells_.size(), first = entered_ < rooms ? entered_ : 0;
     Access out;
@@ -173,7 +174,7 @@ class FloorLayout {
                                              [](const PlanDoor& d) { return d.link != PlanDoor::kNoLink; }));
   }
 
-  /// A path for the corridor, and its maximum value: rooms per length.
+  /// A possible extension of the corridor. most: upper bound of its value, in rooms gained per length.
   struct Candidate {
     double most = 0;
     double length = 0;
@@ -201,7 +202,7 @@ class FloorLayout {
     return out;
   }
 
-  /// The rooms that touch each corner, and those that links might reach from there.
+  /// For each corner of the graph: a bit set of the rooms that touch it, and of those that links may reach from these.
   std::vector<uint64_t> roomsNearCorners() const {
     std::vector<uint64_t> beyond(cells_.size());
     for (size_t room = 0; room < beyond.size(); ++room) beyond[room] = uint64_t{1} << room;
@@ -220,14 +221,14 @@ class FloorLayout {
   /// The best of the candidates so far; a later candidate is worth at most its promise.
   struct Best {
     double gain = 0;
-    bool found = false;  ///< and no other can be better
+    bool found = false;  ///< the best candidate is known: no other can have a larger gain
     std::vector<bool> walls;
 
     bool takes(double other) const { return !found && other > gain; }
   };
 
-  /// Adds the walls of one more path to the corridor: the path that reaches most rooms per length. Losing a link is
-  /// better than an unrequested passage through another room, but paths that keep all doors of links are preferred.
+  /// Extends the corridor by the path with the largest number of rooms reached per length. Prefers paths that keep all
+  /// doors of links. Losing such a door is still better than an unrequested passage through another room.
   bool extend(std::vector<bool>& walls, Carving& carving, Access& access) {
     Best keeping, any;
     const size_t corners = graph_.corners.size();
@@ -237,7 +238,7 @@ class FloorLayout {
       keeping.found = keeping.found || one.most <= keeping.gain;
       any.found = any.found || one.most <= any.gain;
       if (keeping.found) break;
-      // Different paths along the present corridor can have the same new walls.
+      // Different paths may consist of the same new walls, if they share the existing corridor.
       if (!seen.insert(one.walls).second) continue;
       Carving with = carved(one.walls);
       work_.done += cells_.size() + with.corridor.size();
@@ -257,7 +258,7 @@ class FloorLayout {
     return true;
   }
 
-  /// The parts of a room's outer walls that are open inside.
+  /// Returns the stretches of a room's outer walls along which the room is open space.
   std::vector<PlanFacade> facadesOf(const Carving& carving, size_t room) const {
     const PlanRect inner = grown(middle_, -sizes_.wall / 2);
     std::vector<PlanFacade> out;
@@ -294,7 +295,7 @@ class FloorLayout {
       const PlanRect hole = f.side % 2 == 0 ? PlanRect{low, std::min(a, b), high, std::max(a, b)}
                                             : PlanRect{std::min(a, b), low, std::max(a, b), high};
       plan.doors.push_back({hole, PlanDoor::kOutside, f.room, PlanDoor::kNoLink});
-      // The wall on both sides of it.
+      // The facade is split into the stretches on both sides of the entrance.
       plan.facades[i].high = low - sizes_.wall;
       plan.facades.insert(plan.facades.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                           {f.room, f.side, high + sizes_.wall, f.high});
@@ -309,12 +310,13 @@ class FloorLayout {
 
   FloorPlanSizes sizes_;
   std::span<const RoomLink> links_;
-  PlanRect floor_, middle_;  ///< to the outer faces of walls, and to their middles
+  /// the floor, measured to the outer faces of walls (floor_) and to their centre lines (middle_)
+  PlanRect floor_, middle_;
   std::vector<PlanRect> cells_;
   WallGraph graph_;
-  std::vector<uint64_t> near_;  ///< a bit per room
+  std::vector<uint64_t> near_;  ///< see roomsNearCorners()
   PlanWork work_;
-  size_t entered_ = 0;  ///< the room that the entrance leads into; past the last if none has a suitable wall
+  size_t entered_ = 0;  ///< index of the room with the entrance; the number of rooms if no room has a suitable wall
 };
 
 }  // namespace

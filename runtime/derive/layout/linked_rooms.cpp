@@ -5,7 +5,7 @@
 namespace sgm {
 namespace {
 
-/// Rows with more parts have too many permutations to try all.
+/// Rows with at most this many parts are tried in all permutations; longer ones only with two parts swapped.
 constexpr size_t kMostPermuted = 3;
 
 size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links, int32_t wall) {
@@ -16,8 +16,8 @@ size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links
   }));
 }
 
-/// The variants of a row: its parts in other orders (all orders for few parts, swaps of two for many), at either end.
-/// The largest rooms stay in front, where the entrance is.
+/// Returns variants of a row: its parts in other orders, at either end. The largest rooms stay in front, where the
+/// entrance is. first: the row is the first one, with the largest rooms.
 std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   std::vector<TreemapRow> out{row};
   TreemapRow other = row;
@@ -42,7 +42,7 @@ std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   return out;
 }
 
-/// Changes rows until no other variant of one or two of them meets more links.
+/// Local search: changes rows until no other variant of one or two rows satisfies more links.
 class RoomSearch {
  public:
   RoomSearch(const PlanRect& whole, std::span<const double> areas, std::span<const RoomLink> links, int32_t wall,

@@ -14,7 +14,7 @@ double turnAt(PlanCorner a, PlanCorner b, PlanCorner c) {
   return (b.x - a.x) * (c.z - b.z) - (b.z - a.z) * (c.x - b.x);
 }
 
-/// The unit normal out of the polygon; 0 if the corners coincide.
+/// Returns the outward unit normal of an edge; 0 if its corners coincide.
 PlanCorner outward(PlanCorner from, PlanCorner to) {
   const Vec3 out = normalised({to.z - from.z, 0, from.x - to.x});
   return {out.x, out.z};
@@ -115,7 +115,7 @@ std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin) {
     const PlanCorner at = piece.corners[i];
     const PlanCorner a = outward(piece.corners[(i + count - 1) % count], at);
     const PlanCorner b = outward(at, piece.corners[(i + 1) % count]);
-    // The intersection of both edges, each moved by the margin.
+    // The new corner is the intersection of the two adjacent edges, each moved outwards by the margin.
     const double x = a.x + b.x, z = a.z + b.z;
     const double share = std::max(1 + a.x * b.x + a.z * b.z, std::sqrt(x * x + z * z) / kMostMiter);
     if (share > 0) out[i] = {at.x + margin * x / share, at.z + margin * z / share};

@@ -32,7 +32,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
     const size_t i = static_cast<size_t>(a);
     if (!lattice.hasAxis(a)) continue;
     low[i] = int64_t{cell[a]} * lattice.size[a];
-    // One more cube on each side: candidates two cubes apart are farther than the radius.
+    // Also covers one more cube on each side; candidates two cubes apart are farther apart than the radius.
     first[i] = floorDiv(low[i], step) - 1;
     count[i] = floorDiv(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
     if (static_cast<size_t>(count[i]) > limit / total) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
       }
     }
   }
-  // Offsets of the surrounding cubes, the nearest first: most candidates lose, mostly to one in an adjacent cube.
+  // Index offsets of the surrounding cubes, nearest first: most candidates are rejected by one in an adjacent cube.
   std::vector<std::ptrdiff_t> around;
   for (int64_t shared = 2; shared >= 0; --shared) {
     for (int64_t k = -1; k <= 1; ++k) {
@@ -78,9 +78,11 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
   const auto wins = [&](const Candidate& c) {
     return std::none_of(around.begin(), around.end(), [&](std::ptrdiff_t away) {
       const Candidate& other = *(&c + away);
-      // A lower one is not a rival, however near; equal hashes are decided by the position, equally for both.
+      // Only a candidate with higher priority can reject c; equal priorities are decided by position, in the same way
+      // for both.
       if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) return false;
-      // A candidate that is far along one axis is far enough, and the squares of the rest fit, however large the cell.
+      // If the distance along one axis reaches the radius, the candidate is far enough; so the sum of squares cannot
+      // overflow.
       uint64_t square = 0;
       for (size_t a = 0; a < 3; ++a) {
         const auto d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));
@@ -103,7 +105,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
           inside = inside && d >= 0 && d < std::max(lattice.size[a], 1);
           offset[a] = saturate(d);
         }
-        // Strictly inside the array, so that all surrounding cubes exist.
+        // c is not in an outermost cube of the array, so all surrounding cubes exist.
         if (inside && wins(c)) points.push_back({offset, c.key});
       }
     }

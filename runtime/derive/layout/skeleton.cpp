@@ -18,7 +18,8 @@ struct Bud {
   PathKey key;
 };
 
-/// A direction around another one: `around` is measured from a side that depends only on the heading.
+/// Rotates a heading: cosine is that of the angle to it; `around` is the angle about it, measured from a side that
+/// depends only on the heading.
 Vec3 turned(Vec3 heading, double cosine, double around) {
   const Vec3 side = across(heading, {0, 1, 0}), other = cross(heading, side);
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -32,7 +33,7 @@ Skeleton grownSkeleton(PathKey key, const Turtle& turtle) {
   const uint32_t steps = static_cast<uint32_t>(turtle.steps);
   const double straightest = detCos(turtle.turn);
   std::vector<Bud> buds{{{}, {0, 1, 0}, 0, 0, key}};
-  // Side branches wait behind those of less depth: if there are too many, the finest twigs are left out.
+  // Branches are grown in order of depth, so that if there are too many, the finest twigs are left out.
   for (size_t b = 0; b < buds.size(); ++b) {
     const Bud bud = buds[b];
     if (steps - bud.first > kMostSegments - out.segments.size()) {

@@ -51,12 +51,12 @@ class Misfits {
   std::set<std::pair<ExprId, ExprId>> loosely_fitting_;
 };
 
-/// Checks the arguments of every call, even if no derivation can reach it, against the ranges of a rule, let or field,
-/// as far as the arguments do not depend on the frame. checkReach() checks the rest, where the frame is known.
+/// Reports misfits, at the argument or at the call into the standard library: errors if they are certain, otherwise
+/// warnings.
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink);
 
-/// Checks every call, derived or not, whose arguments lie outside of the ranges of a rule, let or field, if that does
-/// not depend on the frame. checkReach() checks the rest, where the frame is known.
+/// Checks the arguments of every call, even if no derivation can reach it, against the ranges of a rule, let or field,
+/// as far as the arguments do not depend on the frame. checkReach() checks the rest, where the frame is known.
 void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
 }  // namespace sgm
