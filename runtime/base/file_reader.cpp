@@ -34,7 +34,7 @@ Result<platform::File> openForReading(const std::filesystem::path& path, Readabl
   return file;
 }
 
-/// Appends up to `bytes`. Returns false, with the reason in errno, if they cannot be read.
+/// Reads up to `bytes` bytes and appends them to content. Returns false, with the reason in errno, if reading fails.
 bool append(int file, std::string& content, size_t bytes) {
   const size_t before = content.size();
   content.resize(before + bytes);
@@ -57,7 +57,7 @@ Result<std::string> readOpenFile(int file, const std::string& name, uint64_t mos
   const uint64_t reported = status.isRegular() ? status.bytes : 0;
   if (reported > most_bytes) return tooLarge(name, most_bytes);
   std::string content;
-  // One byte more than is expected shows whether the file has ended.
+  // Read one byte more than the file's reported size, to detect whether the file has ended there.
   size_t next = std::max(static_cast<size_t>(reported) + 1, reported > 0 ? 0 : kPiece);
   for (;;) {
     const size_t before = content.size();

@@ -11,14 +11,14 @@
 namespace sgm::platform {
 namespace {
 
-/// A file of /proc; empty if there is none.
+/// Returns the content of a file in /proc; empty if it does not exist.
 std::string procFile(const char* name) {
   constexpr uint64_t kMostBytes = uint64_t{64} << 20;
   Result<std::string> content = readFile(name, kMostBytes);
   return content ? std::move(*content) : std::string();
 }
 
-/// The time when the machine booted, seconds since 1970.
+/// Returns the time when the machine booted, seconds since 1970.
 std::optional<double> bootTime() {
   std::istringstream in(procFile("/proc/stat"));
   for (std::string word; in >> word;) {

@@ -1,9 +1,9 @@
 #pragma once
-// Files as the operating system has them: locks, positions, durability and identity, which std::filesystem and <cstdio>
-// lack. Each system has one source file that implements this header.
+// File functions of the operating system that std::filesystem and <cstdio> lack: locks, offsets, durability, identity.
+// Each operating system has one source file that implements this header.
 //
-// A file is a descriptor. Functions that return int or ptrdiff_t return -1 if they fail, with the reason in errno, and
-// 0 (or the number of bytes) otherwise; no call returns early because of a signal. Thread-safe.
+// A file is represented by its descriptor. Functions that return int or ptrdiff_t return -1 on failure, with the reason
+// in errno; on success 0, a descriptor, or the number of bytes. Calls are not interrupted by signals. Thread-safe.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct FileStatus {
   enum class Kind { regular, folder, link, other };
   Kind kind = Kind::other;
   uint64_t bytes = 0;
-  int64_t changed_ns = 0;  ///< time of the last change of its content, nanoseconds since 1970
+  int64_t changed_ns = 0;  ///< last modification time of the content, nanoseconds since 1970
   uint64_t device = 0, number = 0;
 
   bool isRegular() const { return kind == Kind::regular; }
@@ -27,64 +27,67 @@ enum OpenFlag : unsigned {
   kRead = 1,
   kWrite = 2,
   kCreate = 4,     ///< create the file if it is missing
-  kExclusive = 8,  ///< with kCreate: fail with EEXIST if it is there
+  kExclusive = 8,  ///< with kCreate: fail with EEXIST if the file exists
   kNoFollow = 16,  ///< fail with ELOOP if the path is a symbolic link
-  kWait = 32,      ///< wait for a pipe's other end, and when it is read, for its bytes
+  kWait = 32,      ///< for pipes: wait until the other end is open; later reads wait for bytes
 };
 
-/// Opens a file. flags: OpenFlags. Without kWait the call never waits; child processes do not inherit the file.
+/// Opens a file and returns its descriptor. flags: OpenFlag values, combined by |. Without kWait the call never blocks.
+/// Child processes do not inherit the descriptor.
 int openFile(const std::filesystem::path& path, unsigned flags);
-/// Opens the same file once more, for reading, at its beginning.
+/// Returns a second descriptor of the same file, open for reading, at offset 0.
 int openAgain(int file);
 int closeFile(int file);
 
 int statusOf(int file, FileStatus& status);
 int statusAt(const std::filesystem::path& path, FileStatus& status, bool follow_links);
-/// Whether this process may write to the file at the path; errno says why not.
+/// Whether this process may write to the file at the path; if not, errno has the reason.
 bool isWritable(const std::filesystem::path& path);
 
-/// At the file's position, which moves on. May transfer fewer bytes than `count`; 0: the file has ended.
+/// Read or write at the file's current position, and advance it. May transfer fewer bytes than `count`; reading returns
+/// 0 at the end of the file.
 ptrdiff_t readNext(int file, void* to, size_t count);
 ptrdiff_t writeNext(int file, const void* from, size_t count);
-/// At an offset from the beginning; the file's position stays.
+/// Read or write at an offset from the beginning, without using or changing the file's position.
 ptrdiff_t readAt(int file, void* to, size_t count, uint64_t offset);
 ptrdiff_t writeAt(int file, const void* from, size_t count, uint64_t offset);
-/// Returns when the disk has the file's content. EINVAL if the file system cannot tell.
+/// Blocks until the file's content is on disk. EINVAL if the file system does not support this.
 int syncFile(int file);
-/// As syncFile, but times of access and change may be missing from the disk.
+/// Like syncFile(), but may leave access and modification times unwritten.
 int syncContent(int file);
-/// Cuts the file off after `bytes`.
+/// Truncates the file to `bytes` bytes.
 int cutFile(int file, uint64_t bytes);
-/// Locks the file exclusively, against other processes and other openings in this one, until it is closed. Readers are
-/// not kept out. -1 with EWOULDBLOCK if another has the lock.
+/// Acquires an exclusive advisory lock, against other processes and other descriptors of this process, until the file
+/// is closed. Does not prevent reading. Returns -1 with EWOULDBLOCK if the file is already locked.
 int lockFile(int file);
 
-/// Gives a file another name, and replaces the file that has this name in one step.
+/// Renames a file atomically, replacing any file that already has the new name.
 int replaceFile(const std::filesystem::path& from, const std::filesystem::path& to);
-/// Exchanges the names of two files in one step. ENOTSUP if the file system cannot.
+/// Exchanges the names of two files atomically. ENOTSUP if the file system does not support this.
 int exchangeFiles(const std::filesystem::path& a, const std::filesystem::path& b);
 int removeFile(const std::filesystem::path& path);
-/// For a signal's handler: neither locks nor allocates. name: UTF-8, ends with 0.
+/// Removes a file. May be called in a signal handler: neither locks nor allocates. name: UTF-8, null-terminated.
 void removeFileInHandler(const char* name) noexcept;
-/// Sets the time of the last change to now. Does not follow links.
+/// Sets the modification time to now. Does not follow links.
 int touchFile(const std::filesystem::path& path);
 
-/// A file in the folder that has no name yet, for writing. ENOTSUP if the system or the file system has no such files.
+/// Creates a file without a name in the folder, open for writing; see nameFile(). ENOTSUP if the file system or the
+/// system does not support such files.
 int openNamelessFile(const std::filesystem::path& folder);
-/// A file in the folder that never has a name, for reading and writing; the system deletes it when it is closed.
-/// openAgain() may read it, and nobody may open it for writing.
+/// Creates a temporary file without a name in the folder, open for reading and writing; the system deletes it when it
+/// is closed. Can be opened again only by openAgain(), for reading.
 int openScratchFile(const std::filesystem::path& folder);
-/// Gives a file of openNamelessFile() its name. EEXIST if another file has it.
+/// Gives a name to a file created by openNamelessFile(). EEXIST if a file with this name exists.
 int nameFile(int file, const std::filesystem::path& name);
-/// Gives the file the mode, and if this process may the owner, of the file at the path.
+/// Copies the access mode, and if this process is permitted to, the owner, from the file at the path.
 int takeRights(int file, const std::filesystem::path& from);
 
-/// Creates a folder; EEXIST if there is something of that name.
+/// Creates a folder; EEXIST if the name is already in use.
 int makeFolder(const std::filesystem::path& path);
-/// Returns when the disk has the folder's names. 0 if its file system has nothing to do.
+/// Blocks until the folder's entries are on disk. Returns 0 if the file system does not need this.
 int syncFolder(const std::filesystem::path& path);
 
-/// Owns a descriptor, or none (-1).
+/// Owns a file descriptor and closes it; -1: none.
 class File {
  public:
   File() = default;

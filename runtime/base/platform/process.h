@@ -1,8 +1,8 @@
 #pragma once
-// Child processes as the operating system has them. Each system has sources of its own that implement this header.
+// Child processes. Each operating system has source files of its own that implement this header.
 //
-// Texts are UTF-8. Files are descriptors, as in platform/file.h. No function disturbs signal handlers, other children
-// or open files of this process. Functions are thread-safe, objects belong to one thread at a time.
+// Texts are UTF-8. Files are descriptors, as in platform/file.h. No function changes signal handlers, other child
+// processes or open files of this process. Functions are thread-safe; an object must be used by one thread at a time.
 
 #include <chrono>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace sgm::platform {
 
-/// Limits that a process cannot raise again; 0: none.
+/// Resource limits of a process, which it cannot raise again; 0: no limit.
 struct ProcessLimits {
   uint64_t memory_bytes = 0;  ///< of address space; not enforced under a sanitizer, which maps more
   double cpu_seconds = 0;     ///< processor time, summed over its threads, rounded up to whole seconds
@@ -25,52 +25,53 @@ struct ProcessLimits {
   uint64_t open_files = 0;
 };
 
-/// Limits this process for good: it writes no core files, gains no privileges, keeps no open files but its standard
-/// streams, and is ended when the thread that started it ends.
+/// Limits this process irrevocably: it writes no core files, cannot gain privileges, closes all files except its
+/// standard streams, and is killed when the thread that started it ends.
 void sandboxThisProcess(const ProcessLimits& limits);
 
-/// The path of the program that this process runs. Error: io.
+/// Returns the path of the executable of this process. Error: io.
 Result<std::string> ownProgram();
-/// Whether the path is that of a file that this process may run. Does not allocate.
+/// Whether the path refers to a file that this process may execute. Does not allocate.
 bool isProgram(const std::string& path);
 
-/// A standard stream of a new process.
+/// Where a standard stream of a new process is connected to.
 struct Stream {
   enum Kind {
     inherited,  ///< the same as this process's
     none,       ///< empty for input, and discards output
-    pipe,       ///< Process has the other end
-    file,       ///< a copy of the descriptor `number`, which stays the caller's
-    output,     ///< of standard error: the same as the new process's standard output
+    pipe,       ///< a pipe whose other end Process owns
+    file,       ///< a duplicate of the descriptor `number`, which the caller still owns
+    output,     ///< only for standard error: the same as the new process's standard output
   };
   Kind kind = inherited;
   int number = -1;
 };
 
 struct ProcessSettings {
-  std::string program;                   ///< a path; a name without a slash is looked for in the folders of PATH
-  std::vector<std::string> arguments;    ///< after the program's name
-  std::vector<std::string> environment;  ///< "NAME=value": added to this process's variables, or in their place
-  bool inherits_environment = true;      ///< false: `environment` is all that it gets
+  std::string program;                 ///< a path, or a name without a slash, which is searched in the folders of PATH
+  std::vector<std::string> arguments;  ///< command line arguments, without the program's name
+  /// "NAME=value" each: added to the inherited variables, replacing those of the same name
+  std::vector<std::string> environment;
+  bool inherits_environment = true;  ///< false: the process gets only the variables in `environment`
   Stream input, output, error;
-  bool inherits_files = false;  ///< also gets the files that this process has opened to be inherited
-  /// In a process group of its own, without the signals that this process blocks or ignores: a terminal's signals do
-  /// not reach it, and ending it ends everything that it has started.
+  bool inherits_files = false;  ///< also inherits the descriptors that this process has opened as inheritable
+  /// Runs the process in a process group of its own, without this process's blocked and ignored signals: signals of the
+  /// terminal do not reach it, and Process::end() also kills all processes that it has started.
   bool isolated = false;
-  /// Limits in force before its program starts. It then also writes no core files, gains no privileges, and is ended
-  /// when the thread that starts it ends.
+  /// Limits that apply before the program starts. If set, the process also writes no core files, cannot gain
+  /// privileges, and is killed when the thread that started it ends.
   std::optional<ProcessLimits> sandbox;
 };
 
-/// How a process has ended.
+/// How a process ended.
 struct ProcessExit {
   enum class Kind {
-    exited,       ///< by itself, with the status `number`
-    crashed,      ///< by a fault of its own; `number` is the system's: that of a signal
-    out_of_time,  ///< by its limit of processor time
-    killed,       ///< by force: by this process, or by a system that is out of memory; `number` as for crashed
-    ended,        ///< by another signal from outside; `number` as for crashed
-    unknown,      ///< the system has forgotten it, because this process ignores the ends of its children (SIGCHLD)
+    exited,       ///< by itself; `number` is the exit status
+    crashed,      ///< by a fault, such as an invalid memory access; `number` is the signal
+    out_of_time,  ///< it exceeded its limit of processor time
+    killed,       ///< by SIGKILL, from this process or from a system without free memory; `number` is the signal
+    ended,        ///< by another signal; `number` is the signal
+    unknown,      ///< the exit status is lost, because this process ignores SIGCHLD
   };
   Kind kind = Kind::unknown;
   int number = 0;
@@ -78,43 +79,46 @@ struct ProcessExit {
   bool succeeded() const { return kind == Kind::exited && number == 0; }
 };
 
-/// Owns a child process and this process's ends of its pipes, until the child has ended.
+/// Owns a child process, and this process's ends of its pipes.
 class Process {
  public:
-  /// Errors: unsupported if no folder of PATH has the program; io if it cannot be started otherwise.
+  /// Starts a process. Errors: unsupported if the program is not found in PATH; io if it cannot be started for another
+  /// reason.
   static Result<Process> start(const ProcessSettings& settings);
   Process(Process&& other) noexcept;
   Process& operator=(Process&&) = delete;
-  /// As end().
+  /// Ends the process as end() does.
   ~Process();
 
   bool isRunning() const;
-  /// Sends bytes to its standard input, a pipe, and blocks until it has room for all of them. Returns false if the
-  /// process reads no more; no signal comes of it. Its output must not go to pipes, which could fill meanwhile.
+  /// Writes bytes to the process's standard input, which must be a pipe; blocks until all are written. Returns false if
+  /// the process no longer reads; no signal is raised. The process's output must not go to pipes, since nobody reads
+  /// these meanwhile and the process could block on a full pipe.
   bool write(std::string_view bytes);
-  /// Ends its standard input.
+  /// Closes the process's standard input, so that it reads the end of file.
   void closeInput();
-  /// Blocks until it has ended. Its output must not go to pipes, which nobody reads meanwhile.
+  /// Blocks until the process ends. Its output must not go to pipes, which nobody reads meanwhile.
   ProcessExit wait();
-  /// Kills it unless it has ended, and if it is isolated, everything that it has started; blocks until it has ended.
+  /// Kills the process if it is still running, and, if it is isolated, all processes that it has started. Blocks until
+  /// it has ended.
   ProcessExit end();
 
  private:
   friend class ProcessExchange;
   Process() = default;
 
-  int id_ = -1;  ///< -1 if its end is known
+  int id_ = -1;  ///< process id; -1: the process has ended, and its exit status was read
   bool isolated_ = false;
-  double cpu_seconds_ = 0;  ///< limit
+  double cpu_seconds_ = 0;  ///< the limit of processor time; 0: none
   File input_, output_, error_;
 };
 
-/// A request to end processes, which wakes the threads in runProcess().
+/// A request to end processes. Wakes all threads that are in runProcess() with this object.
 class Cancellation {
  public:
   /// Error: io.
   static Result<Cancellation> create();
-  /// Any thread; holds for good.
+  /// Requests cancellation; cannot be undone. Thread-safe.
   void request();
 
  private:
@@ -123,23 +127,23 @@ class Cancellation {
 };
 
 struct RunSettings {
-  std::string_view input;                         ///< for a standard input that is a pipe
+  std::string_view input;                         ///< written to the process's standard input if that is a pipe
   std::optional<std::chrono::milliseconds> time;  ///< wall time after which the process is ended
-  size_t most_output = SIZE_MAX / 2;              ///< bytes of standard output; with more, the process is ended
-  size_t most_error = 4096;                       ///< bytes of standard error that are kept, from its beginning
-  const Cancellation* cancellation = nullptr;     ///< on request, the process is ended; null: none
+  size_t most_output = SIZE_MAX / 2;  ///< limit of standard output in bytes; if it is exceeded, the process is killed
+  size_t most_error = 4096;           ///< maximum number of bytes of standard error to store, from its beginning
+  const Cancellation* cancellation = nullptr;  ///< if it is requested, the process is killed; null: not cancellable
 };
 
 struct ProcessOutput {
   enum class Stop { none, time_limit, output_limit, cancelled };
-  Stop stop = Stop::none;  ///< why runProcess() has ended it
+  Stop stop = Stop::none;  ///< why runProcess() killed the process
   ProcessExit exit;
-  std::string output, error;  ///< from pipes
+  std::string output, error;  ///< what the process wrote to its standard streams, as far as these are pipes
 };
 
-/// Starts a process, writes its input and reads its output until it ends, but not until processes that it has started
-/// and that hold its pipes end; if it is isolated, these are killed then. Errors: those of Process::start. Throws
-/// std::bad_alloc, only after the process has ended.
+/// Runs a process: starts it, writes its input, and reads its output until it ends. Does not wait for processes that it
+/// started and that keep its pipes open; if it is isolated, these are killed. Errors: those of Process::start(). Throws
+/// std::bad_alloc, but only after the process has ended.
 Result<ProcessOutput> runProcess(const ProcessSettings& settings, const RunSettings& run = {});
 
 }  // namespace sgm::platform

@@ -10,12 +10,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A process may have ended although its streams are open, held by one of its own children.
+/// Intervals at which to test whether the process has ended, since its streams may stay open in its own child
+/// processes.
 constexpr std::chrono::milliseconds kBetweenLooks{50}, kBetweenLooksAtItsEnd{1};
 
 }  // namespace
 
-/// What this process and a child have still to say to each other, until the child ends.
+/// Exchanges input and output with a child process until the child ends.
 class ProcessExchange {
  public:
   ProcessExchange(Process process, const RunSettings& run)
@@ -45,7 +46,7 @@ class ProcessExchange {
   }
 
  private:
-  /// Waits for an event, or for the time `most`.
+  /// Waits until a stream is ready or a cancellation is requested, at most for the time `most`, and handles it.
   void serve(std::chrono::milliseconds most) {
     // poll() ignores negative descriptors.
     std::array<pollfd, 4> waited{{{run_.cancellation != nullptr ? run_.cancellation->waiting_.number() : -1, POLLIN, 0},
@@ -70,7 +71,7 @@ class ProcessExchange {
   }
 
   void readOutput() {
-    // One byte more than allowed shows that the limit is exceeded.
+    // Read one byte more than the limit, to detect that the limit is exceeded.
     read(process_.output_, said_.output, run_.most_output + 1);
     if (said_.output.size() > run_.most_output) said_.stop = ProcessOutput::Stop::output_limit;
   }
@@ -84,7 +85,8 @@ class ProcessExchange {
     }
   }
 
-  /// Reads the output left in the pipes, without waiting for other processes that hold them.
+  /// After the child has ended, reads the output that is left in the pipes, without waiting for other processes that
+  /// keep the pipes open.
   void readRest() {
     constexpr int kMostPieces = 64;
     bool more = true;
@@ -112,7 +114,8 @@ Result<Cancellation> Cancellation::create() {
   return made;
 }
 
-// Write instead of closing: a process that this one has forked meanwhile may hold a copy of the other end.
+// Wakes waiting threads by a byte rather than by closing this end: a process forked meanwhile may have a copy of this
+// end.
 void Cancellation::request() { static_cast<void>(writeNext(asking_.number(), "", 1)); }
 
 Result<ProcessOutput> runProcess(const ProcessSettings& settings, const RunSettings& run) {

@@ -42,10 +42,10 @@ constexpr bool kMapsWithoutEnd = false;
 constexpr bool kMapsWithoutEnd = false;
 #endif
 
-constexpr int kFirstFree = 3;  // after the standard streams
+constexpr int kFirstFree = 3;  // first descriptor after the standard streams
 
-/// A program file that another process has open for writing cannot be run; usually a child process that is being
-/// started has a copy of the descriptor, for some microseconds.
+/// A program cannot start while another process has its file open for writing. Usually that is a child process that is
+/// being started and still has a copy of the descriptor, for some microseconds; so starting is tried again.
 constexpr int kMostTries = 50;
 constexpr std::chrono::milliseconds kBetweenTries{10};
 
@@ -78,7 +78,7 @@ Result<Ends> endsOf(const Stream& stream, bool is_input) {
   return Ends();
 }
 
-/// The files that may be the program.
+/// Returns the paths to try for a program, in the order of PATH.
 std::vector<std::string> candidatesFor(const std::string& program) {
   if (program.find('/') != program.npos) return {program};
   const char* path = std::getenv("PATH");
@@ -111,10 +111,11 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-// Functions from here to Launch::becomeProgram neither lock nor allocate: they run in a new process that shares this
-// one's memory, whose locks may be held by threads that it lacks.
+// Functions from here to Launch::becomeProgram neither lock nor allocate: after vfork() they run in a new process that
+// shares this process's memory, where other threads may hold locks that would never be released.
 
-/// Cannot be raised again. `beyond`: reserve in which the limit's signal can end the process.
+/// Sets a resource limit that cannot be raised again. beyond: how much the hard limit exceeds the soft one, so that the
+/// soft limit's signal can end the process first.
 void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
@@ -128,8 +129,8 @@ void applyLimits(const ProcessLimits& limits) {
   if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.cpu_seconds)), 1);
   if (limits.file_bytes > 0) limit(RLIMIT_FSIZE, limits.file_bytes);
   if (limits.open_files > 0) limit(RLIMIT_NOFILE, limits.open_files);
-  // Do not limit RLIMIT_NPROC: it counts all processes of the user, so on a busy machine this one could start no
-  // thread.
+  // RLIMIT_NPROC stays unlimited: it counts all processes of the user, so on a busy machine this process could not
+  // start threads.
   if (limits.memory_bytes > 0 && !kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory_bytes);
 }
 
@@ -141,8 +142,8 @@ void confine() {
 #endif
 }
 
-/// Has descriptors behind the standard streams closed when the program starts, which the caller may have opened without
-/// O_CLOEXEC.
+/// Marks all descriptors after the standard streams to be closed when the program starts; the caller may have opened
+/// some without O_CLOEXEC.
 void closeOthersOnExec() {
 #if defined(SYS_close_range)
   constexpr unsigned kOnExec = 4;  // CLOSE_RANGE_CLOEXEC
@@ -154,7 +155,7 @@ void closeOthersOnExec() {
     fcntl(file, F_SETFD, FD_CLOEXEC);
 }
 
-/// All that a new process needs until its program starts, made in advance.
+/// Everything that a new process needs until its program starts, prepared before the fork.
 class Launch {
  public:
   Launch(const ProcessSettings& settings, const std::array<int, 3>& streams)
@@ -168,19 +169,19 @@ class Launch {
     environment_ = pointersTo(variables_);
   }
 
-  /// Sets `id` to the new process, which reports failures through the pipe. Returns 0 if its program has started, or
-  /// else the errno of the failure.
+  /// Starts the process and sets `id`. The new process reports failures through the pipe. Returns 0 if its program has
+  /// started, otherwise errno of the failure.
   int start(Pipe report, pid_t& id) const {
     sigset_t all, before;
     sigfillset(&all);
-    // No handler may run in the new process.
+    // No signal handler may run in the new process, since it shares this process's memory.
     pthread_sigmask(SIG_SETMASK, &all, &before);
     id = spawn(report.to.number(), before);
     int failure = id < 0 ? errno : 0;
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (failure != 0) return failure;
     report.to = File();
-    // Its end of the pipe is closed when the program starts.
+    // If the program starts, the new process's end of the pipe is closed, and nothing can be read.
     if (readNext(report.from.number(), &failure, sizeof failure) != sizeof failure) return 0;
     while (waitpid(id, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -190,8 +191,8 @@ class Launch {
  private:
   pid_t spawn(int report, const sigset_t& mask) const {
     const pid_t parent = getpid();
-    // fork() would copy the page tables, which takes long in a large process and may fail for want of memory. No
-    // posix_spawn() sets limits.
+    // vfork(), since fork() would copy the page tables, which is slow for a large process and may fail for lack of
+    // memory; posix_spawn() cannot set limits.
     const pid_t id = vfork();
     if (id == 0) becomeProgram(report, mask, parent);
     return id;
@@ -229,7 +230,7 @@ class Launch {
     }
   }
 
-  /// Returns the reason why no candidate can be run.
+  /// Tries to run the candidates. Returns only on failure, with the reason as errno value.
   int execute() const {
     int failure = 0;
     for (const std::string& candidate : candidates_) {
@@ -270,7 +271,8 @@ ProcessExit exitOf(int status, const rusage& used, double cpu_seconds) {
 
 enum class State { runs, ended, forgotten };
 
-/// The id stays valid until the process is waited for, unless it is forgotten.
+/// Returns the state of a child without reaping it, so that its id stays valid, unless the system has already forgotten
+/// the child.
 State stateOf(int id) {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOHANG | WNOWAIT) != 0)
@@ -293,7 +295,7 @@ Result<std::string> ownProgram() {
   const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", why);
   if (!why) return path.string();
 #if defined(__linux__)
-  // Not every container has /proc. The program may have been started with a relative path.
+  // Fallback for containers without /proc. The program may have been started by a relative path.
   if (const auto* started_as = reinterpret_cast<const char*>(getauxval(AT_EXECFN)))
     return std::filesystem::absolute(started_as).string();
 #endif
@@ -375,7 +377,8 @@ ProcessExit Process::wait() {
 
 ProcessExit Process::end() {
   if (id_ < 0) return {};
-  // If it is forgotten and its streams are closed, its id may belong to another process.
+  // If the system has forgotten the child and its streams are closed, another process may have its id; do not kill
+  // that.
   const State state = stateOf(id_);
   const bool is_its_own = state != State::forgotten || output_ || error_;
   if (isolated_ ? is_its_own : state == State::runs) kill(isolated_ ? -id_ : id_, SIGKILL);
