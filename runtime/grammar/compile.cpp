@@ -19,7 +19,7 @@ namespace sgm {
 
 namespace {
 
-/// Returns false, after an error, if the text is too long.
+/// Checks the length of the text. Returns false after reporting an error.
 bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& sink) {
   const size_t limit = std::min<size_t>(limits.text_bytes, 0x7FFFFFFFu);
   if (text.size() <= limit) return true;
@@ -30,7 +30,7 @@ bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& si
   return false;
 }
 
-/// Whether a file has only content that is allowed in an import, and something to import.
+/// Whether a file only contains declarations that an import may have, and at least one that others can use.
 bool isLibrary(const ModuleSyntax& root) {
   bool gives = false;
   for (const Item& item : root.items) {
@@ -76,7 +76,7 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   const uint32_t unread = sink.errorCount();
   check.library = libraries && isLibrary(syntax[0]);
   if (unread == 0) {
-    // Print before the checker resolves names, which rewrites calls.
+    // Printed and hashed before the checker, which rewrites calls while it resolves names.
     program->canonical = printModule(*program, syntax[0]);
     program->hash = hashMeaning(*program, syntax);
   }

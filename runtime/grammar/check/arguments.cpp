@@ -22,7 +22,8 @@ std::string signatureOf(const Callee& callee) {
   return signatureOf(callee.name, names);
 }
 
-/// For `salt -3`, which is parsed as a difference: `salt`, if that is only a parameter name of the callee.
+/// For an argument `salt -3`, which is parsed as a difference: returns the name `salt` if it is a parameter of the
+/// callee and nothing else in scope; otherwise kNoId.
 NameId meantByDifference(const CheckContext& check, const Symbols& symbols, const Scope& scope, const ArgNode& arg,
                          const std::vector<FormalView>& formals) {
   const ExprNode& value = check.node(arg.value);

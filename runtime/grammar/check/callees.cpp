@@ -1,4 +1,4 @@
-// The callees of calls, and the meanings of plain names: across imports, with suggestions for unknown ones.
+// Resolves callees of calls and plain names, also across imports, and suggests names for unknown ones.
 
 #include "grammar/check/symbols.h"
 #include "grammar/std/std_library.h"
@@ -92,7 +92,7 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     }
     if (!hidden && import == nullptr && reportMissingImport(receiver, scope, shape)) return true;
     if (hidden || import == nullptr || !import->import) return false;
-    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // a file that could not be read
+    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // the imported file could not be read
     module = import->id;
   }
   const Symbol* const found = find(module, n.name);

@@ -146,7 +146,7 @@ Type Types::checkBuiltin(ExprId id) {
       if (!scope_.inRule())
         check_.sink.error(n.span, codes::kWrongUse, "`branch` is known inside rules only",
                           "it draws by its place in the derivation");
-      // Constants are judged here; other values, at derivation.
+      // Constant arguments are checked here; other values are checked during derivation.
       for (size_t i = 0; i < bound.size(); ++i) {
         const BuiltinParam& param = info.params[i];
         if (bound[i] != kNoId && agrees(check_.node(bound[i]).type, param.kind, param.dim))

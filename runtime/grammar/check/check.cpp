@@ -16,7 +16,7 @@ namespace sgm {
 
 namespace {
 
-/// Callers give the same values to all heads, so one range applies to them.
+/// Requires that all heads of a rule declare the same ranges: callers pass the same values to all heads.
 void checkHeadRanges(CheckContext& check, const Rule& rule, const Alternative& head) {
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     const FormalNode& first = check.program.ast.formals[rule.alternatives[0].formals.first + i];
@@ -33,7 +33,7 @@ void checkHeadRanges(CheckContext& check, const Rule& rule, const Alternative& h
   }
 }
 
-/// Requires that the heads of a rule agree with each other.
+/// Requires that the heads of a rule are consistent: parameters, ranges and guards.
 void checkHeads(CheckContext& check) {
   for (const Rule& rule : check.program.rules) {
     bool when = false, otherwise = false;
@@ -59,9 +59,10 @@ void checkHeads(CheckContext& check) {
   }
 }
 
-/// Checks the rules that no start leads to. A rule that only such rules call is one of them.
+/// Checks rules that cannot be reached from any start, and warns of them. This includes rules that are called only by
+/// such rules.
 void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
-  // The calls of a statement with an error are unknown.
+  // No warnings after errors: the calls in a statement with an error are unknown.
   const bool warns = check.sink.errorCount() == 0 && symbols.areLayersKnown() && !check.program.layers.empty();
   std::vector<uint32_t> unreached;
   for (uint32_t r = 0; r < check.program.rules.size(); ++r)
@@ -72,7 +73,7 @@ void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rule
     if (rule.module == 0 && warns)
       check.sink.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", check.text(rule.name), "`"}),
                          "call it in a rule, or remove it");
-    if (rules.isReached(r)) continue;  // an earlier one of these calls it
+    if (rules.isReached(r)) continue;  // called by an unreached rule that was checked before it
     rules.assume(r, typesOf(check.program, rule.alternatives[0].formals));
     statements.checkRule(r);
     statements.checkWaiting();
@@ -87,7 +88,7 @@ void warnOfCuts(const CheckContext& check, const Overrides& overrides) {
     warnOfIdleCuts(program, program.overrides[o].body, overrides.mayBeInRoom(o), check.sink);
 }
 
-/// Checks rules and overrides, and returns their uses of rules and layers.
+/// Checks rules and overrides. Returns the calls, probes and queries in them.
 RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   RuleUses uses;
   const uint32_t before = check.sink.errorCount();
@@ -95,7 +96,7 @@ RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   if (check.sink.errorCount() > before) return uses;
   RuleTypes rules(check.program.rules.size());
   Statements statements(check, symbols, types, rules, uses);
-  // Starts first, then their callees, in order of the first call: types flow from callers to callees.
+  // Checks starts first, then rules in the order of their first calls, since types flow from callers to callees.
   if (check.syntax[0].start != kNoId) statements.start(check.syntax[0].start);
   for (const LayerDecl& layer : check.syntax[0].layers) statements.start(layer.start);
   statements.checkWaiting();
@@ -104,11 +105,11 @@ RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   checkUnreached(check, symbols, rules, statements);
   types.checkUnused();
   LayerLevel(check).mark();
-  if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);  // cannot be judged after errors
+  if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);  // after errors, content may be missing
   return uses;
 }
 
-/// Stores which rule may derive which, for searches of the uses of a rule.
+/// Sets Rule::calls: the rules that each rule may call.
 void keepCalls(Program& program, const std::vector<RuleCall>& calls) {
   for (const RuleCall& call : calls) program.rules[call.from].calls.push_back(call.to);
   for (Rule& rule : program.rules) {

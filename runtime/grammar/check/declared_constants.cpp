@@ -12,7 +12,7 @@ struct Ends {
   double low = 0, high = 0;
 };
 
-/// The ends of a range; nullopt after an error.
+/// Evaluates the ends of a range; nullopt after reporting an error.
 std::optional<Ends> endsOf(CheckContext& check, Types& types, ExprId low_expr, ExprId high_expr, Dim dim) {
   const auto low = checkConstant(check, types, low_expr, dim, "the low end of a range");
   const auto high = checkConstant(check, types, high_expr, dim, "the high end of a range");
@@ -22,7 +22,7 @@ std::optional<Ends> endsOf(CheckContext& check, Types& types, ExprId low_expr, E
   return std::nullopt;
 }
 
-/// Returns false after an error.
+/// Requires that a default value lies within its range. Returns false after reporting an error.
 bool checkDefault(CheckContext& check, const Ends& range, ExprId value_expr, double value, Dim dim, NameId name) {
   if (value >= range.low && value <= range.high) return true;
   const bool percent = dim == kRatio && range.high <= 1 && value / 100 >= range.low && value / 100 <= range.high;

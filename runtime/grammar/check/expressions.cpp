@@ -28,7 +28,7 @@ std::string_view verb(BinaryOp op) {
   }
 }
 
-/// The requirement for both sides of an operator.
+/// Returns the requirement for the operands of an operator, for messages.
 std::string_view ruleOf(BinaryOp op) {
   switch (op) {
     case BinaryOp::add:
@@ -69,7 +69,7 @@ void Types::declareLocal(NameId name, const Span& span, const Local& local) {
 
 Type Types::checkExpression(ExprId id) {
   if (id == kNoId) return kUnknownType;
-  // Nested lets add up, but the stack depth must not depend on the text.
+  // Limits the depth through nested lets, so that the stack depth does not depend on the untrusted text.
   if (depth_ >= kDeepestExpressions) {
     check_.sink.error(check_.node(id).span, codes::kTooDeep, "lets, fields and expressions are nested too deep",
                       "use fewer levels of lets");

@@ -8,14 +8,14 @@ namespace {
 
 void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first);
 
-/// For a block after other content, to which its statements add.
+/// Checks a block whose statements add to content that precedes the block.
 void cutsIn(const Program& program, DiagnosticSink& sink, StmtId block) {
   const IdRange children = program.stmt(block).children;
   for (uint32_t i = 0; i < children.count; ++i) cutsOf(program, sink, program.idAt(children, i), false);
 }
 
-/// A cut removes from the content before it in its block; without any it has no effect. `first`: the block to which
-/// this statement adds is still empty.
+/// Warns if the statement is a cut with nothing to cut: a cut removes from the content that precedes it in its block.
+/// first: nothing precedes this statement in its block.
 void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first) {
   if (id == kNoId || sink.full()) return;
   const StmtNode& s = program.stmt(id);
@@ -45,11 +45,11 @@ void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first)
       return;
     }
     case StmtKind::extrude:
-      // The piece itself comes before them.
+      // The extruded piece precedes the statements of its block.
       if (s.body != kNoId) cutsIn(program, sink, s.body);
       return;
     case StmtKind::treemap:
-      // Rooms and corridors come before the content of their blocks.
+      // The open space of a room or corridor precedes the statements of its block.
       for (uint32_t i = 0; i < s.children.count; ++i) {
         const StmtId child = program.idAt(s.children, i);
         const bool open = program.ast.parts[s.parts.first + i].floor != FloorPart::facade;

@@ -15,7 +15,7 @@ constexpr uint32_t kAnyNumber = std::numeric_limits<uint32_t>::max();
 
 uint32_t sum(uint32_t a, uint32_t b) { return a > kAnyNumber - b ? kAnyNumber : a + b; }
 
-/// The most instances of a part of a split, a comp or a treemap.
+/// Returns the maximum number of instances of a part of a split, a comp or a treemap.
 uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   switch (s.kind) {
     case StmtKind::split:
@@ -27,7 +27,8 @@ uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   }
 }
 
-/// The most counted statements that one run of a statement reaches; kAnyNumber if loops or point sets repeat them.
+/// Returns an upper bound of how many statements for which counts() is true are derived by one derivation of statement
+/// `id`; kAnyNumber if loops or scatters repeat them.
 template <typename Counts>
 uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   if (id == kNoId) return 0;
@@ -77,7 +78,7 @@ uint32_t timesIn(const Program& program, StmtId id, const Counts& counts) {
   return kAnyNumber;
 }
 
-/// The most uses of a rule that one run of a statement derives directly.
+/// Returns an upper bound of the uses of a rule that one derivation of a statement makes directly.
 uint32_t usesIn(const Program& program, StmtId id, uint32_t rule) {
   return timesIn(program, id, [&](const StmtNode& s) {
     return s.kind == StmtKind::call && program.expr(s.expr).ref == Ref::rule && program.expr(s.expr).id == rule;
@@ -93,7 +94,8 @@ uint32_t usesInCall(const Program& program, ExprId call, uint32_t rule) {
   return call != kNoId && program.expr(call).ref == Ref::rule && program.expr(call).id == rule ? 1 : 0;
 }
 
-/// The most uses of a rule below one use of another. One head without `lod` is derived, and one head of each `lod`.
+/// Returns an upper bound of the uses of `rule` directly below one use of `parent`. Of the parent's heads, one without
+/// `lod` is derived, and one for each `lod`.
 uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
   uint32_t plain = 0, by_level = 0;
   for (const Alternative& head : parent.alternatives) {

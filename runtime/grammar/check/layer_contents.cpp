@@ -27,7 +27,8 @@ struct Contents {
   friend bool operator==(const Contents&, const Contents&) = default;
 };
 
-/// The least consistent contents of each rule, found bottom-up, so that rules may call each other.
+/// Finds the contents of each rule as a least fixed point: starts with empty contents and adds until nothing changes,
+/// so that rules may call each other.
 class RuleContents {
  public:
   RuleContents(const Program& program, uint32_t steps)
@@ -61,8 +62,8 @@ class RuleContents {
   }
 
  private:
-  /// Orders rules after those that they call, unless they call each other: then one pass finds all, and a second one
-  /// confirms.
+  /// Orders rules so that callees precede callers, except in cycles. Then, without cycles, one pass finds all contents
+  /// and a second pass confirms them.
   void orderFrom(ExprId start) {
     if (start == kNoId || program_.expr(start).ref != Ref::rule || ordered_[program_.expr(start).id]) return;
     std::vector<std::pair<uint32_t, size_t>> path{{program_.expr(start).id, 0}};
@@ -147,7 +148,7 @@ class RuleContents {
     return all;
   }
 
-  /// An upper bound of a length, in units, at least 1.
+  /// Returns an upper bound of a length expression, in units, at least 1.
   int32_t mostOf(ExprId length) {
     const double most = values_.number(length, frame_).hi * kUnitsPerMetre + 1;
     constexpr int32_t kLargest = std::numeric_limits<int32_t>::max();
@@ -158,7 +159,7 @@ class RuleContents {
   const Program& program_;
   uint32_t steps_;
   RangeEvaluator values_;
-  RangeFrame frame_;  ///< without knowledge of arguments, scopes, places and cells
+  RangeFrame frame_;  ///< a frame in which arguments, scope, place and cell may have any value
   std::vector<Contents> of_rule_;
   std::vector<bool> ordered_;
   std::vector<uint32_t> order_;

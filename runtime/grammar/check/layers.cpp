@@ -38,7 +38,8 @@ void sortLayers(CheckContext& check, Symbols& symbols) {
         uses[l].push_back(found);
     }
   if (check.sink.errorCount() > before) return;
-  // Repeatedly take the first layer whose lower layers are all placed: so declaration order is kept if possible.
+  // Repeatedly takes the first layer whose used layers are all placed, so that declaration order is kept where
+  // possible.
   std::vector<uint32_t> order, place(count, kNoId);
   while (order.size() < count) {
     uint32_t next = kNoId;
@@ -90,7 +91,7 @@ void addLayer(CheckContext& check, Types& types, const LayerDecl& l) {
     check.sink.error(check.node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long",
                      "such as reach 8m");
   else if (cell && reach) {
-    // Every chunk loads all cells within reach: the cost of a sample grows with the cube of this.
+    // Every chunk loads all cells within reach, so the cost of a sample grows with the cube of reach / cell.
     if (*reach > *cell * check.limits.neighbours)
       check.sink.error(
           check.node(l.reach).span, codes::kReachTooLarge,
@@ -102,7 +103,7 @@ void addLayer(CheckContext& check, Types& types, const LayerDecl& l) {
       layer.cell[axis] = check.program.domain.axes[static_cast<size_t>(axis)] ? static_cast<int32_t>(*cell) : 0;
   }
   if (l.detail != kNoId) {
-    // A threshold need not be a whole number of units, here as in statements.
+    // Unlike a cell's edge, a detail need not be a whole number of units; it is rounded.
     std::optional<double> detail = checkConstant(check, types, l.detail, kLength, "the detail of a layer");
     if (detail) detail = std::floor(*detail * kUnitsPerMetre + 0.5);
     if (detail && (*detail < 1 || *detail > kLargest))

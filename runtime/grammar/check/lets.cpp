@@ -22,7 +22,7 @@ std::vector<std::tuple<int, int, int, bool, bool>> keyOf(const std::vector<Type>
 
 }  // namespace
 
-/// Returns false, after an error, if uses of lets and fields are nested too deep.
+/// Returns false, after reporting an error, if the lets and fields that use each other are nested too deep.
 bool Types::canNestDeeper(ExprId id) {
   if (open_.size() < kDeepestCalls) return true;
   check_.sink.error(check_.node(id).span, codes::kTooDeep,
@@ -92,7 +92,7 @@ Type Types::useLocalField(ExprId id, const Local& local) {
   if (known != known_local_.end()) return known->second;
   if (!canNestDeeper(id)) return {ValueKind::unknown, kRatio, true, false};
   open_.emplace_back(Ref::field, local.field);
-  // The body sees the locals before the field, and the field's own parameters.
+  // In the field's body, only locals declared before the field and the field's own parameters are visible.
   std::vector<Local> outer = scope_.locals;
   scope_.locals.resize(local.depth);
   for (uint32_t i = 0; i < field.formals.count && i < args.size(); ++i) {

@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// A member of a kind of value. Parts of a vector have its dimension.
+/// One member of a kind of value. A member of a vector has the vector's dimension.
 struct MemberInfo {
   ValueKind of;
   std::string_view name;
@@ -93,7 +93,7 @@ Type Types::checkMember(ExprId id) {
   const ExprId of = check_.child(n, 0);
   const std::string_view word = check_.text(n.name);
   if (check_.node(of).kind == ExprKind::name) {
-    // module.name of a let or field without arguments
+    // module.name, which refers to a let or field without arguments
     const NameId receiver = check_.node(of).name;
     const Symbol* const found = symbols_.find(scope_.module, receiver);
     if (!scope_.hides(receiver) && found != nullptr && (found->import || found->asset)) {

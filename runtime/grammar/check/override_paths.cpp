@@ -14,7 +14,8 @@ namespace {
 constexpr size_t kDeepestPath = 64;  // DeriveLimits::depth
 constexpr std::string_view kExample = "such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it";
 
-/// The span of a part of an address in the source. After an escaped quote it would be wrong.
+/// Returns the span in the source of a part of an address. Wrong behind an escaped quote, whose text is shorter than
+/// its source.
 Span spanIn(const Override& edit, const PathPlace& place) {
   Span span = edit.address_span;
   const uint32_t length = span.end - span.begin - 2;
@@ -26,7 +27,7 @@ Span spanIn(const Override& edit, const PathPlace& place) {
   return span;
 }
 
-/// The tag most likely intended by a path that matches nothing; or empty.
+/// Returns the tag that a path without a match was probably meant to be; empty if none is similar.
 std::string tagMeant(const Program& program, std::string_view path) {
   constexpr std::string_view kTag = "tag";
   if (path.starts_with(kTag) && path.size() > kTag.size() + 1 && (path[3] == ':' || path[3] == ' ' || path[3] == '='))
@@ -159,7 +160,7 @@ bool OverridePaths::findCallee(const Override& edit, const WrittenStep& step, ui
 void OverridePaths::reportUnknown(const Override& edit, const WrittenStep& step, std::string_view who,
                                   const std::vector<std::string>& known) {
   if (check_.lossy) return;
-  // Messages use such a step for content derived within an override.
+  // Messages print the step `override` for content that was derived within an override's block; it cannot be written.
   if (step.name == "override") {
     check_.sink.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `override`"}),
                       "edit the block of that override");

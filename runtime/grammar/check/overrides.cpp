@@ -15,8 +15,8 @@ namespace sgm {
 
 namespace {
 
-/// Visits the content of each room of a treemap: its index in Ast::ids, and its tag, which is the room's name unless a
-/// block sets another.
+/// Calls visit() for each room of a treemap, with the position of its child in Ast::ids and its tag, which is the
+/// room's name unless a block sets another one.
 template <class Visit>
 void forEachRoom(const Program& program, const StmtNode& s, const Visit& visit) {
   for (uint32_t i = 0; s.kind == StmtKind::treemap && i < s.parts.count; ++i) {
@@ -36,7 +36,7 @@ std::set<uint16_t> tagsIn(const Program& program, StmtId body) {
   return tags;
 }
 
-/// Higher for more specific overrides.
+/// The specificity of an override: 0 by tag, 1 by path in every cell, 2 by path in one cell.
 int rankOf(const Override& edit) { return edit.by_tag ? 0 : edit.one_cell ? 2 : 1; }
 
 }  // namespace
@@ -53,7 +53,8 @@ void Overrides::run() {
     return;
   }
   OverridePaths paths(check_, symbols_, rule_uses_.calls);
-  // Overrides of one address derive within each other, so each needs its own random draws.
+  // Overrides with the same address are derived within each other (by `inner`), so each needs a hash of its own for its
+  // random draws.
   std::map<std::pair<NameId, bool>, uint64_t> same;
   for (Override& edit : check_.program.overrides) {
     edit.hash = hashCombine(hashText(check_.text(edit.address)), edit.by_tag);
@@ -65,7 +66,7 @@ void Overrides::run() {
   std::stable_sort(check_.program.overrides.begin(), check_.program.overrides.end(),
                    [](const Override& a, const Override& b) { return rankOf(a) < rankOf(b); });
   checkBlocks();
-  // The unparsed part of the text may have further rules and tags.
+  // If a part of the text was not parsed, rules and tags may be declared there, so the following checks are skipped.
   if (check_.sink.errorCount() > before || check_.lossy) return;
   findTags();
   orderPaths();
@@ -113,7 +114,7 @@ void Overrides::findTags() {
   if (!found.empty()) tagRooms();
 }
 
-/// A room with an overridden name becomes a block with that tag, as if it had been written.
+/// Turns the content of each room whose name is overridden as a tag into a block with that tag.
 void Overrides::tagRooms() {
   std::vector<std::pair<uint32_t, uint16_t>> rooms;  // indices in Ast::ids
   for (const StmtNode& s : check_.program.ast.stmts) {
@@ -152,7 +153,7 @@ void Overrides::orderPaths() {
   });
 }
 
-/// Reports an override that does not derive `inner` of an earlier one with the same address, which then has no effect.
+/// Reports overrides without effect: a later override with the same address replaces them and does not use `inner`.
 void Overrides::reportHidden() {
   const auto same = [&](const Override& a, const Override& b) {
     if (a.by_tag != b.by_tag || a.layer != b.layer || a.one_cell != b.one_cell || a.cell != b.cell) return false;
@@ -209,7 +210,7 @@ void Overrides::assignToRules() {
       }
     };
     for (const Alternative& a : rule.alternatives) tagged(tagsIn(check_.program, a.body));
-    // The blocks of overrides may have tags, too.
+    // Blocks within the overrides' own blocks may have tags that are overridden, too.
     while (!open.empty()) {
       const uint32_t o = open.back();
       open.pop_back();
@@ -217,7 +218,7 @@ void Overrides::assignToRules() {
     }
     rule.overrides.assign(held.begin(), held.end());
     for (const uint32_t o : rule.overrides) {
-      // They add no cycle of calls: in its own block no override applies again.
+      // Calls in overrides add no unbounded recursion, since an override does not apply again within its own block.
       for (const RuleCall& call : uses_[o].calls) rule.calls.push_back(call.to);
       for (const AskedLayer& asked : uses_[o].asked)
         rule_uses_.asked.push_back({r, asked.layer, asked.span, asked.verb});

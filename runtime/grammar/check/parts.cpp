@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-/// The first `box(scope)` of a statement in its enclosing scope.
+/// Returns the first call `box(scope)` in a statement that is derived in the statement's own scope; kNoId: none.
 ExprId boxOfScope(const Program& program, StmtId id) {
   const StmtNode& s = program.stmt(id);
   if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {
@@ -43,7 +43,7 @@ void Statements::checkSplit(const StmtNode& s) {
     part.relative = !part.flexible && type.kind == ValueKind::number && !type.any_dim && type.dim == kRatio;
     types_.requireType(size, type, ValueKind::number, part.relative ? kRatio : kLength,
                        part.flexible ? "a flexible size" : "the size of a part");
-    // Probably a length without its unit.
+    // A number above 1 is probably a length without its unit.
     if (part.relative && check_.node(size).kind == ExprKind::number && check_.node(size).value > 1)
       check_.sink.error(check_.node(size).span, codes::kValueRange, "a part cannot be more than 100% of the scope",
                         "write a length, such as 2m, or a share, such as 25%");

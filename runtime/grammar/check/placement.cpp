@@ -40,7 +40,7 @@ void checkArea(CheckContext& check, Types& types, ScatterNode& scatter, const Sp
 
 }  // namespace
 
-/// Coarse cells skip a detail, so a name declared in it would have no value after it.
+/// Names declared in a `detail` must not be used after it, since they have no value at levels that skip the detail.
 void Statements::checkDetail(const StmtNode& s, bool shrunk) {
   types_.require(s.expr, ValueKind::number, kLength, "the size of a detail");
   const size_t known = types_.scope().locals.size();

@@ -11,7 +11,8 @@ namespace sgm {
 
 namespace {
 
-/// Decides which calls of a rule make progress towards an end by themselves.
+/// Finds recursive rules for which no bound can be proven, by finding the calls that certainly make progress towards an
+/// end.
 class RecursionCheck {
  public:
   RecursionCheck(const Program& program, const std::vector<RuleCall>& calls, uint32_t steps, DiagnosticSink& sink)
@@ -28,7 +29,7 @@ class RecursionCheck {
     components();
     for (const RuleCall& call : calls_)
       marked.ast.exprs[call.call].circular = component_[call.from] == component_[call.to];
-    // Without the calls that make progress, no cycle may be left.
+    // Every cycle of calls must contain a call that makes progress.
     std::vector<uint8_t> mark(program_.rules.size(), 0);
     for (uint32_t root = 0; root < program_.rules.size(); ++root) {
       if (mark[root] != 0) continue;
@@ -103,19 +104,19 @@ class RecursionCheck {
     return frame;
   }
 
-  /// An upper bound of the factor by which the scales around a call enlarge it.
+  /// Returns an upper bound of the factor by which the `scale` transforms around a call enlarge its scope.
   double enlarged(const RuleCall& call, const RangeFrame& frame) {
     double most = 1;
     for (const ScaleAround& scale : call.scales) {
       const double factor = scaleFactor(values_.number(scale.factor, frame)).hi;
-      // The first copy is not scaled.
+      // In a repeat, copy i is scaled i times: factor^0 for the first copy, unbounded if the factor exceeds 1.
       most *= !scale.copied ? factor : factor <= 1 ? 1 : kInfinity;
     }
     return most;
   }
 
-  /// a * f, f * a or a / f with f below 1 (above 1 for /): must certainly shrink at least halfway. `larger`: the factor
-  /// of the scales around it.
+  /// Whether an argument is certainly smaller than the formal in `slot`: a * f or f * a with f below 1, or a / f with f
+  /// above 1. The factor, times `larger`, the factor of enclosing scales, must be at most 0.999.
   bool shrinks(ExprId id, uint32_t slot, const Alternative& head, double larger = 1) {
     const ExprNode& n = program_.expr(id);
     constexpr double kSurely = 0.999;
@@ -130,7 +131,8 @@ class RecursionCheck {
     return n.binary == BinaryOp::subtract && isSlot(left) && larger <= 1 && values_.number(right, frame).lo > 1e-3;
   }
 
-  /// Whether the condition bounds the slot from below by a value that does not decrease with it.
+  /// Whether the condition requires a lower bound for the slot's value, one that does not decrease with that value.
+  /// positive: set if the bound is certainly above 0.
   bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) {
     const ExprNode& n = program_.expr(id);
     if (n.kind != ExprKind::binary) return false;
@@ -155,7 +157,7 @@ class RecursionCheck {
     if (call.from != call.to) return false;
     const ExprNode& n = program_.expr(call.call);
     if (head.minsize != kNoId) {
-      // The final size counts, with all scales around it.
+      // minsize is compared with the final size, which includes all scales around the call.
       const double larger = enlarged(call, freeFrame(head));
       if (head.size_slot == kNoId && (larger < 0.999 || (call.shrunk && larger <= 1))) return true;
       if (head.size_slot != kNoId && head.size_slot < n.bound.count &&
@@ -167,13 +169,13 @@ class RecursionCheck {
       bool positive = false;
       const ExprId arg = program_.idAt(n.bound, slot);
       if (!bounds(head.when, slot, positive, head) || !shrinks(arg, slot, head)) continue;
-      // A product may converge to 0, so the bound must be above 0.
+      // Repeated multiplication may converge to 0 without reaching a bound of 0, so the bound must be positive.
       if (program_.expr(arg).binary == BinaryOp::subtract || positive) return true;
     }
     return false;
   }
 
-  /// A suggestion for the message.
+  /// Returns a hint how to bound the recursion.
   std::string remedy(const RuleCall& call, const std::string& name) const {
     if (call.from != call.to) return join({"bound it: `rule ", name, " ... depth 8 -> Leaf`"});
     const Alternative& head = program_.rules[call.from].alternatives[call.alternative];
@@ -206,7 +208,7 @@ class RecursionCheck {
   DiagnosticSink& sink_;
   std::vector<std::vector<uint32_t>> out_;
   std::vector<uint32_t> component_;
-  uint32_t steps_;  ///< the rest of the budget for all queries
+  uint32_t steps_;  ///< remaining steps for all interval evaluations together
   RangeEvaluator values_;
 };
 

@@ -15,7 +15,8 @@ namespace {
 constexpr const char* kWeightHint = "write how often this head is drawn relative to the others, such as weight 2";
 constexpr const char* kShapeHint = "write a shape such as sphere(2m), or a rule";
 
-/// Other languages combine distance fields with such functions.
+/// Returns a hint for a function where a shape is expected: other languages combine distance fields with functions such
+/// as mix or min.
 std::string_view shapeHint(const ExprNode& call) {
   if (call.ref != Ref::builtin) return kShapeHint;
   switch (static_cast<Builtin>(call.id)) {
@@ -30,7 +31,7 @@ std::string_view shapeHint(const ExprNode& call) {
   }
 }
 
-/// Whether rules take such values; unknown ones follow an error.
+/// Whether values of this kind may be arguments of rules. True for unknown types, which follow from an error.
 bool isPassed(ValueKind kind) {
   switch (kind) {
     case ValueKind::unknown:
@@ -52,7 +53,8 @@ bool isPassed(ValueKind kind) {
   return false;
 }
 
-/// The block replaces every head of the rule, and uses the parameter names of the first.
+/// Warns if heads of the rule use different parameter names: an override's block replaces all heads, but uses the names
+/// of the first head.
 void warnOfNames(CheckContext& check, const Override& edit, uint32_t rule, uint32_t parameter) {
   const auto& heads = check.program.rules[rule].alternatives;
   const auto nameIn = [&](const Alternative& head) {
@@ -74,7 +76,7 @@ void warnOfNames(CheckContext& check, const Override& edit, uint32_t rule, uint3
 void Statements::start(ExprId call) {
   types_.enter({});
   callRule(call, false, false);
-  uses_ = {};  // layers use their starts; no rule does
+  uses_ = {};  // a start call belongs to no rule, so it is not recorded
 }
 
 void Statements::checkWaiting() {
@@ -86,7 +88,8 @@ void Statements::checkWaiting() {
 }
 
 void Statements::checkRule(uint32_t rule) {
-  // If a rule is checked again, with a dimension found later, drop its earlier calls.
+  // If a rule is checked again, because a parameter's dimension became known later, drop the calls recorded by the
+  // earlier check.
   if (!rules_.beginCheck(rule)) {
     std::erase_if(rule_uses_.calls, [&](const RuleCall& call) { return call.from == rule; });
     std::erase_if(rule_uses_.asked, [&](const AskedLayer& asked) { return asked.rule == rule; });
@@ -121,7 +124,7 @@ void Statements::checkAlternative(uint32_t rule, uint32_t alternative) {
   alternative_ = alternative;
   Alternative& head = check_.program.rules[rule].alternatives[alternative];
   enterBody(head.body, check_.program.rules[rule].module);
-  head.size_slot = kNoId;  // a second check may know better which parameter is a length
+  head.size_slot = kNoId;  // recomputed, since a second check may know more types
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     FormalNode& formal = check_.program.ast.formals[head.formals.first + i];
     formal.type = rules_.of(rule)[i];
@@ -211,7 +214,8 @@ void Statements::callRule(ExprId call, bool escape, bool shrunk) {
   }
   for (size_t i = 0; i < types.size(); ++i) {
     const Type known = rules_.of(rule)[i];
-    // The literal 0 left the dimension open; now it is known, and the body is checked with it.
+    // An earlier call passed the literal 0, which fits every dimension; now the dimension is known, so the body is
+    // checked again with it.
     if (known.kind == ValueKind::unknown || (known.any_dim && !types[i].any_dim && known.kind == types[i].kind))
       rules_.refine(rule, i, types[i]);
     else
@@ -221,8 +225,8 @@ void Statements::callRule(ExprId call, bool escape, bool shrunk) {
   }
 }
 
-/// Requires that a rule takes arguments of these types, and that they are known when shapes are derived. Returns false
-/// after an error of type.
+/// Requires that arguments may be passed to rules: their kinds are permitted, and their values are known at derivation
+/// time. Returns false after reporting an error about a kind.
 bool Statements::checkPassed(const ExprNode& call, const std::vector<uint32_t>& bound, std::vector<Type>& types) {
   bool good = true;
   const std::string what = join({"an argument of `", check_.text(call.name), "`"});

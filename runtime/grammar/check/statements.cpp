@@ -16,7 +16,7 @@ bool isRoundOrBox(Primitive p) {
          p == Primitive::superq;
 }
 
-/// Reports the first statement that a sum cannot have, and returns whether there is none.
+/// Reports the first statement that is not permitted in a sum. Returns whether there is none.
 bool checkSumLeaves(CheckContext& check, StmtId id) {
   const StmtNode& s = check.program.stmt(id);
   switch (s.kind) {
@@ -144,13 +144,13 @@ void Statements::checkStatement(StmtId id, bool shrunk) {
     case StmtKind::fit:
       return checkFit(check_, symbols_, types_, copy);
     case StmtKind::inner:
-    case StmtKind::link:    // checked by its treemap
-    case StmtKind::border:  // by its wfc
+    case StmtKind::link:    // checked together with its treemap
+    case StmtKind::border:  // checked together with its wfc
       return;
   }
 }
 
-/// transform and repeat. The scopes of copies are not known to shrink.
+/// Checks transform and repeat. The scopes of a repeat's copies are not assumed to shrink.
 void Statements::checkTransform(const StmtNode& s, bool shrunk) {
   const size_t outside = scales_.size();
   const bool copied = s.kind == StmtKind::repeat;
@@ -198,7 +198,7 @@ void Statements::checkField(const StmtNode& s) {
   types_.scope().slot_count = std::max(types_.scope().slot_count, types_.scope().next_slot);
   field.slot_count = types_.scope().slot_count;
   if (field.formals.count > 0) return;
-  // Without parameters it can be checked here, used or not.
+  // A field without parameters is checked here, even if it is never used.
   const size_t locals = types_.scope().locals.size();
   types_.scope().locals.resize(local.depth);
   const bool in_field = std::exchange(types_.scope().field, true);

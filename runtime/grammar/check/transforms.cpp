@@ -11,8 +11,8 @@ namespace sgm {
 
 namespace {
 
-/// 0 1 2 for the names of the axes; 3 for another expression. A local vector of that name hides an axis of `rot`; a
-/// number with that name, such as the width x of a board, is not an axis and hides none.
+/// Returns 0, 1 or 2 if the expression is an axis name x, y or z, and 3 if it is another expression. In `rot`, a local
+/// vector named x, y or z takes precedence over the axis; a local number of that name does not.
 uint8_t axisOf(const CheckContext& check, const Scope& scope, XformKind kind, ExprId id) {
   const std::string_view word =
       check.node(id).kind == ExprKind::name ? check.text(check.node(id).name) : std::string_view();

@@ -11,7 +11,7 @@ namespace sgm {
 
 namespace {
 
-/// Returns whether it leads from one room to another.
+/// Resolves the rooms of a link, and checks its measures. Returns whether it joins two different rooms.
 bool checkDoor(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s,
                const std::vector<NameId>& rooms) {
   LinkNode& link = check.program.ast.links[s.extra];

@@ -12,7 +12,7 @@
 namespace sgm {
 namespace {
 
-/// The declarations that the root's text uses.
+/// Collects the declarations that the root's text uses.
 struct Uses {
   std::set<std::pair<Ref, uint32_t>> values;
   std::set<NameId> qualifiers;
@@ -76,7 +76,7 @@ class Unused {
     sink_.warning(span, codes::kUnusedValue, join({"nothing uses the ", what, " `", program_.text(name), "`"}), hint);
   }
 
-  /// Paths of overrides also name rules of imports.
+  /// Whether an override's path contains a rule of this imported module.
   bool inPaths(uint32_t module) const {
     return std::any_of(program_.path_steps.begin(), program_.path_steps.end(),
                        [&](const PathStep& step) { return program_.rules[step.rule].module == module; });
@@ -100,14 +100,15 @@ class Unused {
   const Uses uses_;
 };
 
-/// The values of one expression for which a guard holds: low to high, with open or closed ends.
+/// The interval of values of an expression for which a guard holds, with open or closed ends. asked: the expression;
+/// kNoId: the guard is not understood.
 struct GuardRange {
   ExprId asked = kNoId;
   double low = -kInfinity, high = kInfinity;
   bool low_open = false, high_open = false;
 };
 
-/// The value of a literal, with its unit.
+/// Returns the value of a number literal, possibly negated; nullopt for other expressions.
 std::optional<double> literalValue(const Program& program, ExprId id) {
   const ExprNode& n = program.expr(id);
   if (n.kind == ExprKind::number) return n.value;
@@ -181,7 +182,7 @@ class WholeNumbers {
   }
 
  private:
-  /// The owner of the slots of an expression's locals.
+  /// A rule head, which owns the slots of the locals in its expressions.
   struct Frame {
     uint32_t rule;
     Span head;
@@ -215,7 +216,8 @@ class WholeNumbers {
     return false;
   }
 
-  /// For recursive rules: whole unless another call contradicts.
+  /// Whether all calls pass whole numbers for a formal. A formal that is being evaluated, because of recursion, is
+  /// assumed to be whole.
   bool isWholeFormal(uint32_t rule, uint32_t formal) {
     if (!formals_.emplace(rule, formal).second) return true;
     const std::vector<ExprId>& calls = calls_[rule];
@@ -225,7 +227,7 @@ class WholeNumbers {
     });
   }
 
-  /// For the variable of a loop, or a let, in that slot.
+  /// Whether the loop variable or let in this slot is always a whole number.
   bool isWholeIn(StmtId id, uint32_t slot) {
     if (id == kNoId) return false;
     const StmtNode& s = program_.stmt(id);
@@ -240,10 +242,10 @@ class WholeNumbers {
   const Program& program_;
   std::vector<Frame> frames_;
   std::map<uint32_t, std::vector<ExprId>> calls_;    ///< by rule
-  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< being evaluated
+  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< formals under evaluation: rule, index
 };
 
-/// The whole numbers in a range.
+/// Shrinks a range to closed ends that are whole numbers.
 GuardRange wholeOf(GuardRange range) {
   range.low = range.low_open ? std::floor(range.low) + 1 : std::ceil(range.low);
   range.high = range.high_open ? std::ceil(range.high) - 1 : std::floor(range.high);
@@ -274,8 +276,8 @@ namespace {
 
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Whether one has an additional letter, or two neighbouring letters swapped: `bric` and `brick`. A different letter
-/// may make another word, such as glass and grass.
+/// Whether two names differ by one additional letter, or by two swapped neighbours, such as `bric` and `brick`. A
+/// different letter does not count, since it may make another word, such as glass and grass.
 bool misspelt(std::string_view a, std::string_view b) {
   if (a.size() > b.size()) std::swap(a, b);
   if (a.size() < 4 || b.size() > a.size() + 1) return false;
@@ -295,14 +297,15 @@ void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
     ++uses[s.extra];
     if (s.span.file == 0) first.emplace(s.extra, s.span);
   }
-  // Names in imports, assets and the domain are right; of two equally frequent names, the earlier one in the text.
+  // A name with a higher rank is assumed to be spelt correctly: those in imports, assets and the domain, then the more
+  // frequent one, then the earlier one in the text.
   const auto rank = [&](uint32_t material) {
     const auto place = first.find(material);
     return place == first.end() ? std::pair(SIZE_MAX, int64_t{0})
                                 : std::pair(uses[material], -int64_t{place->second.begin});
   };
   for (const auto& [material, span] : first) {
-    if (material == 0) continue;  // used only in a rule that is never derived
+    if (material == 0) continue;  // not found in a derived rule
     for (uint32_t other = 1; other < program.materials.size(); ++other) {
       const std::string_view name(program.materials[material]), theirs(program.materials[other]);
       if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;

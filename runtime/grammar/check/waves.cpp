@@ -35,7 +35,7 @@ void checkTileSize(CheckContext& check, Types& types, ExprId size) {
   }
 }
 
-/// Numbers the labels and the kinds of sides.
+/// Assigns bits to the labels of a wfc, and indices to the distinct kinds of sides.
 void numberSides(CheckContext& check, const StmtNode& s) {
   std::vector<uint32_t> labels;
   std::vector<SideKind> kinds;
@@ -107,14 +107,14 @@ void reportUnmet(CheckContext& check, const PartNode& part, const SocketNode& so
                      suggestion.hintOr(join({"give it to the ", across, " of a tile, or to the border", also})));
 }
 
-/// A side without any match, in any rotation of the tiles, is probably misspelt.
+/// Reports sides that fit no side of any tile in any rotation; their labels are probably misspelt.
 void checkAnswers(CheckContext& check, const StmtNode& s) {
   if (check.sink.errorCount() > 0) return;
   const WaveNode& wave = check.program.ast.waves[s.extra];
   const SideKind* kinds = check.program.ast.side_kinds.data() + wave.kinds.first;
   const auto turnsOf = [](const TileNode& tile, size_t side) { return tile.turns && side < kUpright ? kUpright : 1; };
   const auto turned = [](size_t side, size_t turn) { return side < kUpright ? (side + turn) % kUpright : side; };
-  // An unnamed border matches anything, but does not count: most places do not lie there.
+  // A border side without labels matches every side, but is ignored here, since most places do not lie at the border.
   std::array<std::vector<SideKind>, kSides> tiles, border;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = check.program.ast.parts[s.parts.first + i];

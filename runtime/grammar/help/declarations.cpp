@@ -43,7 +43,7 @@ class DeclarationReader {
   }
   bool isName(size_t ahead = 0) const { return kind(ahead) == Tok::word && !token(ahead).keyword; }
 
-  /// Continues to the `;` or the end of the block that ends a declaration, or to the next one if that is missing.
+  /// Reads one declaration, up to its `;` or the end of its block, or up to the next declaration if these are missing.
   void declaration() {
     const size_t first = next_;
     const size_t first_name = out_.names.size();
@@ -134,7 +134,7 @@ class DeclarationReader {
     if (kind() == Tok::open_paren && kind_of != NameKind::parameter && kind_of != NameKind::layer) formals();
   }
 
-  /// (a, b = 3, c)
+  /// Reads formals in parentheses: (a, b = 3, c).
   void formals() {
     int depth = 0;
     bool first = false;  // the next word is a name
@@ -152,7 +152,7 @@ class DeclarationReader {
     }
   }
 
-  /// The text from here to the next comma or parenthesis, with default and range.
+  /// Returns the text of a formal with its default and range: from here to the next comma or parenthesis.
   std::string formalText() const {
     size_t last = next_;
     for (int depth = 0; last + 1 < lexed_.tokens.size(); ++last) {
@@ -165,7 +165,7 @@ class DeclarationReader {
     return oneLine(text_.substr(begin, lexed_.tokens[last].span.end - begin));
   }
 
-  /// Records the declaration of a statement at this place.
+  /// Records the name that a statement at the current token declares, if it declares one.
   void local() {
     const std::string_view what = word();
     if (kind() != Tok::word) return;
@@ -213,7 +213,7 @@ class DeclarationReader {
     return line;
   }
 
-  /// Comment lines that end on the line before this one.
+  /// Returns the text of the comment lines directly above this line.
   std::string commentAbove(int line) const {
     std::vector<std::string_view> lines;
     for (size_t i = lexed_.comments.size(); i-- > 0;) {
@@ -230,7 +230,7 @@ class DeclarationReader {
     return doc;
   }
 
-  /// In the block of an override the parameter names of the edited rule are visible.
+  /// Adds the parameters of the overridden rule as local names to each override's block.
   void formalsOfEdits() {
     for (const Edit& edit : edits_) {
       std::string rule = edit.path.substr(edit.path.find_last_of('/') + 1);
@@ -323,7 +323,7 @@ std::optional<WordAt> wordAt(std::string_view text, uint32_t offset) {
       const Span& before = lexed.tokens[dot - 1].span;
       found.qualifier = text.substr(before.begin, before.end - before.begin);
     }
-    // The word after the dot is nearer than the dot.
+    // The offset touches both the dot and the word behind it: choose that word.
     if (in_word) return found;
   }
   return found;

@@ -45,7 +45,7 @@ class MeaningHasher : public MemberVisitor {
 uint64_t hashMeaning(const Program& program, const ModuleSyntax& syntax) {
   MeaningHasher hasher(program);
   for (const Item& item : syntax.items) {
-    // Neither changes what is derived.
+    // Neither report/expect nor units changes what is derived.
     if (item.kind == ItemKind::expectation || item.kind == ItemKind::units) continue;
     visitMembers(program, Declaration{syntax, item}, hasher);
   }

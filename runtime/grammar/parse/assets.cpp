@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-/// A hash of the used content: other named objects in the file do not affect it.
+/// Hashes only the content that is used, so that other named objects in the file do not matter.
 uint64_t hashOf(const asset::Polyhedron& solid, const std::vector<std::string>& materials) {
   uint64_t hash = hashText("asset");
   const auto add = [&](uint64_t value) { hash = hashCombine(hash, value); };

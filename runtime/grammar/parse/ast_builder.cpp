@@ -20,7 +20,7 @@ bool AstBuilder::hasRoom() {
 }
 
 ExprId AstBuilder::addExpr(ExprNode node, const Span& begin) {
-  constexpr uint16_t kDeepestTree = 128;  // for trees that loops build: a + b + c ...
+  constexpr uint16_t kDeepestTree = 128;  // limits trees that the parser builds in loops: a + b + c ...
   if (!hasRoom()) return kNoId;
   node.span = tokens_.since(begin);
   uint16_t depth = 0;

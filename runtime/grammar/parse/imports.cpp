@@ -30,7 +30,7 @@ class Loader {
     modules_.emplace(std::string(), 0);
     total_ = program_.modules[0].text.size();
     parse(0);
-    // The list grows during the loop, which avoids recursion for any text.
+    // syntax_ grows during this loop. A loop instead of recursion keeps the stack bounded for untrusted text.
     for (uint32_t m = 0; m < syntax_.size() && !sink_.full(); ++m)
       for (size_t i = 0; i < syntax_[m].imports.size(); ++i) {
         const ImportDecl import = syntax_[m].imports[i];
@@ -57,8 +57,8 @@ class Loader {
     return complaint.empty();
   }
 
-  /// Reads a file outside of the library, at most `left` bytes; nullopt after an error. most, most_of_all: the limits
-  /// for one and for all files of its kind, for messages.
+  /// Reads a file that is not in the standard library. left: how many bytes may still be read. most, most_of_all: the
+  /// limits for one file, and for all files of its kind, for messages. nullopt after reporting an error.
   std::optional<std::string> read(const std::string& path, const ImportDecl& import, size_t left, size_t most,
                                   size_t most_of_all) {
     if (options_.resolver == nullptr) {

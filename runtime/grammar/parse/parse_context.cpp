@@ -37,7 +37,7 @@ NameId parseNewName(ParseContext& in, std::string_view of_what) {
 void recover(ParseContext& in, Level level, size_t first) {
   in.syntax.complete = false;
   if (in.joined > 0) in.syntax.bounded = false;
-  // Names in the omitted part may be declared there: they are not reported as unknown.
+  // Words in the skipped part may be declared names, so unknown uses of them are not reported.
   for (const Token& token : in.tokens.skipFailed(level, first))
     if (token.kind == Tok::word) in.syntax.in_doubt.insert(in.build.addName(in.tokens.textOf(token)));
 }

@@ -13,11 +13,11 @@ namespace sgm::parse {
 
 namespace {
 
-/// How a kind of declaration is written.
+/// The syntax of a kind of declaration.
 struct DeclarationForm {
   std::string_view word;  ///< the word that starts it
   void (*declare)(ParseContext&);
-  bool may_bound;  ///< an error in it may hide a bound of the shapes of others
+  bool may_bound;  ///< if it fails to parse, bounds of other declarations' shapes may be missing
 };
 
 constexpr std::array<DeclarationForm, 14> kForms = {{

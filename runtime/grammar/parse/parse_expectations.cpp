@@ -13,7 +13,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// Returns false after an error.
+/// Parses the word of a measure. Returns false after an error.
 bool parseMeasure(TokenStream& tokens, Expectation& e) {
   const std::string_view measure = tokens.text();
   const std::span<const std::string_view> measures = measureTable();

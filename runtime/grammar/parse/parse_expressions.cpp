@@ -43,7 +43,7 @@ std::optional<BinaryOp> operatorOf(Tok kind, std::string_view text) {
 
 std::optional<BinaryOp> operatorAt(const TokenStream& tokens) { return operatorOf(tokens.peek().kind, tokens.text()); }
 
-/// Adds the expression that consists of these; kNoId in panic.
+/// Adds a node with these children; returns kNoId in panic mode.
 ExprId addOperation(ParseContext& in, ExprNode node, const std::vector<ExprId>& children, const Span& begin) {
   if (in.tokens.hasFailed()) return kNoId;
   node.children = in.build.addIds(children);
@@ -173,7 +173,7 @@ ExprId parsePostfix(ParseContext& in) {
       value = addOperation(in, node, {value}, begin);
       continue;
     }
-    // The call takes over the name, and the receiver if there is one.
+    // Converts the name node before the parentheses to a call node, with its receiver if it has one.
     ExprNode node = in.build.expr(value);
     if (node.kind != ExprKind::name && node.kind != ExprKind::member) return value;
     node.kind = ExprKind::call;
@@ -185,7 +185,7 @@ ExprId parsePostfix(ParseContext& in) {
   return value;
 }
 
-/// An expression of operators that bind at least as tightly as `lowest`.
+/// Parses an expression of operators that bind at least as tightly as `lowest` (Precedence).
 ExprId parseBinary(ParseContext& in, int lowest);
 
 ExprId parseUnary(ParseContext& in) {
@@ -220,8 +220,9 @@ ExprId parseBinary(ParseContext& in, int lowest) {
   }
 }
 
-/// `name value`: a word before the start of an expression. Before a minus it is a name only if the callee has such a
-/// parameter and the minus touches its operand: `halfspace(below -2m)`, `at(y -2m)`; otherwise write `name = -2m`.
+/// Whether a named argument `name value` starts here: a word before the start of an expression. Before a minus, the
+/// word is a name only if the callee has such a parameter and the minus touches its operand: `halfspace(below -2m)`,
+/// `at(y -2m)`; otherwise write `name = -2m`.
 bool isNamedArgumentAhead(const TokenStream& tokens, std::string_view callee) {
   if (!tokens.at(Tok::word)) return false;
   const std::string_view word = tokens.text();

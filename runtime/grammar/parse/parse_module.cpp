@@ -9,7 +9,7 @@ namespace parse {
 
 namespace {
 
-/// `sgm 1;`. Returns false if the text is of another version.
+/// Parses `sgm 1;`. Returns false if the text is for another version of the language.
 bool parseVersion(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   const Span first = tokens.here();

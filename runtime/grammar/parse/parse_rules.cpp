@@ -10,7 +10,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// The index of this file's rule of that name, which a head at `span` declares or adds to.
+/// Returns the index of the file's rule with this name; adds the rule if it is new. span: of the head's name.
 uint32_t ruleNamed(ParseContext& in, NameId name, bool morphic, const Span& span) {
   auto& rules = in.program.rules;
   const std::string_view text = in.program.text(name);
@@ -43,7 +43,7 @@ void addHead(ParseContext& in, NameId name, bool morphic, const Span& name_span,
   addItem(in, ItemKind::alternative, index, begin, alternatives.size() - 1);
 }
 
-/// Takes the word of a clause; `repeated`: the head has one already.
+/// Takes the first word of a clause. repeated: the head already has such a clause, which is an error.
 void takeClause(TokenStream& tokens, bool repeated) {
   if (repeated)
     tokens.fail(tokens.here(), codes::kDuplicate, join({"this head has a second `", tokens.text(), "`"}), kRemoveOne);
@@ -66,7 +66,7 @@ void parseLimit(ParseContext& in, ExprId& limit, ExprId& call) {
   call = parseShapeCall(in, "a shape or a rule to derive instead");
 }
 
-/// Parses one clause of a head; returns false if there is none.
+/// Parses one clause of a head. Returns false if no clause starts here.
 bool parseClause(ParseContext& in, Alternative& head) {
   TokenStream& tokens = in.tokens;
   if (tokens.atWord("when")) {

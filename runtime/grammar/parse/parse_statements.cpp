@@ -13,13 +13,13 @@ namespace sgm::parse {
 
 namespace {
 
-/// How a kind of statement is written.
+/// The syntax of a kind of statement.
 struct StmtForm {
   std::string_view word;  ///< the word that starts it in a block; empty if it has none
   StmtId (*parse)(ParseContext&) = nullptr;
 };
 
-/// The table of statements. A kind that is missing here does not compile.
+/// Maps each kind to its syntax. Without a default case, the compiler reports a kind that is missing here.
 constexpr StmtForm formOf(StmtKind kind) {
   switch (kind) {
     case StmtKind::block:
@@ -88,8 +88,8 @@ constexpr StmtForm formOf(StmtKind kind) {
   return {};
 }
 
-/// Calls `visit(form)` for each kind of statement until it returns true, and returns that form, or an empty one. The
-/// number behind that of the last kind has no form.
+/// Calls `visit(form)` for each kind of statement until it returns true, and returns that form; if it never does, an
+/// empty form, which marks the end of the kinds.
 template <typename Visit>
 StmtForm findForm(const Visit& visit) {
   for (uint8_t kind = 0;; ++kind) {

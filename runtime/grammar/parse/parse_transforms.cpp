@@ -22,7 +22,7 @@ XformNode parseXform(ParseContext& in) {
   return node;
 }
 
-/// As many as there are.
+/// Parses all consecutive transforms.
 IdRange parseXforms(ParseContext& in) {
   std::vector<XformNode> list;
   while (isAtTransform(in.tokens)) list.push_back(parseXform(in));

@@ -15,7 +15,7 @@ namespace {
 /// The sides of a tile among the parts of a box.
 std::span<const std::string_view> sideWords() { return boxPartTable().first(static_cast<size_t>(BoxPart::side) + 1); }
 
-/// LABEL { or LABEL }; keeps each label once.
+/// Parses LABEL { or LABEL }; removes duplicates.
 IdRange parseLabels(ParseContext& in) {
   std::vector<NameId> labels;
   do {
@@ -26,7 +26,8 @@ IdRange parseLabels(ParseContext& in) {
   return in.build.addIds(labels);
 }
 
-/// A side and its labels: `left wall or gate`, `left plug meets hole`. before: the sides before it of the same tile.
+/// Parses a side and its labels: `left wall or gate`, `left plug meets hole`. before: the sides already parsed for the
+/// same tile.
 std::optional<SocketNode> parseSocket(ParseContext& in, const std::vector<SocketNode>& before) {
   TokenStream& tokens = in.tokens;
   SocketNode out;

@@ -9,8 +9,8 @@ namespace sgm::parse {
 
 namespace {
 
-/// The advice for a habit from another language, or empty. kind, word: of the token that stands in the place of
-/// `wanted`; number: the text of the number before it, or empty.
+/// Returns a hint for a habit from another language, or an empty text. kind, word: of the token found instead of
+/// `wanted`; number: the text of a number directly before it, or empty.
 std::string habitHint(std::string_view wanted, Tok kind, std::string_view word, std::string_view number) {
   if (!number.empty() && kind == Tok::word && isUnit(word))
     return join({"write the unit against its number, `", number, word, "`"});
@@ -29,7 +29,7 @@ std::string habitHint(std::string_view wanted, Tok kind, std::string_view word, 
   return {};
 }
 
-/// "did you mean `gable`?" for a word near to one in backquotes of `wanted`, or empty.
+/// Returns "did you mean `gable`?" if `word` resembles a word in backquotes in `wanted`; otherwise an empty text.
 std::string spellingHint(std::string_view wanted, std::string_view word) {
   Suggestion suggestion(word);
   for (size_t open = wanted.find('`'); open < wanted.size(); open = wanted.find('`', open)) {
@@ -113,7 +113,7 @@ void TokenStream::fail(const Span& span, std::string_view code, std::string mess
   if (!exhausted_) panic_ = true;
 }
 
-/// Whether a lexical error nearby may be the cause of an error there.
+/// Whether a lexical error nearby, which is already reported, may be the cause of a syntax error at `span`.
 bool TokenStream::isExplained(const Span& span) const {
   const std::vector<int>& lines = lexed_.broken_lines;
   const auto broken = [&](int line) { return std::find(lines.begin(), lines.end(), line) != lines.end(); };
@@ -128,7 +128,7 @@ void TokenStream::exhaust(std::string_view code, std::string message, std::strin
 void TokenStream::failExpecting(std::string_view wanted) {
   if (panic_ || exhausted_ || failIfUnavailable()) return;
   const Token& token = peek();
-  // A missing token is reported at its place, after the last token, if that ends an earlier line.
+  // If the line ends without the wanted token, the error is reported there, behind the last token.
   Span span = token.span;
   if (wanted == "`;`" && (token.kind == Tok::end || token.span.line != last_.end_line)) {
     span = last_;
