@@ -24,7 +24,8 @@ struct ChunkRequest {
   bool body = true;       ///< true: mesh the body; false: only the seams, because the body exists already
   bool resident = false;  ///< also keep the parts on the backend's device (ChunkJob::resident)
   bool prompt = false;    ///< do not wait until a device is ready (ChunkJob::prompt)
-  /// seams lead to virtual neighbours, whose field is the domain's own state everywhere (octree.h)
+  /// true: the chunk lies at the border of the world, so that its seams lead to virtual neighbours, which are solid
+  /// everywhere if the domain is solid without shapes, and void everywhere otherwise (octree.h)
   bool outermost = false;
   bool sharp = false;  ///< make sharp features (sharpen_chunk.h)
   /// compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks

@@ -140,7 +140,8 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
         all[w] = a[w] & b[w] & c[w] & d[w];
         any[w] = a[w] | b[w] | c[w] | d[w];
       }
-      // The highest sample is outside, so no cube reaches beyond it.
+      // Bit i stands for the cube between samples i and i + 1. The last sample of a column is outside the body, so the
+      // cube beyond it is never counted.
       for (size_t w = 0; w < words; ++w) {
         result.all += static_cast<uint64_t>(std::popcount(all[w] & (all[w] >> 1 | all[w + 1] << 63)));
         result.any += static_cast<uint64_t>(std::popcount(any[w] | (any[w] >> 1 | any[w + 1] << 63)));

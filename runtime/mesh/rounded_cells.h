@@ -29,8 +29,9 @@ class RoundedCells {
   RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
                std::pmr::memory_resource* memory);
 
-  /// Adds the claim for the rounded loop of a side in the cell above or below the side's face. Borrows the side. from,
-  /// to: the keys of the side's ends. q: the field at the cell's corners.
+  /// Adds a claim for the centre of a rounded loop: the loop that has `side` as one of its edges, in the cell above or
+  /// below the face in which `side` lies. Keeps a reference to `side`. from, to: the keys of the ends of `side`. q: the
+  /// field at the cell's corners.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
   /// Adds an adjacent cell to the last claim, `steps` cells away from the claim's cell. q: the field at its corners.
   void addBeside(const Int3& steps, const std::array<int32_t, 8>& q);

@@ -11,15 +11,17 @@
 
 namespace sgm {
 
-/// Adds feature vertices behind the existing ones, and recomputes the part's hash. A feature vertex lies at most 1/25
-/// cell plus one unit off the surface, and less than a cell outside its cell, or outside the cells of its face. Only
-/// the centre of a rounded loop with face vertices in a face of the chunk may lie anywhere in its cell. No feature
-/// vertex lies beyond the chunk. No triangle has two corners in one place, and none intersects another triangle of the
-/// level (mesh/triangle_faults.h), because a loop whose fan would do so is rounded. Returns the number of rounded
-/// loops.
+/// Adds feature vertices behind the existing ones, and recomputes the part's hash. Returns the number of rounded loops:
+/// a loop is rounded, which means that its centre is no feature, if its fan would otherwise have a triangle with two
+/// corners in one place, or one that intersects another triangle of the level (mesh/triangle_faults.h).
+///
+/// A feature vertex lies at most 1/25 cell plus one unit off the surface. The vertex of a cell lies less than one cell
+/// outside that cell; the vertex of a face lies less than one cell outside the two cells at that face. The only
+/// exception is the centre of a rounded loop with face vertices in a face of the chunk: it may lie anywhere in its
+/// cell. No feature vertex lies beyond the chunk.
 ///
 /// Pure: the same part and field give the same bytes, since only doubles with + - * / sqrt are used. Samples the field
-/// up to sharpReach() beyond the chunk. grid: of a chunk, whose origin is a multiple of 32 cells. Throws
+/// up to sharpReach() beyond the chunk. grid: the chunk's grid; its origin must be a multiple of 32 cells. Throws
 /// std::bad_alloc.
 uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());

@@ -1,5 +1,6 @@
 #pragma once
-// Which cells of a layer matter in a box, and which of their derivations serves a level.
+// Finds the cells of a layer whose shapes may reach into a box. A cell has several derivations, each for a range of
+// levels of detail: also finds which of them a level uses.
 
 #include <functional>
 

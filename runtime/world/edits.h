@@ -98,9 +98,9 @@ class EditLog {
   uint64_t batch_ = 0;   ///< number of the last batch (EditSnapshot::with)
 };
 
-/// Returns the region whose chunks must be meshed again after a change, for a level with cells of this edge (units):
-/// the chunks whose closed box meets the region. Includes what the seams of these chunks read of the next coarser
-/// level.
+/// Returns the box to mesh again after the field has changed in the box `changed`, at a level whose cells have the edge
+/// `cell` (units): every chunk whose closed box meets the result must be meshed again. The result includes the places
+/// that the seams of these chunks read of the next coarser level.
 IntBox editReach(const IntBox& changed, int32_t cell);
 
 /// Returns a subset of operations that shows the same brushes. It contains the visible brushes; the latest undo or redo

@@ -147,7 +147,8 @@ class StlTextReader {
 };
 
 /// True if the triangles that the header counts are present, and followed by no more bytes than programs may append.
-/// Other files whose bytes happen to match the count are not STL.
+/// A file with more bytes behind is of some other format, in which the bytes at the place of the count happen to be a
+/// small enough number.
 bool hasLittleBehind(std::span<const std::byte> bytes) {
   constexpr uint64_t kMostOwn = 4096;
   if (bytes.size() < kFacetsAt || facetCount(bytes) == 0) return false;

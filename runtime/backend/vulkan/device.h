@@ -38,7 +38,7 @@ struct BorrowedDevice {
   void (*lock)(void* user) = nullptr;
   void (*unlock)(void* user) = nullptr;
   void* user = nullptr;
-  // Features that the engine has enabled; Vulkan does not report which are.
+  // Features that the engine has enabled; Vulkan does not report which ones are enabled.
   uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;    ///< the feature timelineSemaphore
   bool memory_budget = false;          ///< the extension VK_EXT_memory_budget is enabled

@@ -9,7 +9,8 @@ using namespace sgm::vulkan;
 TEST_CASE("once warm, recording, submitting and waiting take no memory of the host's", "[vulkan]") {
   if (!haveDevice()) return;
   OwnDevice options;
-  options.software = true;  // without the validation layer, which allocates much itself
+  // The option for the validation layer stays off, because the layer makes many allocations itself.
+  options.software = true;
   const auto device = Device::open(options);
   REQUIRE(device);
   const uint32_t constants[] = {0, 1};
