@@ -25,8 +25,10 @@ struct ProcessLimits {
   uint64_t open_files = 0;
 };
 
-/// Limits this process irrevocably: it writes no core files, cannot gain privileges, closes all files except its
-/// standard streams, and is killed when the thread that started it ends.
+/// Limits this process irrevocably, and disables its core files. Neither locks nor allocates.
+void limitThisProcess(const ProcessLimits& limits);
+/// Limits this process in the same way. It also cannot gain privileges, closes all files except its standard streams,
+/// and is killed when the thread that started it ends.
 void sandboxThisProcess(const ProcessLimits& limits);
 
 /// Returns the path of the executable of this process. Error: io.
@@ -58,8 +60,8 @@ struct ProcessSettings {
   /// Runs the process in a process group of its own, without this process's blocked and ignored signals: signals of the
   /// terminal do not reach it, and Process::end() also kills all processes that it has started.
   bool isolated = false;
-  /// Limits that apply before the program starts. If set, the process also writes no core files, cannot gain
-  /// privileges, and is killed when the thread that started it ends.
+  /// Limits that apply before the program starts, and thus to the loading of its libraries. If set, the process also
+  /// writes no core files, cannot gain privileges, and is killed when the thread that started it ends.
   std::optional<ProcessLimits> sandbox;
 };
 

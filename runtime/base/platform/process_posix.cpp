@@ -124,16 +124,6 @@ void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   setrlimit(what, &now);
 }
 
-void applyLimits(const ProcessLimits& limits) {
-  limit(RLIMIT_CORE, 0);
-  if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.cpu_seconds)), 1);
-  if (limits.file_bytes > 0) limit(RLIMIT_FSIZE, limits.file_bytes);
-  if (limits.open_files > 0) limit(RLIMIT_NOFILE, limits.open_files);
-  // RLIMIT_NPROC stays unlimited: it counts all processes of the user, so on a busy machine this process could not
-  // start threads.
-  if (limits.memory_bytes > 0 && !kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory_bytes);
-}
-
 /// Ends the process with the thread that started it, and denies it new privileges.
 void confine() {
 #if defined(__linux__)
@@ -209,7 +199,7 @@ class Launch {
     if (settings_.sandbox) {
       confine();
       if (getppid() != parent) _exit(1);
-      applyLimits(*settings_.sandbox);
+      limitThisProcess(*settings_.sandbox);
     }
     sigset_t none;
     sigemptyset(&none);
@@ -282,12 +272,22 @@ State stateOf(int id) {
 
 }  // namespace
 
+void limitThisProcess(const ProcessLimits& limits) {
+  limit(RLIMIT_CORE, 0);
+  if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.cpu_seconds)), 1);
+  if (limits.file_bytes > 0) limit(RLIMIT_FSIZE, limits.file_bytes);
+  if (limits.open_files > 0) limit(RLIMIT_NOFILE, limits.open_files);
+  // RLIMIT_NPROC stays unlimited: it counts all processes of the user, so on a busy machine this process could not
+  // start threads.
+  if (limits.memory_bytes > 0 && !kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory_bytes);
+}
+
 void sandboxThisProcess(const ProcessLimits& limits) {
   confine();
 #if defined(SYS_close_range)
   syscall(SYS_close_range, unsigned{kFirstFree}, ~0u, 0u);
 #endif
-  applyLimits(limits);
+  limitThisProcess(limits);
 }
 
 Result<std::string> ownProgram() {

@@ -71,7 +71,7 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
   settings.arguments.insert(settings.arguments.begin() + 1, "--sandboxed");
   settings.output = {platform::Stream::pipe};
   settings.inherits_files = true;  // the files may be named by their descriptors, as /dev/fd/5
-  settings.sandbox = platform::ProcessLimits{options.memory << 20, options.seconds};
+  settings.sandbox.emplace().cpu_seconds = options.seconds;
   platform::RunSettings run;
   run.time = std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(options.seconds));
   // Otherwise output that is still buffered would come behind the process's messages.
@@ -92,7 +92,11 @@ Result<std::string> askSandbox(const SandboxOptions& options) {
   return Error{code, answer.substr(2)};
 }
 
-Exit answerFromSandbox(const std::function<Result<std::string>()>& work) {
+Exit answerFromSandbox(const SandboxOptions& options, const std::function<Result<std::string>()>& work) {
+  // If the limit had held before, a process without memory for its libraries would have ended without an answer.
+  platform::ProcessLimits limits;
+  limits.memory_bytes = options.memory << 20;
+  platform::limitThisProcess(limits);
   const Result<std::string> result = guarded(work);
   if (result) {
     std::fputc(kDone, stdout);

@@ -23,7 +23,7 @@ struct SandboxOptions {
 /// ended by a signal; io if it cannot be started or answers nothing. If the caller is ended, so is the process.
 Result<std::string> askSandbox(const SandboxOptions& options);
 
-/// In the sandboxed process: does the work, and answers askSandbox() on standard output.
-Exit answerFromSandbox(const std::function<Result<std::string>()>& work);
+/// In the sandboxed process: limits its memory, does the work, and answers askSandbox() on standard output.
+Exit answerFromSandbox(const SandboxOptions& options, const std::function<Result<std::string>()>& work);
 
 }  // namespace sgm::cli

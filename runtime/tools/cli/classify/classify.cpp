@@ -74,7 +74,7 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
 }
 
 Exit classifyMesh(const ClassifyOptions& options) {
-  if (options.sandbox.sandboxed) return answerFromSandbox([&] { return classifyFile(options); });
+  if (options.sandbox.sandboxed) return answerFromSandbox(options.sandbox, [&] { return classifyFile(options); });
   return isGrammarFile(options.file) ? classifyGrammar(options) : printOrComplain(askSandbox(options.sandbox));
 }
 

@@ -195,7 +195,8 @@ Exit measureGrammar(const MeasureOptions& options) {
 Exit measureMesh(const MeasureOptions& options) {
   const bool grammar = isGrammarFile(options.file);
   if (options.sandbox.sandboxed)
-    return answerFromSandbox([&] { return grammar ? meshFileAnswer(options.against) : measureFile(options); });
+    return answerFromSandbox(options.sandbox,
+                             [&] { return grammar ? meshFileAnswer(options.against) : measureFile(options); });
   if (asksForVoid(options)) {
     if (grammar) return measureVoid(options);
     return complain(Exit::usage, "--from, --to and --radius measure the void of a grammar: a mesh file has none");
