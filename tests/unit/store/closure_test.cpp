@@ -2,6 +2,7 @@
 // a missing or reversed triangle.
 
 #include "store/closure.h"
+#include "seed.h"
 #include "store_support.h"
 
 using namespace sgm;
@@ -77,9 +78,9 @@ bool touchesBorder(const Meshed& chunk, size_t part, size_t triangle) {
 }  // namespace
 
 TEST_CASE("chunks of all levels fit together, and no damage to a border passes", "[store]") {
-  const auto seed = GENERATE(take(1, random(0, 1 << 30)));
+  const unsigned seed = testSeed();
   CAPTURE(seed);
-  std::mt19937 random(static_cast<uint32_t>(seed));
+  std::mt19937 random(seed);
   for (const bool sharp : {false, true}) {
     CAPTURE(sharp);
     const Excerpt& scene = scenes()[sharp ? 2 : 0];
@@ -121,7 +122,8 @@ TEST_CASE("chunks of all levels fit together, and no damage to a border passes",
       if (shows) {
         const size_t problems = judge(chunks, region).told.size();
         tried[problems != 0] += 1;
-        if (part != 0) CHECK(problems != 0);
+        // A seam of the coarsest level leads to no chunk of the region: its outer border need not fit to anything.
+        if (part != 0 && chunk->key.level < 2) CHECK(problems != 0);
       }
       std::copy(was.begin(), was.end(), first);
       chunk->borders[part] = before;
