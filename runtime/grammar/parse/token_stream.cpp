@@ -173,7 +173,7 @@ void TokenStream::skip(Level level) {
       if (open == 0 && level == Level::statement) return;
       take();
       if (open <= 1) {
-        // `{ ... };` and `} -> ...` belong to the skipped part.
+        // In `{ ... };` and `} -> ...`, the text behind the '}' belongs to the skipped part.
         accept(Tok::semicolon);
         return;
       }

@@ -101,7 +101,8 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
         out += '.';
       }
       out += program_.text(node.name);
-      // A rule without arguments is written without parentheses; a value without them would not be a call.
+      // A call of a rule without arguments is written without parentheses; a let or function without them would not be
+      // a call.
       if (node.args.count > 0 || !node.shape) args(out, node.args, program_.text(node.name));
       break;
     case ExprKind::query:
@@ -145,7 +146,7 @@ void LinePrinter::formals(std::string& out, IdRange range) const {
       out += " = ";
       expr(out, formal.fallback);
     }
-    // The range rejects calls, but does not change the derived content.
+    // Ranges only reject calls and never change what is derived, so they are not part of the meaning.
     if (formal.low_expr == kNoId || meaning_) continue;
     out += " in ";
     expr(out, formal.low_expr, kOr);

@@ -39,7 +39,7 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
-/// The part of a parameter's declaration that affects the world; the rest is for hosts.
+/// Prints the part of a parameter's declaration that affects the world; the rest only concerns hosts.
 void paramMeaning(std::string& out, const Program& program, const LinePrinter& line, const Param& param) {
   out += join({"param ", program.text(param.name), " = "});
   line.expr(out, param.value_expr);
@@ -198,7 +198,7 @@ class ModulePrinter {
     return text_.substr(comment.begin, comment.end - comment.begin);
   }
 
-  /// Prints the comments before an offset, each on its own line.
+  /// Prints all pending comments that begin before a byte offset, each on its own line.
   void comments(uint32_t before, size_t depth) {
     for (; next_ < comments_.size() && comments_[next_].begin < before; ++next_) {
       blankLine(comments_[next_].line);
@@ -208,7 +208,7 @@ class ModulePrinter {
     }
   }
 
-  /// Keeps a comment on the line whose end (or block start) it follows.
+  /// Prints a pending comment behind the text on its line, if it was written there.
   void trailing(int line) {
     if (next_ < comments_.size() && !comments_[next_].own_line && comments_[next_].line <= line) {
       out_ += join({"  ", commentText(comments_[next_])});
@@ -237,7 +237,7 @@ class ModulePrinter {
 
   bool hasComment(const Span& span) const { return next_ < comments_.size() && comments_[next_].begin < span.end; }
 
-  /// The block of a declaration that may take several lines, or kNoId.
+  /// Returns the block of a declaration if it may span several lines; otherwise kNoId.
   StmtId blockOf(const Item& item) const {
     if (item.kind == ItemKind::overriding) return program_.overrides[item.index].body;
     if (item.kind != ItemKind::alternative || program_.rules[item.index].morphic) return kNoId;
@@ -276,7 +276,7 @@ class ModulePrinter {
     last_line_ = block.span.end_line;
   }
 
-  /// Prints the parts of a split, comp, treemap or wfc, one a line, a repeated group indented once more.
+  /// Prints the parts of a split, comp, treemap or wfc, one per line; a repeated group is indented once more.
   void partsInLines(const StmtNode& node, size_t depth) {
     out_ += " {";
     trailing(node.span.line);
@@ -308,7 +308,7 @@ class ModulePrinter {
     last_line_ = node.span.end_line;
   }
 
-  /// Prints a fit with one zone a line.
+  /// Prints a fit with one zone per line.
   void zonesInLines(const StmtNode& node, size_t depth) {
     const FitNode& fit = program_.ast.fits[node.extra];
     out_ += join({"fit ", program_.text(node.name)});
@@ -347,7 +347,7 @@ class ModulePrinter {
   std::string_view text_;
   const std::pmr::vector<Comment>& comments_;
   std::string out_;
-  size_t next_ = 0;    ///< the first unprinted comment
+  size_t next_ = 0;    ///< index of the first comment that is not printed yet
   int last_line_ = 0;  ///< source line of the last printed text; 0 at the start of a block
 };
 

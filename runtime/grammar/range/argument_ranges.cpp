@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-constexpr double kWidening = 1e-9;  ///< relative: the widening of intervals during their computation
+constexpr double kWidening = 1e-9;  ///< tolerance, relative: computed intervals are wider than the exact ranges
 
 /// A unit as written after a number.
 struct Unit {
@@ -23,7 +23,7 @@ struct Unit {
   double value;
 };
 
-/// The first unit of each dimension is used if the range has none.
+/// If the ends of a range do not have the same unit, the first unit of their dimension is used.
 constexpr Unit kUnits[] = {{"m", kLength, 1},     {"cm", kLength, 0.01},      {"mm", kLength, 0.001},
                            {"km", kLength, 1000}, {"deg", kAngle, kPi / 180}, {"rad", kAngle, 1},
                            {"m2", kArea, 1},      {"m3", kVolume, 1},         {"", kRatio, 1},
@@ -34,12 +34,12 @@ std::string_view sourceText(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// The text after the digits of a number.
+/// Returns the unit in the text of a number: what follows the digits.
 std::string_view unitName(std::string_view number) {
   return number.substr(std::min(number.find_last_of("0123456789.)") + 1, number.size()));
 }
 
-/// The unit used by both ends of a range, or the first one of its dimension.
+/// Returns the unit that both ends of a range are written in; otherwise the first unit of their dimension.
 Unit unitOf(const Program& program, const FormalNode& formal) {
   const std::string_view name = unitName(sourceText(program, formal.high_expr));
   const bool both = unitName(sourceText(program, formal.low_expr)) == name;
@@ -52,7 +52,7 @@ Unit unitOf(const Program& program, const FormalNode& formal) {
   return first != nullptr ? *first : Unit{"", formal.dim, 1};
 }
 
-/// A value outside of the range for a message: with six digits, unless these would bring it into the range.
+/// Formats a value outside of the range for a message: with six digits, unless rounding would bring it into the range.
 std::string valueText(double value, const FormalNode& formal, const Unit& unit) {
   const double exact = value / unit.value;
   char digits[40];
@@ -72,7 +72,7 @@ std::string intervalText(Interval given, const FormalNode& formal, const Unit& u
   return join({text(given.lo), "..", text(given.hi)});
 }
 
-/// "`karst.Hall`", as written by the caller.
+/// Returns the callee as written in the call: "`karst.Hall`".
 std::string calleeName(const Program& program, const ExprNode& call) {
   if (call.qualifier == kNoId) return join({"`", program.text(call.name), "`"});
   return join({"`", program.text(call.qualifier), ".", program.text(call.name), "`"});
@@ -128,7 +128,8 @@ void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::s
     const std::pair key(argument, caller);
     if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
     if (value.lo >= low && value.hi <= high) continue;
-    // Nothing is known of an unbounded value, and the author cannot bound values that the library computes.
+    // Possible misfits are not reported for unbounded values, of which nothing is known, nor for values that the
+    // standard library computes, which the author cannot bound.
     if (!certain && (loose_ > 0 || !value.bounded() || caller != kNoId)) continue;
     const Misfit misfit{argument, id, caller, formals.first + i, value, certain, loose_ > 0};
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
@@ -148,7 +149,7 @@ std::vector<Misfit> Misfits::take() {
   std::set<ExprId> callers;
   for (const Misfit& misfit : misfits_) {
     if (misfit.loose && loosely_fitting_.contains({misfit.argument, misfit.caller})) continue;
-    // Report one misfit for each caller of the library: its arguments cause the others.
+    // Report one misfit for each call into the library: its arguments cause all misfits within.
     if (misfit.caller == kNoId || callers.insert(misfit.caller).second) out.push_back(misfit);
   }
   misfits_.clear();

@@ -12,7 +12,7 @@ namespace {
 
 using Limits = AutomatonLimits;
 
-/// True also if one end is NaN.
+/// Whether no value of v lies in least..most. Also true if an end of v is NaN.
 bool liesOutside(Interval v, double least, double most) { return !(v.lo <= most && v.hi >= least); }
 
 std::string fromTo(int32_t least, int32_t most) {
@@ -23,7 +23,7 @@ std::string fromTo(int32_t least, int32_t most) {
 
 std::optional<AutomatonFault> faultOf(const AutomatonArguments& a, int32_t cell) {
   const int32_t least = std::max(Limits::least_edge, (cell + Limits::most_voxels - 1) / Limits::most_voxels);
-  // A voxel's edge is rounded to units.
+  // The tolerance is half a unit, since a voxel's edge is rounded to units.
   if (liesOutside(a.voxel, metres(least) - metres(1) / 2, metres(cell) + metres(1) / 2)) {
     const bool any = least <= cell;
     return AutomatonFault{

@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-constexpr double kSupport = 1.6;  ///< of a sum's kernel, in inner radii (derive/shape.h)
+constexpr double kSupport = 1.6;  ///< support of a sum's kernel, as a multiple of the inner radius (derive/shape.h)
 
 double boxRadius(const IntervalVector& box) {
   double sum = 0;
@@ -17,8 +17,9 @@ double boxRadius(const IntervalVector& box) {
   return std::sqrt(sum) * (1 + 1e-12);
 }
 
-/// The largest displacement of a sum of at most `count` shapes: its field ends at the kernel's threshold, in units of
-/// the kernel's slope at the largest leaf. derive/bounds.cpp adds room for rounding with every shape.
+/// Returns the largest displacement that a sum of at most `count` shapes permits: far from its leaves the sum's field
+/// is constant, the kernel's threshold divided by the kernel's slope at the largest leaf. The reserve for rounding
+/// grows with the number of shapes, as in derive/bounds.cpp.
 double sumLimit(double inner, double count) {
   constexpr double kInverse = 1 / (kSupport * kSupport), kBase = 1 - kInverse;
   const double left = kBase * kBase * kBase - 1e-6 * (count + 1);
@@ -47,7 +48,7 @@ Hull Hull::everywhere() {
 }
 
 void Hull::merge(const Hull& other) {
-  // Both lie within the smaller ball around a core that includes the rest of the larger ball.
+  // Both hulls lie within the smaller ball radius around a core that is grown by the rest of the larger radius.
   const double least = std::min(ball, other.ball);
   const IntervalVector mine = grown(core, ball - least), theirs = grown(other.core, other.ball - least);
   for (size_t i = 0; i < 3; ++i) {
@@ -85,7 +86,7 @@ void Hull::rotate(int axis, Interval angle) {
   core[a] = within(c * x - s * y);
   core[b] = within(s * x + c * y);
   may = grown(core, ball);
-  may[static_cast<size_t>(axis)] = along;  // rotation keeps heights along its axis
+  may[static_cast<size_t>(axis)] = along;  // a rotation does not change coordinates along its axis
 }
 
 void Hull::scale(Interval factor) {
@@ -124,7 +125,7 @@ Extent Extent::leaf(const IntervalVector& lower, const IntervalVector& upper, do
   for (size_t i = 0; i < 3; ++i) {
     e.at.may[i] = {std::min(lower[i].lo, upper[i].lo), std::max(lower[i].hi, upper[i].hi)};
     e.at.core[i] = {e.at.may[i].lo + ball, e.at.may[i].hi - ball};
-    // The ends minus the ball meet in the middle, except for rounding.
+    // Rounding may swap the ends if the core is a single point.
     if (e.at.core[i].lo > e.at.core[i].hi) e.at.core[i] = Interval::exactly((e.at.may[i].lo + e.at.may[i].hi) / 2);
     e.sure_lo[i] = lower[i].hi;
     e.sure_hi[i] = upper[i].lo;
@@ -143,7 +144,7 @@ double Extent::size() const {
 }
 
 void Extent::attribute(ExprId call) {
-  // An unbounded extent is best shown where it starts, any other where the layer's own rule calls it.
+  // For an unbounded extent, messages name the call where it starts; for others, the call in the layer's own rule.
   if (largest_contributor != kNoId && !std::isfinite(contributor_size)) return;
   largest_contributor = call;
   inside = kNoId;
@@ -212,10 +213,10 @@ void Extent::intersect(const Extent& other) {
   IntervalVector both;
   for (size_t i = 0; i < 3; ++i) {
     both[i] = {std::max(at.may[i].lo, other.at.may[i].lo), std::min(at.may[i].hi, other.at.may[i].hi)};
-    // Separate operands may meet after displacement, in the space between.
+    // If the operands are disjoint, a later displacement may join them, in the gap between them.
     if (both[i].lo > both[i].hi) both[i] = {both[i].hi, both[i].lo};
   }
-  // If turned, each operand has its own box; use the smallest.
+  // In rotated scopes the boxes of operands cannot be intersected; use the smaller hull.
   if (other.at.core_radius + other.at.ball < at.core_radius + at.ball) {
     at = other.at;
     turned_spread = other.turned_spread;
@@ -244,7 +245,7 @@ void Extent::grow(double margin) {
 }
 
 void Extent::smooth(double radius) {
-  // Where the operands are beyond the radius, a round union equals a sharp one.
+  // Where both operands are farther away than the radius, a round union equals a hard one.
   const double before = limit;
   grow(radius);
   if (radius < before) limit = before;
@@ -328,7 +329,7 @@ void Extent::repeat(Interval times) {
 void Extent::summed() {
   if (empty) return;
   at = in_sum;
-  // No level below the limit reaches farther than the kernels.
+  // Level sets below the limit do not extend beyond the kernels.
   spread = turned_spread = 0;
   limit = sumLimit(inner_low, count);
   count = 1;

@@ -9,8 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Widens by some units in the last place, which covers the rounding of an operation; exact results of small whole
-/// numbers, as in guards and counts, stay exact.
+/// Widens an interval by some units in the last place, which exceeds the rounding error of one operation. Small whole
+/// numbers, as in guards and counts, are exact and stay unchanged.
 Interval outwards(double lo, double hi) {
   auto whole = [](double v) { return v == std::floor(v) && std::fabs(v) < 1e9; };
   if (std::isnan(lo)) lo = -kInfinity;
@@ -64,7 +64,7 @@ Interval cosine(Interval a) {
   const double c = detCos(a.lo), d = detCos(a.hi);
   constexpr double kSlack = 1e-9;
   double lo = std::min(c, d) - kSlack, hi = std::max(c, d) + kSlack;
-  // Multiples of pi in the range give the extremes.
+  // The cosine has an extreme value at each multiple of pi in the range.
   for (double k = std::ceil((a.lo - kSlack) / kPi); k * kPi <= a.hi + kSlack; k += 1)
     (std::fmod(std::fabs(k), 2.0) == 0 ? hi : lo) = std::fmod(std::fabs(k), 2.0) == 0 ? 1 : -1;
   return {std::max(lo, -1.0), std::min(hi, 1.0)};
@@ -81,7 +81,7 @@ Interval power(Interval a, Interval b) {
 }
 
 Interval smoothStep(Interval low, Interval high, Interval x) {
-  // Needs known edges and a bounded x; everything else is 0 to 1.
+  // For unknown edges or an unbounded x, the result is the full range 0..1.
   if (!low.exact() || !high.exact() || low.lo == high.lo || !x.bounded()) return {0, 1};
   auto at = [&](double v) {
     const double t = std::clamp((v - low.lo) / (high.lo - low.lo), 0.0, 1.0);

@@ -10,7 +10,8 @@ namespace sgm {
 
 namespace {
 
-/// The field computes with floats: if a step lies at a whole number, the value may fall on either side.
+/// Widens an interval for functions with steps at whole numbers, such as floor: the field computes with floats, so a
+/// value near a step may fall on either side.
 Interval sampledFloats(Interval v) {
   auto whole = [](double x) { return x == std::floor(x) && std::fabs(x) < 1e6; };
   return {whole(v.lo) ? v.lo : v.lo - 1e-6 * std::fabs(v.lo) - 1e-9,
@@ -39,7 +40,8 @@ RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
       return RangeValue::vector(cell_);
     case Member::center: {
       if (!place) return RangeValue::unknown();
-      // For a face: on the side between its cells, half way along the others.
+      // For a face, along its axis: at the border between its two cells; along the other axes: in the middle. The axis
+      // is unknown, so each axis gets both.
       const Interval share = of.kind == ValueKind::face ? Interval{0.5, 1} : Interval{0.5, 0.5};
       return point({of.v[0] + share, of.v[1] + share, of.v[2] + share}, frame);
     }
@@ -78,8 +80,8 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::mix: {
       const Interval a = in(0), b = in(1), t = in(2);
       const Interval line = a + (b - a) * t, both = hull(a, b);
-      // For t in 0..1 the value lies between the ends, whatever a and b have in common; the line is tighter if t is
-      // known.
+      // For t in 0..1 the value lies between the ends, however a and b are correlated; if t is known exactly, `line` is
+      // tighter.
       if (t.lo >= 0 && t.hi <= 1) return RangeValue::number({std::max(line.lo, both.lo), std::min(line.hi, both.hi)});
       return RangeValue::number(line);
     }
@@ -88,7 +90,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::smoothstep:
       return RangeValue::number(smoothStep(in(0), in(1), in(2)));
     case Builtin::fract:
-      in(0);  // the queries in its operand
+      in(0);  // evaluate the operand to record the queries in it
       return RangeValue::number({0, 1});
     case Builtin::sin:
       return RangeValue::number(sine(in(0)));
@@ -129,7 +131,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
       const double half = jitter.hi / 2;
       Interval spread{0.5 - half, 0.5 + half};
-      // On one axis a point of a face lies on the side between its cells.
+      // Along one unknown axis, a point of a face lies at the border between the face's cells.
       if (of.kind == ValueKind::face) spread.hi = 1;
       return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
     }
@@ -138,7 +140,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::position:
       return RangeValue::vector({in(0), in(1), in(2)});
     case Builtin::branch: {
-      // Ends are no farther than all steps in a straight line, with room for the rounding of each.
+      // The ends are at most as far as all steps in a straight line, plus the rounding of each step.
       const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
       const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
       return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};

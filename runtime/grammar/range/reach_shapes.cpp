@@ -13,7 +13,7 @@ namespace {
 constexpr Interval kHalf{0.5, 0.5};
 constexpr double kLargestSize = 1e5;  ///< metres; larger shapes may be omitted after scaling
 
-/// A call of a terminal.
+/// Computes the extent of one call of a primitive.
 class Terminal {
  public:
   Terminal(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame)
@@ -25,7 +25,7 @@ class Terminal {
   ExprId arg(uint32_t i) const { return i < call_.bound.count ? program_.idAt(call_.bound, i) : kNoId; }
   Interval in(uint32_t i) { return arg(i) == kNoId ? Interval{} : values_.number(arg(i), frame_); }
 
-  /// It is certainly derived if all its sizes are positive; `inner`: its inner radius.
+  /// Sets the inner radius of a leaf. The leaf is certainly derived if all its sizes are positive and not too large.
   static void sized(Extent& e, std::initializer_list<Interval> sizes, Interval inner) {
     e.inner = positivePart(inner).hi;
     e.inner_low = positivePart(inner).lo;
@@ -33,7 +33,7 @@ class Terminal {
     e.node();
   }
 
-  // Derivation rejects negative sizes.
+  // The extent of a centred box with these half extents. Negative sizes count as 0, since derivation rejects them.
   static Extent centred(Interval x, Interval y, Interval z) {
     const IntervalVector upper{positivePart(x), positivePart(y), positivePart(z)};
     Extent e = Extent::leaf({-upper[0], -upper[1], -upper[2]}, upper);
@@ -41,7 +41,8 @@ class Terminal {
     return e;
   }
 
-  /// Which part of a local value (a parameter) an expression is: r, 0.6*r, r*n, r/2; nullopt for other forms.
+  /// For an expression that is a multiple of a local number, such as r, 0.6*r, r*n or r/2: returns its slot and the
+  /// range of the factor. nullopt for other forms.
   std::optional<std::pair<uint32_t, Interval>> partOf(ExprId id) {
     const ExprNode& n = program_.expr(id);
     if (n.ref == Ref::local) return std::pair{n.id, Interval{1, 1}};
@@ -55,14 +56,14 @@ class Terminal {
     return std::pair{program_.expr(left).id, n.binary == BinaryOp::multiply ? by : Interval{1, 1} / by};
   }
 
-  /// An upper bound of the ratio of the largest radius to the smallest.
+  /// Returns an upper bound of the ratio of the largest to the smallest radius.
   double ratio(bool scalar, double most, double least) {
     const double apart = least > 0 ? most / least : kInfinity;
     const ExprNode& n = program_.expr(arg(0));
     const bool vector = n.kind == ExprKind::vector && n.children.count == 3;
     if (scalar && arg(1) == kNoId) return 1;
     if (!scalar && !vector) return apart;
-    // Parts of one value increase and decrease together.
+    // If all radii are multiples of the same local number, the ratio depends only on the factors.
     double high = 0, low = kInfinity;
     uint32_t slot = kNoId;
     for (uint32_t i = 0; i < 3; ++i) {
@@ -76,13 +77,14 @@ class Terminal {
     return std::min(apart, high / low * (1 + 1e-9));
   }
 
-  /// The field grows with the smallest radius, its levels with the largest.
+  /// The extent of an ellipsoid or superquadric. Its field has the slope of the smallest radius, so that level sets
+  /// move outwards along the largest radius by a multiple: the ratio of the radii.
   Extent radial(const IntervalVector& v, bool scalar, bool round) {
     Extent e = centred(v[0], v[1], v[2]);
     if (round) e.at.core_radius = e.size();  // an ellipsoid does not fill the corners of its box
     e.spread = ratio(scalar, e.size(), e.inner_low);
     e.turned_spread = e.spread * (round ? 1 : 1.7320508075688774);
-    // A sum's kernel extends every radius by the same factor as the smallest.
+    // In a sum, the kernel enlarges all radii by the same factor, 1.6.
     e.in_sum = e.at;
     e.in_sum.scale({1, 1.6});
     return e;
@@ -102,7 +104,8 @@ class Terminal {
     return radial(v, first.kind != ValueKind::vector, kind == Primitive::ellipsoid);
   }
 
-  /// A shape between two points: a radius, and a ball around the line that contains the shape.
+  /// The extent of a shape between two points. radius: of the shape; ball: radius around the line's points that
+  /// contains the shape.
   Extent around(Interval radius, double ball, bool certain) {
     const IntervalVector a = values_.vector(arg(0), frame_), b = values_.vector(arg(1), frame_);
     IntervalVector lower, upper;
@@ -162,7 +165,7 @@ Extent Terminal::extent() {
     case Primitive::truncone: {
       const Interval top = in(1), bottom = in(2), widest = maximum(positivePart(top), positivePart(bottom));
       Extent e = centred(widest, in(0) * kHalf, widest);
-      // One radius may be 0; a negative one omits the cone.
+      // One of a truncone's radii may be 0; with a negative one, derivation leaves the truncone out.
       e.certain = e.certain && top.lo >= 0 && bottom.lo >= 0;
       return e;
     }
@@ -174,10 +177,10 @@ Extent Terminal::extent() {
     }
     case Primitive::capsule:
       return around(positivePart(in(2)), positivePart(in(2)).hi, true);
-    // Coincident ends omit both shapes.
+    // Tubes and beams are left out if their ends coincide, so they are not certain.
     case Primitive::tube:
       return around(positivePart(in(2)), positivePart(in(2)).hi + positivePart(in(3)).hi, false);
-    // The corner of a square section at an end extends as far along as across.
+    // The corner of the square section at an end extends along, and across both ways: sqrt(3) r.
     case Primitive::beam:
       return around(positivePart(in(2)), positivePart(in(2)).hi * 1.7320508075688774 + positivePart(in(3)).hi, false);
     case Primitive::halfspace: {

@@ -38,7 +38,7 @@ Interval compare(BinaryOp op, Interval a, Interval b) {
 
 RangeEvaluator::RangeEvaluator(const Program& program, uint32_t& steps)
     : program_(program), steps_(steps), used_parameters_(program.params.size(), false), calls_(program) {
-  // Without a declared range the host may set any number.
+  // The host may set any number for a parameter without a declared range.
   for (const Param& param : program.params)
     parameters_.push_back(param.has_range ? Interval{param.low, param.high} : Interval::everything());
 }
@@ -70,7 +70,7 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
   const uint32_t before = losses_.takeLatest();
   RangeValue out = evaluateNode(id, frame);
   const uint32_t inside = losses_.takeLatest();
-  // A bounded value does not inherit the losses of its operands.
+  // A bounded value has no loss, even if its operands have one.
   if (out.bounded())
     out.loss = 0;
   else if (out.loss == 0)
@@ -286,7 +286,7 @@ void RangeEvaluator::refine(ExprId id, bool holds, RangeFrame& frame) {
       continue;
     const Interval other = number(child(n, 1 - side), frame);
     const bool less = n.binary == BinaryOp::less || n.binary == BinaryOp::less_equal;
-    const bool below = (less == (side == 0)) == holds;  // the local is on the smaller side
+    const bool below = (less == (side == 0)) == holds;  // whether the condition bounds the local from above
     Interval& value = frame.slots[local.id].v[0];
     if (below && other.hi < value.hi) value.hi = std::max(other.hi, value.lo);
     if (!below && other.lo > value.lo) value.lo = std::min(other.lo, value.hi);

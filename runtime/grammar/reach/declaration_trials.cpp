@@ -11,14 +11,14 @@ namespace sgm::reach {
 namespace {
 
 constexpr int kMostTrials = 6;
-/// Metres; a reach of several such cells is within the grid.
+/// Maximum edge of a tried cell or box, metres, so that a reach of several cells stays within the world.
 constexpr double kLargestEdge = 2.5e5;
 
 double wholeMetres(double metres) { return std::ceil(metres - 1e-9); }
 
 std::string lengthText(double metres) { return join({numberText(metres), "m"}); }
 
-/// The edges of the box, or of the cell, that are tried next, metres. needed: the reach that the shapes need.
+/// Returns the edges of the box, or of the cell, to try next, metres. needed: the reach that the shapes need.
 std::array<double, 3> nextEdges(const Layer& layer, const Extent& tried, double needed, const ReachContext& context) {
   const IntBox& box = context.program.domain.box;
   const bool finite = isFinite(context.program, layer);
@@ -31,7 +31,7 @@ std::array<double, 3> nextEdges(const Layer& layer, const Extent& tried, double 
   return edges;
 }
 
-/// Declares a box, or a cell with the largest reach that it allows.
+/// Sets the domain's box, or the layer's cell with the largest reach that the cell permits.
 void declare(Layer& layer, const std::array<double, 3>& edges, int32_t written_reach, ReachContext& context) {
   IntBox& box = context.program.domain.box;
   const bool finite = isFinite(context.program, layer);
@@ -84,7 +84,7 @@ std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context
   if (!finite && needed <= cellEdge(layer) * context.limits.neighbours)
     return join({"raise reach to ", metresText(needed), " or make the shape smaller"});
 
-  // The extent of a shape may depend on the cell or the box itself.
+  // Repeated, since the extent of shapes may depend on the cell or the box itself.
   const TrialDeclaration trials(index, context);
   Extent tried = extent;
   for (int trial = 0; trial < kMostTrials && !tried.lost(); ++trial) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  ///< metres; upper limit for a finite domain without a box
 
-/// The extent in pieces of a parameter of the grammar, which may be used anywhere.
+/// Computes the extent in pieces of the range of each parameter of the grammar.
 Extent boundOverParameters(uint32_t index, ReachContext& context) {
   RangeEvaluator& values = context.values;
   const Extent whole = boundStart(index, context);
@@ -43,7 +43,7 @@ void setCell(const Layer& layer, ReachContext& context) {
   IntervalVector edges;
   for (int axis = 0; axis < 3; ++axis) edges[static_cast<size_t>(axis)] = Interval::exactly(layer.cell[axis] * kUnit);
   const bool finite = isFinite(context.program, layer);
-  // In a finite domain without a box the shapes' bounds determine the box, not vice versa.
+  // In a finite domain without a declared box, the shapes determine the box, so the scope is unbounded.
   if (finite && context.program.domain.box.empty()) edges.fill({0, kInfinity});
   context.cell = {edges, layer.cell_expr == kNoId, finite};
   context.values.setCell(edges, finite);
@@ -101,7 +101,7 @@ Extent proveStart(uint32_t index, ReachContext& context) {
     budget.refill();
     const Extent tighter = parameters ? boundOverParameters(index, context) : boundStart(index, context);
     budget.addSpent(context.limits.bound_steps);
-    // A result cut short by the budget proves nothing.
+    // An attempt that the budget cut short proves nothing.
     if (!budget.clearCut() && (tighter.empty || tighter.size() < extent.size())) extent = tighter;
     context.pieces.setMode(RangePieces::Mode::none);
     context.values.takePieces(false);

@@ -19,7 +19,7 @@ constexpr const char* kSmaller = "make the shape smaller";
 constexpr size_t kMostParts = 32;      ///< calls of a start rule that are examined one by one
 constexpr uint64_t kMostAttempts = 8;  ///< limit for all calls of a start rule together, in steps of one attempt
 
-/// An example of a small positive value of a dimension; empty if it has no unit.
+/// Returns an example of a small positive value of a dimension, for hints; empty if the dimension has no unit.
 std::string_view smallValue(Dim dim) {
   return dim == kRatio    ? "0.1"
          : dim == kLength ? "0.1m"
@@ -29,14 +29,14 @@ std::string_view smallValue(Dim dim) {
                           : "";
 }
 
-/// An expression as it is written.
+/// Returns the source text of an expression.
 std::string_view readText(const Program& program, ExprId id) {
   const Span& span = program.expr(id).span;
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// The extents of the calls in the layer's own rule that exceed the declaration by themselves, as far as the steps
-/// suffice; a later run reports the others, once these are fixed.
+/// Returns the extents of those calls in the layer's own rule that exceed the declaration by themselves. If the budget
+/// ends early, the other calls are reported by a later run.
 std::vector<Extent> boundCallsOneByOne(uint32_t index, ReachContext& context) {
   const Layer& layer = context.program.layers[index];
   context.start_calls.beginCollecting();
@@ -65,7 +65,8 @@ void LayerReport::report(const Extent& extent) const {
   const Excess over = measureExcess(program_, layer_, extent);
   const std::string name = join({"`", program_.text(layer_.name), "`"});
   const double reach = layer_.reach * kUnit;
-  // A finite grammar's declared box is its reach; a layer's reach is measured from its cell.
+  // For a finite domain with a box, the excess is measured from the box; for a layer, the extent is measured from its
+  // cell.
   const std::string extends =
       unbounded ? "without bound" : metresText(finite && !boxed ? extent.size() : over.may + (finite ? 0 : reach));
   const std::string from = finite ? (boxed       ? " beyond the domain's box"
@@ -75,12 +76,12 @@ void LayerReport::report(const Extent& extent) const {
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
   std::string message = join({shape, " may extend ", extends, from, limit});
   if (!unbounded && over.sure <= 0 && (!finite || boxed)) {
-    if (context_.lossy) return;  // a missing part of the text may keep it within
+    if (context_.lossy) return;  // a part of the text that failed to parse may bound the shapes
     context_.sink.warning(span, codes::kReachMaybe, std::move(message), "shapes that go farther are left out whole");
     return;
   }
   const BoundLoss* loss = nullptr;
-  // Message and hint must describe the same cause.
+  // The loss is mentioned only if the hint is about it, so that message and hint describe the same cause.
   if (unbounded && !cut_short && extent.loss != 0 &&
       boundHint(extent) == lossHint(context_.values.losses()[extent.loss]))
     loss = &context_.values.losses()[extent.loss];
@@ -118,7 +119,7 @@ std::string LayerReport::lossHint(const BoundLoss& loss) const {
     const std::string name(program_.text(param.name));
     if (value.kind != ExprKind::number || !(value.value > 0))
       return join({"give it one: `param ", name, " = ", text, " in LOW..HIGH`"});
-    // Suggest twice the default, in the unit in which that is written.
+    // The suggested range ends at twice the default, in the default's unit.
     const std::string_view unit = text.substr(std::min(text.find_first_not_of("0123456789.eE"), text.size()));
     double number = 0;
     std::from_chars(text.data(), text.data() + text.size(), number);
@@ -154,7 +155,7 @@ void reportLayer(uint32_t index, const Extent& extent, ReachContext& context) {
   std::vector<Extent> parts;
   if (!budget.isCutShort()) parts = boundCallsOneByOne(index, context);
   if (parts.empty()) parts.push_back(extent);
-  // One declaration with room for all of them.
+  // Suggest one declaration in which all bounded calls fit.
   Extent bounded = Extent::nothing();
   for (const Extent& part : parts)
     if (!part.lost()) bounded.join(part);

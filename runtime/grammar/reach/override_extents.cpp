@@ -16,7 +16,7 @@ std::vector<uint32_t> listIds(const Program& program, IdRange range) {
   return out;
 }
 
-/// Whether both may apply to one use. Precondition: their steps are uses of the same rules.
+/// Whether both overrides may apply to the same use. Precondition: the steps of both name the same rules.
 bool canApplyTogether(const Program& program, const Override& a, const Override& b) {
   if (a.one_cell && b.one_cell && (a.layer != b.layer || a.cell != b.cell)) return false;
   for (uint32_t i = 0; i < a.steps.count; ++i) {
@@ -27,7 +27,7 @@ bool canApplyTogether(const Program& program, const Override& a, const Override&
   return true;
 }
 
-/// Whether `wide` applies wherever `narrow` (null: any path with these rules) does.
+/// Whether `wide` applies to every use to which `narrow` applies; narrow null: to every path of these rules.
 bool covers(const Program& program, const Override& wide, const Override* narrow) {
   if (wide.one_cell && (narrow == nullptr || !narrow->one_cell || narrow->cell != wide.cell)) return false;
   for (uint32_t i = 0; i < wide.steps.count; ++i) {
@@ -111,7 +111,7 @@ Extent OverrideExtents::boundInner(const StmtNode& s, const RangeFrame& at, Reac
 Extent OverrideExtents::boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                                     ReachContext& context) {
   std::optional<Extent> out;
-  // If both extend equally far, the content without the override is the largest contributor.
+  // If two parts extend equally far, the content without the override stays the largest contributor.
   const auto add = [&](Extent part) {
     if (out) part.either(*out);
     out = std::move(part);

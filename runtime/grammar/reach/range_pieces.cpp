@@ -4,15 +4,15 @@ namespace sgm::reach {
 
 namespace {
 
-constexpr int kDeepest = 8;       ///< halvings of a range
-constexpr int kAlways = 3;        ///< halvings of each range if there is a bound, but too far out
-constexpr double kNarrow = 1.02;  ///< ratio of the ends of a range that is not worth another division
+constexpr int kDeepest = 8;       ///< maximum number of halvings of a range
+constexpr int kAlways = 3;        ///< number of halvings if the extent has a bound that exceeds the declaration
+constexpr double kNarrow = 1.02;  ///< a range whose ends have a smaller ratio is not divided further
 
 bool isNarrow(Interval range) { return range.lo > 0 && range.hi <= kNarrow * range.lo; }
 
 }  // namespace
 
-/// Returns false if some piece has no bound, or if the budget does not suffice.
+/// Adds the extents of the pieces to `out`. Returns false if some piece has no bound, or if the budget is used up.
 bool RangePieces::divide(RangeValue& value, int depth, const std::function<Extent()>& extent, const StepBudget& budget,
                          std::optional<Extent>& out) const {
   const Interval range = value.v[0];

@@ -14,12 +14,12 @@ namespace {
 
 using reach::ReachContext;
 
-/// The proven bound in units, rounded outwards.
+/// Returns the extent's box in units, rounded outwards.
 IntBox roundOutwards(const Extent& extent) {
   IntBox bound;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{1, 0} : extent.at.may[static_cast<size_t>(axis)];
-    // A NaN end is no bound: min and max then return their first argument.
+    // A NaN end means no bound: std::min and std::max then return their first argument.
     const double lo = std::min(std::max(-3e9, std::floor(side.lo * kUnitsPerMetre)), 3e9);
     const double hi = std::max(std::min(3e9, std::ceil(side.hi * kUnitsPerMetre)), -3e9);
     bound.lo[axis] = saturate(static_cast<int64_t>(lo));
@@ -28,7 +28,8 @@ IntBox roundOutwards(const Extent& extent) {
   return bound;
 }
 
-/// The box of a finite domain that contains the extent with 1 m around it, centred like a written one.
+/// Returns the box of a finite domain without a declared one: contains the extent with a margin of 1 m, and is centred
+/// on the origin.
 IntBox centredBox(const Extent& extent) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -47,7 +48,7 @@ void checkLayer(uint32_t index, ReachContext& context) {
   const bool boxed = !program.domain.box.empty();
   reach::setCell(layer, context);
   const uint32_t errors = sink.errorCount();
-  // Later attempts use other cells than the layer's, or parts of ranges.
+  // Arguments are compared only during this proof: later attempts use other cells, or parts of ranges.
   Misfits& misfits = context.values.misfits();
   misfits.enable(true);
   const Extent extent = reach::proveStart(index, context);
@@ -55,7 +56,7 @@ void checkLayer(uint32_t index, ReachContext& context) {
   reportMisfits(program, misfits.take(), sink);
   if (sink.full()) return;
   reach::reportObservation(layer, context);
-  // A division by 0 also has no bound; do not report that as a second error.
+  // A division by 0 also causes a missing bound, which is not reported as a second error.
   const bool enough = reach::isEnough(layer, extent, context);
   if (sink.full() || (sink.errorCount() > errors && !enough)) return;
   layer.bound = roundOutwards(extent);

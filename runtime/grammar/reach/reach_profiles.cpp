@@ -14,7 +14,7 @@ namespace sgm::reach {
 namespace {
 
 constexpr Interval kMiddle{0.5, 0.5};
-/// A roof's peak is cut slightly above it, and heights are rounded (derive/interpret/profiles.cpp).
+/// A roof is cut off slightly above its peak, and heights are rounded (derive/interpret/profiles.cpp), metres.
 constexpr double kRounding = 4.0 / kUnitsPerMetre;
 
 Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
@@ -34,7 +34,7 @@ RangeValue evaluateFootprint(const FootprintNode& plan, const RangeFrame& frame,
       out.v[2] = number(1);
       break;
     case Outline::regular:
-      // A triangle has the smallest box of all.
+      // The edges of a regular polygon's box are 1.5 (triangle) to 2 radii long.
       out.v[0] = out.v[2] = number(1) * Interval{1.5, 2};
       break;
     case Outline::polygon: {
@@ -100,12 +100,13 @@ Extent boundRoof(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   return e;
 }
 
-/// An asset fills exactly the scope's box, or is omitted.
+/// A fitted asset fills the scope's box exactly, or is left out.
 Extent boundFit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const FitNode& fit = context.program.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
     const FitZoneNode& zone = context.program.ast.fit_zones[fit.zones.first + i];
-    for (const ExprId end : {zone.from, zone.to}) context.values.number(end, frame);  // queries in these
+    // evaluate them to record queries in them
+    for (const ExprId end : {zone.from, zone.to}) context.values.number(end, frame);
   }
   return solidIn(frame.scope);
 }

@@ -11,7 +11,7 @@ namespace sgm::reach {
 
 namespace {
 
-/// Derivation treats negative weights as 0, which is never intended.
+/// Warns of weights that may be negative: derivation treats these as 0, which is never intended.
 void checkWeight(ExprId id, Interval weight, ReachContext& context) {
   if (context.pieces.isDividing() || context.start_calls.isRestricted() || weight.lo >= 0 || !weight.bounded()) return;
   const ExprId caller = context.values.calls().writtenCaller(id);
@@ -25,7 +25,7 @@ void checkWeight(ExprId id, Interval weight, ReachContext& context) {
                          "below 0 it counts as 0: bound what it depends on, or write max(..., 0)");
 }
 
-/// The extent of a head's block, or of the calls that its depth and minsize make instead.
+/// Returns the extent of a head: of its block, and of the calls that replace it at its depth or minsize limit.
 Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& frame, ReachContext& context) {
   RangeEvaluator& values = context.values;
   std::optional<Extent> out;
@@ -37,7 +37,7 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
     if (activations >= most.hi) return out.value_or(Extent::nothing());
   }
   if (head.minsize != kNoId) {
-    // Use final sizes, however the scope is scaled.
+    // minsize is compared with the final size, so the result depends on the scope's scale.
     values.dependence().scale = true;
     const Interval scale = frame.place.scale, least = values.number(head.minsize, frame);
     Interval size{};
@@ -54,7 +54,7 @@ Extent boundAlternative(uint32_t rule, const Alternative& head, RangeFrame& fram
   return *out;
 }
 
-/// The extent of a use of a rule, from the cache if possible. replacing: overrides by path that may replace it.
+/// Returns the extent of a use of a rule, cached if possible. replacing: overrides by path that may replace the use.
 Extent boundUse(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
                 const std::vector<uint32_t>& replacing, ReachContext& context) {
   RuleExtents& rules = context.rules;
@@ -114,9 +114,9 @@ Extent boundCall(ExprId id, CallSite site, const RangeFrame& frame, ReachContext
   Extent e = context.pieces.isDividing() ? boundRuleInPieces(n.id, args, frame, top, context)
                                          : boundRule(n.id, args, frame, top, context);
   values.calls().leave();
-  // Name the outermost call: the one in the start rule.
+  // Messages name the outermost call: the one in the start rule.
   if (site == CallSite::statement && !e.empty) e.attribute(id);
-  // The author cannot change the library: report its caller.
+  // The author cannot change the standard library, so messages name the call into it.
   if (e.largest_contributor != kNoId && !top && isStandard(program, program.expr(e.largest_contributor).span.file) &&
       !isStandard(program, n.span.file)) {
     e.inside = e.largest_contributor;
@@ -162,7 +162,7 @@ Extent boundAlternatives(uint32_t rule, const std::vector<RangeValue>& args, con
     const double count = out ? out->count : 0;
     const Extent part = boundAlternative(rule, head, frame, context);
     addAlternative(out, part);
-    // Alternatives by level are derived independently.
+    // The alternatives of each `lod` are derived in addition to the others, so their numbers of shapes add up.
     if (levels) out->count = count + part.count;
   }
   if (!out) out = Extent::nothing();

@@ -1,4 +1,5 @@
-// The possible places of parts of scopes; see derive/layout/split_layout.h and derive/interpret/split.cpp.
+// Extents of split and comp: the possible places of their parts. See derive/layout/split_layout.h and
+// derive/interpret/split.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,12 @@ namespace sgm::reach {
 
 namespace {
 
-/// Sizes of a split's unrepeated parts, and of one copy of its group.
+/// Total rigid and preferred flexible sizes, either of a split's unrepeated parts or of one copy of its group.
 struct Sums {
   Interval rigid{}, wanted{};
 };
 
-/// Pieces of a range of sizes: a small part lies farther out than a large one.
+/// Number of pieces into which a range of sizes is divided: small parts may lie farther out than large ones.
 constexpr int kPieces = 4;
 
 /// The possible places of a part along the axis of its split, metres.
@@ -25,10 +26,10 @@ struct PartPlace {
   size_t axis = 0;
   Interval length;               ///< of the scope
   Interval size;                 ///< of the part
-  double before = 0, after = 0;  ///< lengths of other parts that certainly lie there
+  double before = 0, after = 0;  ///< total length of other parts that certainly lie before and after it
 };
 
-/// The extent of a part with some of its sizes. exact: the part has this size alone.
+/// Returns the extent of a part for the sizes in `piece`. exact: the part has exactly one size.
 Extent boundPiece(StmtId child, const PartPlace& part, Interval piece, bool exact, RangeFrame& frame,
                   ReachContext& context) {
   const KeptScope kept(frame);
@@ -47,7 +48,7 @@ Extent boundPiece(StmtId child, const PartPlace& part, Interval piece, bool exac
   return e;
 }
 
-/// The extent of one copy of a part, with all of its sizes.
+/// Returns the extent of one copy of a part, for all of its possible sizes.
 Extent boundPart(StmtId child, const PartPlace& part, RangeFrame& frame, ReachContext& context) {
   const Interval size = part.size;
   const bool wide = std::isfinite(size.hi) && size.hi - size.lo > part.length.hi / 8 && context.pieces.dividesSizes();
@@ -61,8 +62,8 @@ Extent boundPart(StmtId child, const PartPlace& part, RangeFrame& frame, ReachCo
   return *out;
 }
 
-/// The extent of a child at a face of a box, or at the edge to its right. face: in the order of BoxPart: front, right,
-/// back, left, top, bottom. box: the edges of the box.
+/// Returns the extent of a child at a face of a box, or, if `edge` is set, at the edge to the right of the face. face:
+/// index in the order of BoxPart: front, right, back, left, top, bottom. box: edges of the box.
 Extent boundFace(StmtId child, int face, bool edge, const IntervalVector& box, RangeFrame& frame,
                  ReachContext& context) {
   const KeptScope kept(frame);
@@ -101,14 +102,14 @@ Extent boundSplit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
-  // Rigid parts keep their size if nothing is cut off. Flexible parts of a group share up to half a copy more than they
-  // want, or less than the rigid part of one copy that does not fit.
+  // Rigid parts keep their size if nothing is cut off. The flexible parts of a group together get up to half a copy
+  // more than they prefer, or less than that by the rigid length of a copy that does not fit.
   const double snap = s.amount == kNoId ? 0 : std::max(0.0, context.values.number(s.amount, frame).hi);
   const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
   const double times = once.lo > 0 ? std::max(1.0, length.hi / once.lo + 1) : kInfinity;
-  double before = 0, after = 0;  // lengths that certainly lie there
+  double before = 0, after = 0;  // total length of parts that certainly lie before or after
   for (uint32_t i = 0; i < s.parts.count; ++i)
     if (whole && !parts[i].flexible && !parts[i].repeated) after += sizes[i].lo;
   Extent out = Extent::nothing();

@@ -11,19 +11,19 @@ namespace sgm::reach {
 
 namespace {
 
-/// Statements without a shape of their own.
+/// Whether statements of this kind derive no shapes.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
          kind == StmtKind::anchor || kind == StmtKind::footprint;
 }
 
-/// The tag of a body that is a block; 0 if it is another statement, or kNoId.
+/// Returns the tag of a block; 0 for other statements and for kNoId.
 uint16_t blockTag(StmtId body, const Program& program) {
   const bool block = body != kNoId && program.stmt(body).kind == StmtKind::block;
   return block ? program.stmt(body).tag : uint16_t{0};
 }
 
-/// The extent of a block's statements from `next` on; out: of those before.
+/// Returns the extent of a block, given the extent `out` of the statements before index `next`.
 Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, ReachContext& context, Extent out) {
   for (uint32_t i = next; i < s.children.count; ++i) {
     const StmtId child = context.program.idAt(s.children, i);
@@ -38,7 +38,7 @@ Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, Rea
       return context.pieces.boundOver({&frame.slots[slot]}, rest, context.budget);
     }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
-      // A nested cut adds nothing, but makes the content before it uncertain.
+      // A cut adds no shapes, but what precedes it is no longer certain.
       if (!part.empty) out.uncertain();
       out.node();
       continue;
@@ -68,7 +68,7 @@ Extent boundMeet(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
       out = part;
   }
   if (missing || !out) return Extent::nothing();
-  // A missing operand removes the whole meet.
+  // A meet with a missing operand is left out, so it is not certain.
   out->certain = false;
   out->inner = inner_radius;
   out->inner_low = 0;
@@ -89,7 +89,7 @@ Extent boundSum(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   return e;
 }
 
-/// A snap or a detail, whose expressions may contain queries.
+/// Evaluates the expressions of a snap or a detail, to record queries in them, and returns the extent of its body.
 Extent boundWithQueries(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   context.values.number(s.expr, frame);
   if (s.amount != kNoId) context.values.number(s.amount, frame);
@@ -105,7 +105,7 @@ Extent boundMorph(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   if (apart && !context.pieces.isDividing())
     context.sink.warning(s.span, codes::kMorphDisjoint,
                          "the two shapes of this morph lie apart, and may vanish half way", "let them overlap");
-  // A blend contains the intersection of both: only that is certain.
+  // Every blend contains the intersection of both shapes, and only that is certain.
   std::array<double, 3> lo = a.sure_lo, hi = a.sure_hi;
   for (size_t i = 0; i < 3; ++i) {
     lo[i] = std::max(lo[i], b.sure_lo[i]);
@@ -119,7 +119,7 @@ Extent boundMorph(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   a.certain = both;
   a.inner_low = inner_low;
   if (s.power && !a.empty) {
-    // A superquadric with radii in between.
+    // The morph by exponent is a superquadric whose radii are between those of the two shapes.
     const double least = inner_low > 0 ? 1 / inner_low : kInfinity;
     a.at.core = a.at.may;
     a.at.ball = 0;
@@ -170,7 +170,7 @@ Extent boundWarp(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   return e;
 }
 
-/// Dispatches by kind. Without a default the compiler names a new kind that the proof misses.
+/// Dispatches by kind. There is no default case, so that the compiler reports a kind that is not handled.
 Extent boundKind(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   switch (s.kind) {
     case StmtKind::block:
@@ -239,7 +239,7 @@ Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context) {
   if (id == kNoId) return Extent::nothing();
   if (context.budget.cutAtLimit()) return Extent::unbounded();
   context.budget.enter();
-  // Keep the loss of the enclosing statement's evaluations: a place, a count.
+  // Save the loss found in the enclosing statement's own expressions, such as a position or a count.
   BoundLosses& losses = context.values.losses();
   const uint32_t around = losses.takeLatest();
   Extent e = boundKind(context.program.stmt(id), frame, context);

@@ -11,20 +11,20 @@ namespace sgm::reach {
 
 namespace {
 
-/// Counts and the ends of loops are rounded to the nearest whole number.
+/// Rounds counts and the ends of loops to the nearest whole number, as derivation does.
 Interval rounded(Interval v) { return floorOf({v.lo + 0.5, v.hi + 0.5}); }
 
-/// The most copies that are followed one by one if each one's size depends on the previous one's.
+/// Maximum number of copies that are evaluated one by one if the size of each depends on that of the previous one.
 constexpr double kSizedCopies = 64;
 
-/// A power of a scale, with room for the rounding of the product that it replaces.
+/// Returns a power of a scale factor, widened by the rounding of the repeated multiplication that it stands for.
 Interval raiseTo(Interval base, double times) {
   if (times == 0 || base == Interval{1, 1}) return {1, 1};
   const double low = base.lo > 0 ? detPow(base.lo, times) : 0, high = base.hi > 0 ? detPow(base.hi, times) : 0;
   return {low * (1 - 1e-9), std::isnan(high) ? kInfinity : high * (1 + 1e-9)};
 }
 
-/// The point of an `at`.
+/// Evaluates the vector of an `at`.
 IntervalVector evaluatePoint(const XformNode& x, const RangeFrame& frame, ReachContext& context) {
   const RangeValue first = context.values.evaluate(x.a, frame);
   if (first.kind == ValueKind::vector) return first.v;
@@ -32,7 +32,7 @@ IntervalVector evaluatePoint(const XformNode& x, const RangeFrame& frame, ReachC
   return {part(x.a), part(x.b), part(x.c)};
 }
 
-/// Gives the frame the scope of a `size`.
+/// Sets the frame's scope to that of a `size`.
 void applySize(const XformNode& x, RangeFrame& frame, ReachContext& context) {
   const RangeValue first = context.values.evaluate(x.a, frame);
   const ExprId parts[3] = {x.a, x.b, x.c};
@@ -46,8 +46,9 @@ void applySize(const XformNode& x, RangeFrame& frame, ReachContext& context) {
   frame.scope = scope;
 }
 
-/// Gives the frame the scopes of copies, each derived from the previous one: the first few one by one, and a range for
-/// all if that suffices. times: upper bound of the copies after the first.
+/// Sets the frame's scope to a range that contains the scopes of all copies, each of which is computed from the
+/// previous one: the first few one by one, then a range that further steps do not leave. times: upper bound of the
+/// number of copies after the first.
 void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& context) {
   const auto step = [&](const IntervalVector& scope) {
     RangeFrame next = frame;
@@ -68,7 +69,7 @@ void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& c
     if (joined(all, step(all)) == all) times = 0;
   }
   if (times > kSizedCopies) {
-    // Edges that only shrink approach 0.
+    // Edges that shrink with each copy approach 0.
     for (Interval& edge : all) edge.lo = std::min(edge.lo, 0.0);
     const IntervalVector next = step(all);
     for (size_t k = 0; k < 3; ++k)
@@ -77,7 +78,7 @@ void applySizes(IdRange xforms, double times, RangeFrame& frame, ReachContext& c
   frame.scope = all;
 }
 
-/// The total lengths of one step's moves, along each axis.
+/// Returns the total length of the moves in one step of a repeat, for each axis.
 IntervalVector boundStepLengths(IdRange xforms, const RangeFrame& frame, ReachContext& context) {
   double sum = 0;
   for (uint32_t i = 0; i < xforms.count; ++i) {
@@ -87,7 +88,7 @@ IntervalVector boundStepLengths(IdRange xforms, const RangeFrame& frame, ReachCo
   return {Interval{-sum, sum}, Interval{}, Interval{}};
 }
 
-/// The box that contains the points of a scatter, before probes move them.
+/// Returns a box that contains the points of a scatter, before probes move them.
 IntervalVector boundArea(const ScatterNode& scatter, const RangeFrame& frame, ReachContext& context) {
   const IntervalVector& cell = context.cell.edges;
   IntervalVector at{};
@@ -102,7 +103,7 @@ IntervalVector boundArea(const ScatterNode& scatter, const RangeFrame& frame, Re
     case ScatterArea::shell: {
       const Interval r = context.values.number(scatter.a, frame);
       at.fill({-r.magnitude(), r.magnitude()});
-      // The upper share of a sphere, by height.
+      // The top fraction b of a sphere's area is the part above height r (1 - 2 b).
       if (scatter.b != kNoId)
         at[1] = r * Interval{1 - 2 * std::clamp(context.values.number(scatter.b, frame).hi, 0.0, 1.0), 1};
       break;
@@ -123,14 +124,14 @@ IntervalVector boundArea(const ScatterNode& scatter, const RangeFrame& frame, Re
   return at;
 }
 
-/// The transforms of one step of a repeat.
+/// The combined transforms of one step of a repeat.
 struct RepeatedStep {
   IntervalVector by{};
   Interval angle{}, scale{1, 1};
   int turns = 0, axis = 3, mirrors = 0, mirror = 0;
 };
 
-/// times: the steps of all copies together.
+/// times: range of the number of steps, over all copies.
 RepeatedStep evaluateStep(IdRange xforms, Interval times, const RangeFrame& frame, ReachContext& context) {
   RepeatedStep out;
   for (uint32_t i = 0; i < xforms.count; ++i) {
@@ -196,7 +197,7 @@ Extent boundTransform(const StmtNode& s, RangeFrame& frame, ReachContext& contex
     steps.push_back(step);
   }
   Extent e = boundStatement(s.body, frame, context);
-  // The last written transform is the innermost.
+  // Applied in reverse order, since the last written transform is the innermost.
   for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
     if (step->kind == XformKind::at) e.move(step->by);
     if (step->kind == XformKind::rot) e.rotate(step->axis, step->amount);
@@ -206,7 +207,8 @@ Extent boundTransform(const StmtNode& s, RangeFrame& frame, ReachContext& contex
   return e;
 }
 
-/// Copy i is at the end of i steps: exact if the steps only move, or only turn about one axis.
+/// Returns the extent of a repeat. Copy i results from i steps; exact if the steps only move, or only rotate about one
+/// axis.
 Extent boundRepeat(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const Interval count = rounded(context.values.number(s.expr, frame));
   if (!(count.hi >= 1)) return Extent::nothing();

@@ -1,4 +1,4 @@
-// The possible places of a treemap's rooms, corridors, doors and facades; see derive/layout/floor_plan.h and
+// Extents of treemaps: the possible places of rooms, corridors, doors and facades. See derive/layout/floor_plan.h and
 // derive/interpret/rooms.cpp.
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace sgm::reach {
 
 namespace {
 
-/// Limit for rectangles of rooms and corridors, and doors.
+/// Upper bound of the number of rectangles of rooms and corridors, and of doors.
 constexpr double kMostBoxes = 1024;
-/// Pieces of a range of edges: a small room lies farther out than a large one.
+/// Number of pieces into which a range of room edges is divided: small rooms may lie farther out than large ones.
 constexpr int kRoomPieces = 2;
 
-/// The extent of a child whose scope lies anywhere in a box of these edges, along x and z.
+/// Returns the extent of a child whose scope may lie anywhere in a box with these edges, along x and z.
 Extent boundRoom(StmtId child, const IntervalVector& edges, RangeFrame& frame, ReachContext& context) {
   const auto bounded = [&](size_t axis) { return edges[axis].hi > 0 && std::isfinite(edges[axis].hi); };
   const int x_pieces = bounded(0) ? kRoomPieces : 1, z_pieces = bounded(2) ? kRoomPieces : 1;
@@ -48,7 +48,7 @@ Extent boundRoom(StmtId child, const IntervalVector& edges, RangeFrame& frame, R
   return *out;
 }
 
-/// The extent of a child at the outer walls of a room anywhere in a box of these edges.
+/// Returns the extent of a child at the outer walls of a room that may lie anywhere in a box with these edges.
 Extent boundFacade(StmtId child, const IntervalVector& edges, RangeFrame& frame, ReachContext& context) {
   Extent out = Extent::nothing();
   for (int side = 0; side < 4; ++side) {
@@ -71,7 +71,7 @@ Extent boundFacade(StmtId child, const IntervalVector& edges, RangeFrame& frame,
 Extent boundTreemap(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const TreemapNode& node = context.program.ast.treemaps[s.extra];
   for (const ExprId id : {node.wall, node.door, node.height, node.corridor})
-    if (id != kNoId) context.values.number(id, frame);  // a query in it
+    if (id != kNoId) context.values.number(id, frame);  // evaluate it to record queries in it
   const IntervalVector edges = {atLeastZero(frame.scope[0]), atLeastZero(frame.scope[1]), atLeastZero(frame.scope[2])};
   const Interval reach = Interval::exactly(2 * kDoorReach);
   Extent out = solidIn({edges[0] + reach, edges[1], edges[2] + reach});

@@ -1,4 +1,4 @@
-// The possible places of tiles; see derive/interpret/tiles.cpp.
+// Extents of wfc: the possible places of tiles. See derive/interpret/tiles.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,19 @@ namespace sgm::reach {
 
 namespace {
 
-/// The number of places along an edge: the whole number nearest to edge / wanted, but at least one.
+/// Returns the number of places along an edge: the whole number nearest to edge / wanted, at least 1.
 Interval placesIn(Interval edge, Interval wanted) {
   const Interval count = floorOf(edge / wanted + Interval::exactly(0.5));
   return {std::max(1.0, std::isfinite(count.lo) ? count.lo : 1.0), std::max(1.0, count.hi)};
 }
 
-/// The edge of such a place: 3/4 to 3/2 of the wanted one, unless the scope is smaller.
+/// Returns the edge of a place: 3/4 to 3/2 of the wanted one, unless the scope is smaller.
 Interval placeEdge(Interval edge, Interval wanted, Interval count) {
   if (count.exact()) return edge / count;
   return {std::min(edge.lo, 0.75 * wanted.lo), std::min(edge.hi, 1.5 * wanted.hi)};
 }
 
-/// The extent of a child whose scope has the edges `tile` and lies anywhere in a box of these edges.
+/// Returns the extent of a child whose scope has the edges `tile` and may lie anywhere in a box with the edges `edges`.
 Extent boundTile(StmtId child, const IntervalVector& edges, const IntervalVector& tile, RangeFrame& frame,
                  ReachContext& context) {
   const KeptScope kept(frame);
@@ -53,7 +53,7 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   IntervalVector edges{}, place{};
   double places = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
-    // Smaller tiles are omitted.
+    // Derivation leaves out smaller tiles.
     wanted[axis] = maximum(wanted[axis], Interval::exactly(kTileRange.low));
     edges[axis] = atLeastZero(frame.scope[axis]);
     const Interval count = placesIn(edges[axis], wanted[axis]);
@@ -65,12 +65,12 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = context.program.ast.parts[s.parts.first + i];
     if (part.label == kNoId) continue;
-    context.values.number(part.size, frame);  // a query in it
+    context.values.number(part.size, frame);  // evaluate it to record queries in it
     const StmtId child = context.program.idAt(s.children, i);
     std::optional<Extent> one;
     const int turns = context.program.ast.tiles[part.tile].turns ? 4 : 1;
     for (int turn = 0; turn < turns; ++turn) {
-      // In the tile's own axes; its surroundings are turned the other way.
+      // Evaluated in the tile's own axes, relative to which the surroundings are rotated the other way.
       const bool across = turn % 2 != 0;
       const auto own = [&](const IntervalVector& v) { return across ? IntervalVector{v[2], v[1], v[0]} : v; };
       const bool turned = frame.place.turned;

@@ -11,9 +11,10 @@ namespace {
 
 using P = BuiltinParam;
 
-/// A number of any dimension at any stage; the first one determines the dimension of the others.
+/// A parameter for a number of any dimension at any stage; the first such argument determines the dimension of the
+/// others.
 constexpr P any(std::string_view name) { return {name, ValueKind::number, kRatio, true, true, 0, false, false}; }
-/// A ratio at any stage.
+/// A parameter for a ratio at any stage.
 constexpr P ratio(std::string_view name) { return {name, ValueKind::number, kRatio, false, true, 0, false, false}; }
 constexpr P derived(P p) { return p.derive_only = true, p; }
 constexpr P number(std::string_view name, Dim dim) { return {name, ValueKind::number, dim}; }
@@ -46,7 +47,8 @@ constexpr std::array kVec = {any("x"), any("y"), any("z")};
 constexpr std::array kBranch = {number("n", kRatio), named(number("step", kLength)), named(number("turn", kAngle)),
                                 named(option("fork", kRatio, 0))};
 
-// A millionth of a millimetre: shorter lengths round to 0 world units many times over. 90deg may round upwards.
+// Lengths below a millionth of a millimetre would round to 0 units. The range of `turn` has a tolerance, since 90deg
+// may be rounded upwards.
 constexpr std::array<ValueRange, 4> kBranchRanges = {
     {{0, kMostSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
      {1e-9, 1e9, "the `step` of a branch is a length above 0", "such as step 6m"},

@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// Reserved words that begin no statement.
+/// Reserved words that do not start a statement.
 constexpr std::array<std::string_view, 33> kOtherKeywords = {
     "and",    "as",    "at",   "by",      "depth",  "domain",  "else",  "expect", "false",    "if",    "import",
     "in",     "layer", "lod",  "minsize", "mirror", "morphic", "not",   "or",     "override", "param", "query",
@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components
 constexpr std::array<std::string_view, 9> kBoxParts = {"front",  "right", "back",  "left",  "top",
                                                        "bottom", "side",  "edges", "inside"};
 
-/// Words of stmts.def that are reserved; the others are clause words.
+/// Whether the word that starts a statement is reserved; if not, it is a clause word.
 constexpr bool isReserved(std::string_view statement_word) {
   return !statement_word.empty() &&
          std::find(kClauseWords.begin(), kClauseWords.end(), statement_word) == kClauseWords.end();
@@ -40,7 +40,7 @@ constexpr bool isReserved(std::string_view statement_word) {
 constexpr size_t kReservedStatements = static_cast<size_t>(
     std::count_if(kStmtInfos.begin(), kStmtInfos.end(), [](const StmtInfo& info) { return isReserved(info.word); }));
 
-/// The words of statements and the others, sorted.
+/// All reserved words: those that start statements, and the others; sorted.
 constexpr auto kKeywords = [] {
   std::array<std::string_view, kReservedStatements + kOtherKeywords.size()> words;
   auto next = std::copy(kOtherKeywords.begin(), kOtherKeywords.end(), words.begin());

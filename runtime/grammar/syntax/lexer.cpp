@@ -25,7 +25,8 @@ struct Unit {
   std::string_view name;
   Dim dim;
   double factor;  ///< metres, radians or plain ratios in one unit
-  bool divide;    ///< divide by the factor instead, which is exact if the decimal is
+  /// divide by the factor instead of multiplying: then the result is exact if the factor is a power of ten
+  bool divide;
 };
 
 constexpr std::array<Unit, 13> kUnits = {{{"m", kLength, 1, false},
@@ -83,7 +84,7 @@ class Lexer {
     sink_.error(span, code, std::move(message), std::move(hint));
   }
 
-  /// One error for the whole file, since its bytes do not have the meaning that was intended.
+  /// Reports one error for the whole file: it is not UTF-8, so its bytes do not have the intended meaning.
   LexResult unreadable(const EncodingFault& fault) {
     for (size_t i = 0; i < fault.at; ++i, ++at_)
       if (text_[i] == '\n') ++line_, line_start_ = i + 1;
@@ -98,7 +99,7 @@ class Lexer {
     return std::move(out_);
   }
 
-  /// Bytes that are not UTF-8 have one cause and one remedy, however many there are.
+  /// Records a byte that is not UTF-8. All such bytes have the same cause, so only one error is reported.
   void foreignByte(const Span& span) {
     out_.broken_lines.push_back(span.line);
     if (foreign_bytes_++ == 0) first_foreign_ = span;
@@ -136,7 +137,7 @@ class Lexer {
     fresh_line_ = true;
   }
 
-  /// Returns false at the end of the text.
+  /// Skips white space and comments. Returns false at the end of the text.
   bool skipBlank() {
     blank_ = at_ == 0;
     while (!done()) {
@@ -309,7 +310,7 @@ class Lexer {
     if (!complaint.empty()) error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
   }
 
-  /// Skips it whole, so that its words are not misread.
+  /// Reports and skips a comment in the form /* */, so that its words are not parsed.
   void foreignComment(size_t begin, size_t column) {
     at_ += 2;
     error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` does not begin a comment",

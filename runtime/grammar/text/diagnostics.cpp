@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// The text of a line without its line end; empty if there is no such line.
+/// Returns a line of the source, without its line end; empty if the line does not exist.
 std::string_view lineOf(std::string_view source, int line) {
   for (int at = 1; at < line; ++at) {
     const size_t end = source.find('\n');
@@ -32,7 +32,7 @@ std::string renderDiagnostic(const Diagnostic& d, std::string_view source) {
 
   std::string_view line = d.line > 0 ? lineOf(source, d.line) : std::string_view();
   if (!line.empty()) {
-    // Show a window of the line, so that a file without line ends does not flood the terminal.
+    // Show only a window of the line, since an untrusted file may be one very long line.
     constexpr size_t kWindow = 160;
     const size_t column = static_cast<size_t>(d.column - 1);
     size_t first = column > kWindow / 2 && line.size() > kWindow ? column - kWindow / 2 : 0;
@@ -45,8 +45,8 @@ std::string renderDiagnostic(const Diagnostic& d, std::string_view source) {
       const size_t size = i < last ? utf8Size(line.substr(i)) : 1;
       const bool begins = i >= next;
       if (begins) next = i + std::max(size, size_t{1});
-      // Control characters of untrusted text and invalid bytes must not reach the terminal; tabs stay, so that the
-      // caret is aligned.
+      // Replace control characters and invalid bytes, which must not reach the terminal; keep tabs, so that the caret
+      // stays aligned.
       const bool hidden = (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F || (begins && size == 0);
       if (i < last) shown += hidden ? '?' : c;
       if (i < column && begins) caret += c == '\t' ? '\t' : ' ';

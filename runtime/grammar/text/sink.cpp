@@ -26,7 +26,7 @@ std::string numberText(double value) {
 
 std::string metresText(double metres) {
   if (!std::isfinite(metres)) return "without bound";
-  // One decimal, rounded away from zero, is enough to choose a bound from.
+  // Rounded away from zero to one decimal, which suffices to choose a bound.
   const double rounded = std::copysign(std::ceil(std::fabs(metres) * 10 - 1e-9) / 10, metres);
   return numberText(rounded) + " m";
 }
@@ -74,7 +74,7 @@ std::string DiagnosticSink::place(const Span& span) const {
 
 std::vector<Diagnostic> DiagnosticSink::take() {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    // The message that errors were cut off comes last.
+    // The message that there are too many errors comes last.
     const bool a_last = a.diagnostic.code == codes::kTooManyErrors, b_last = b.diagnostic.code == codes::kTooManyErrors;
     return std::tie(a_last, a.file, a.diagnostic.line, a.diagnostic.column, a.order) <
            std::tie(b_last, b.file, b.diagnostic.line, b.diagnostic.column, b.order);
@@ -92,7 +92,7 @@ std::vector<Diagnostic> DiagnosticSink::take() {
 
 namespace {
 
-/// Damerau's restricted edit distance: a swap of neighbours is one edit.
+/// Returns the optimal string alignment distance (restricted Damerau-Levenshtein): swapping two neighbours is one edit.
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> before(b.size() + 1), previous(b.size() + 1), row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) previous[j] = j;

@@ -18,7 +18,7 @@ struct Start {
   std::string_view hint;
 };
 
-// UTF-32 before UTF-16, since its little-endian mark begins with that of UTF-16.
+// UTF-32 is tested before UTF-16, since its little-endian byte order mark starts with that of UTF-16.
 constexpr std::array kStarts = {
     Start{"\xFF\xFE\0\0"sv, "the text is UTF-32, not UTF-8", kSave},
     Start{"\0\0\xFE\xFF"sv, "the text is UTF-32, not UTF-8", kSave},
@@ -35,7 +35,7 @@ constexpr std::array kStarts = {
     Start{"%PDF"sv, "this is a PDF file, not a grammar", kOther},
 };
 
-/// The character width, if the other bytes of Latin letters are 0: 4, 2, or 1 if neither fits.
+/// Guesses the bytes per character from the zero bytes beside Latin letters: 4, 2, or 1 if neither pattern fits.
 size_t widthByZeros(std::string_view text) {
   constexpr size_t kLook = 4096, kLeast = 8;
   text = text.substr(0, std::min(text.size(), kLook) / 4 * 4);
