@@ -48,7 +48,7 @@ struct Lattice {
   /// hash-chosen face. Neighbouring blocks are joined by one face. So every block is connected in itself and to all its
   /// neighbours. Each other face is open with probability `extra`. The cost is one node test. tree: 0..20.
   bool linked(FaceId face, int tree, double extra) const;
-  /// Returns the linked ones among ownedFaces().
+  /// Returns the faces of ownedFaces() for which linked() is true.
   std::vector<FaceId> links(Int3 cell, int tree, double extra) const;
 
   /// Returns smooth noise in 0..1 at the centre of a cell. period: in units, at least 1.

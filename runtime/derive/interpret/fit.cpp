@@ -1,4 +1,4 @@
-// Assets in scopes: the statement fit. The box of its scope is centred on its origin.
+// Derives the statement fit, an asset in a scope. The box of its scope is centred on its origin.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Floors in rooms: the statement treemap. The box of its scope is centred on its origin; y is up.
+// Derives the statement treemap, a floor divided into rooms. The box of its scope is centred on its origin; y is up.
 
 #include <algorithm>
 #include <span>

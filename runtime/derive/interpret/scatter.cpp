@@ -1,4 +1,4 @@
-// Point sets: the statement scatter.
+// Derives the statement scatter: its body at each point of a point set.
 
 #include <algorithm>
 #include <cstdint>

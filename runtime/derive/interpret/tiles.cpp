@@ -1,4 +1,4 @@
-// Lattices of tiles: the statement wfc. The box of its scope is centred on its origin.
+// Derives the statement wfc, a lattice of tiles. The box of its scope is centred on its origin.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Assets in scopes: fit.
+// Checks the statement fit, which places an asset in a scope.
 
 #include "grammar/check/leaf_statements.h"
 #include "grammar/text/codes.h"

@@ -1,4 +1,4 @@
-// Parts of scopes: split, comp, treemap and wfc.
+// Checks statements that divide a scope into parts: split, comp, treemap and wfc.
 
 #include "grammar/check/statements.h"
 #include "grammar/syntax/scope_parts.h"

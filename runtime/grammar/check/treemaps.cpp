@@ -1,4 +1,4 @@
-// Floor plans: the rooms and doors of a treemap.
+// Checks the rooms and doors of the statement treemap.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Lattices of tiles: labels, and whether every side has a match.
+// Checks the statement wfc: the labels of its tiles, and whether every side fits some other side.
 
 #include <algorithm>
 #include <array>

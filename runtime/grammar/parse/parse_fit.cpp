@@ -1,4 +1,4 @@
-// Assets in scopes: fit.
+// Parses the statement fit, which places an asset in a scope.
 
 #include "grammar/parse/parse_expressions.h"
 #include "grammar/parse/parse_parts.h"

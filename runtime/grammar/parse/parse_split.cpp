@@ -1,4 +1,4 @@
-// Parts of scopes: split and comp.
+// Parses statements that divide a scope into parts: split and comp.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Floor plans: treemap and its links.
+// Parses the statement treemap, a floor plan, and the links between its rooms.
 
 #include "grammar/parse/parse_expressions.h"
 #include "grammar/parse/parse_parts.h"

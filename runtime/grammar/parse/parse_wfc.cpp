@@ -1,4 +1,4 @@
-// Lattices of tiles: wfc.
+// Parses the statement wfc, which fills a scope with a lattice of tiles.
 
 #include <algorithm>
 

@@ -39,10 +39,11 @@ struct TriangleCounts {
 /// A body or a seam.
 struct CheckedPart {
   std::vector<VertexPlace> vertices;
-  std::vector<uint32_t> indices;  ///< into vertices
-  std::vector<uint32_t> ids;      ///< of the vertices, while drawn
-  EdgeCounts inside;              ///< of the edges that no other part can share, while drawn
-  TriangleCounts triangles;       ///< while drawn
+  std::vector<uint32_t> indices;  ///< three per triangle: indices into `vertices`
+  /// one id per vertex, equal for identical vertices of different parts; empty while the part is not drawn
+  std::vector<uint32_t> ids;
+  EdgeCounts inside;         ///< counts of the edges that no other part can share; valid while the part is drawn
+  TriangleCounts triangles;  ///< faults of the part's triangles; valid while the part is drawn
 };
 
 struct CheckedChunk {

@@ -26,7 +26,7 @@ struct DrawnMesh {
 using DrawnKey = std::tuple<int32_t, int32_t, int32_t, int32_t>;  ///< level, x, y, z
 using DrawnMeshes = std::map<DrawnKey, DrawnMesh>;
 
-/// The largest values over all checked frames.
+/// The results of checkFrame() over all frames so far.
 struct CheckedFrames {
   FrameReport worst;  ///< the largest value of each count over all frames
   uint64_t whole_checks = 0, whole_failures = 0;
