@@ -38,7 +38,8 @@ class ExprCompiler {
   ProgramBuilder& builder_;
   std::pmr::vector<Known> known_;
   uint64_t epochs_ = 0;
-  uint64_t epoch_ = 0;  ///< the current group and place
+  /// number of the current combination of group and place (warp); cached values are valid only for it
+  uint64_t epoch_ = 0;
 };
 
 }  // namespace sgm

@@ -1,4 +1,4 @@
-// Requirements for the types and values of expressions.
+// Checks that expressions have required types and values (Types::require and similar functions).
 
 #include "grammar/check/type_rules.h"
 #include "grammar/check/types.h"

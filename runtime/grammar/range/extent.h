@@ -61,14 +61,13 @@ struct Extent {
   /// index in RangeEvaluator::losses() of the place where the bound was lost; 0: it has a bound, or the place is
   /// unknown
   uint32_t loss = 0;
-  /// Returns the extent of a leaf. lower, upper: intervals of the ends of its box. ball: radius of a ball around the
-  /// origin that contains the leaf, or 0.
   Unbound why = Unbound::none;
   double allowed = 0;  ///< for Unbound::sum: amplitudes below this have a bound
 
   static Extent nothing();
   static Extent unbounded();
-  /// The extent of a leaf: intervals for the lower and the upper ends of its box, and a ball that may contain it.
+  /// Returns the extent of a leaf. lower, upper: intervals of the ends of its box. ball: radius of a ball around the
+  /// origin that contains the leaf, or 0.
   static Extent leaf(const IntervalVector& lower, const IntervalVector& upper, double ball = 0);
 
   void join(const Extent& other);    ///< for two statements that are both derived

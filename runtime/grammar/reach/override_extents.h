@@ -55,11 +55,10 @@ class OverrideExtents {
     size_t at = 0;                           ///< index in `overrides` of the override whose block is being evaluated
     State state;                             ///< the state in which `inner` is evaluated
     const Target* outer = nullptr;  ///< the target around this one, if overrides' blocks are nested; null: none
-    /// Returns the extent if only the first `below` overrides exist. above: the override by path whose `inner` stands
-    /// for this content; null: none.
   };
 
-  /// The extent after the first `below` overrides; above: the override by path whose `inner` asks, or null.
+  /// Returns the extent of the target if only the first `below` of its overrides exist. above: the override by path
+  /// whose `inner` stands for this content; null: none.
   Extent boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                      ReachContext& context);
   /// Returns the extent of the block of target.overrides[at], which replaces the target.

@@ -40,7 +40,7 @@ struct TriangleCounts {
 struct CheckedPart {
   std::vector<VertexPlace> vertices;
   std::vector<uint32_t> indices;  ///< three per triangle: indices into `vertices`
-  /// one id per vertex, equal for identical vertices of different parts; empty while the part is not drawn
+  /// one id per vertex, equal for identical vertices; valid while the part is drawn
   std::vector<uint32_t> ids;
   EdgeCounts inside;         ///< counts of the edges that no other part can share; valid while the part is drawn
   TriangleCounts triangles;  ///< faults of the part's triangles; valid while the part is drawn

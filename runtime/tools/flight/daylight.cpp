@@ -89,7 +89,8 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     sum += *open;
   }
   std::ranges::sort(distances);
-  // The mean of median and upper quartile: the frame of a view is near, but the things behind it matter.
+  // The depth is the mean of the median and the upper quartile: many rays hit near surfaces that frame the view, but
+  // the surfaces behind them matter.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
   return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }

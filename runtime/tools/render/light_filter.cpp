@@ -62,7 +62,7 @@ void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float eleme
         near += weight * light[other].lie.x;
         weights += weight;
       });
-      // Only lie.x has noise; the other members have none, and their sharp edges must stay.
+      // Only lie.x is sampled and thus noisy; the other components are exact, and their sharp edges must stay.
       const glm::vec4 lie(near / weights, light[at].lie.y, light[at].lie.z, light[at].lie.w);
       next[at] = {sum.light / weights, sum.lean / weights, lie};
     });

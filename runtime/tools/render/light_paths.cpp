@@ -12,12 +12,12 @@ namespace {
 
 /// Rays to a light: the first ones suffice for places in full light or shade; the others resolve penumbras.
 constexpr int kFirstRays = 2, kAllRays = 8;
-constexpr int kMostPanes = 2;         // that a ray passes before it hits another surface
-constexpr float kThroughPane = 0.8f;  // share of the light that lead and dirt transmit
-constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: slightly hazy
-constexpr float kLampRadius = 0.05f;  // in reaches
+constexpr int kMostPanes = 2;         // maximum number of panes that a ray passes before it must hit another surface
+constexpr float kThroughPane = 0.8f;  // share of the light that a leaded pane transmits
+constexpr float kSunRadius = 0.012f;  // radius of the sun's disc at distance 1, slightly enlarged by haze
+constexpr float kLampRadius = 0.05f;  // radius of a lamp, as a fraction of its reach
 
-/// The share of unblocked rays; reaches() casts the next one.
+/// Returns the share of unblocked rays; each call of reaches() casts one ray and returns whether it is unblocked.
 template <class Reaches>
 float shareOf(Reaches reaches) {
   int open = 0, cast = 0;

@@ -23,10 +23,10 @@
 namespace sgm {
 namespace {
 
-constexpr int kSoftRays = 14;       // for each square of pixels; filtered later
-constexpr int kBounces = 2;         // of a soft ray, before the remaining light is assumed to be even
-constexpr int kMirrorBounces = 2;   // of a ray from a mirror
-constexpr int kMirrorRays = 4;      // of a pixel: a single ray would alias edges in the mirror
+constexpr int kSoftRays = 14;       // number of rays for each square of pixels; the result is filtered later
+constexpr int kBounces = 2;         // number of bounces of a soft ray; light of further bounces is assumed to be even
+constexpr int kMirrorBounces = 2;   // number of bounces of a ray from a mirror
+constexpr int kMirrorRays = 4;      // number of rays of a mirroring pixel: a single ray would alias edges in the mirror
 constexpr float kDirtReach = 0.9f;  // metres: surfaces with nearer surroundings catch dirt
 
 /// A traced scene and its light paths and clouds, from which each pixel gets its light.
@@ -36,7 +36,7 @@ class LightTracer {
   LightTracer(const TracedScene& scene, const Vapour* vapour)
       : scene_(scene), paths_(scene, vapour), vapour_(vapour), has_water_(scene.hasWater()) {}
 
-  /// The clouds in front of a surface, or of the sky.
+  /// Returns the light of the clouds in front of a surface, or of the sky if there is no surface.
   VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
     return vapour_->march(vec3(scene_.frame().eye), scene_.directionAt(x, y),
                           place.isThere() ? place.distance : kLongestRay, x, y);
@@ -79,7 +79,7 @@ class LightTracer {
     for (int i = 0; i < kSoftRays; ++i) {
       const vec3 direction = cosineDirection(place.normal, points.next());
       float distance = kLongestRay;
-      // A lamp seen at close range must not cause fireflies.
+      // The limit prevents fireflies: single very bright samples from a lamp at close range.
       const vec3 light = glm::min(paths_.radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
       near += std::max(0.0f, 1 - distance / kDirtReach);
       sum += light;
