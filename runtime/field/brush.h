@@ -19,7 +19,7 @@ struct Brush {
   Int3 half;         ///< half extents of a box along its own axes, in units
   /// rotation from the box's axes to the world's: quaternion x y z w of any length above 0
   std::array<float, 4> turn{0, 0, 0, 1};
-  int32_t radius = 0;  ///< of a sphere or a capsule, in units
+  int32_t radius = 0;  ///< radius of a sphere or a capsule, in units
   int32_t smooth = 0;  ///< width of the blend with the existing field, in units; 0: none
 };
 

@@ -19,9 +19,9 @@ namespace sgm::platform {
 
 /// Resource limits of a process, which it cannot raise again; 0: no limit.
 struct ProcessLimits {
-  uint64_t memory_bytes = 0;  ///< of address space; not enforced under a sanitizer, which maps more
-  double cpu_seconds = 0;     ///< processor time, summed over its threads, rounded up to whole seconds
-  uint64_t file_bytes = 0;    ///< size of each file that it writes
+  uint64_t memory_bytes = 0;  ///< limit of the address space, bytes; not enforced under a sanitizer, which maps more
+  double cpu_seconds = 0;     ///< limit of processor time, summed over all threads, rounded up to whole seconds
+  uint64_t file_bytes = 0;    ///< maximum size of each file that it writes, bytes
   uint64_t open_files = 0;
 };
 

@@ -65,8 +65,8 @@ class Evaluator {
   const Activations& activations_;
   Draft& draft_;
   Budget& budget_;
-  std::vector<Segment> segments_;  ///< of all skeletons in the cell
-  std::vector<PlanPiece> pieces_;  ///< of all plans in the cell
+  std::vector<Segment> segments_;  ///< segments of all skeletons in the cell
+  std::vector<PlanPiece> pieces_;  ///< pieces of all plans in the cell
   uint64_t parameters_read_ = 0;
 };
 

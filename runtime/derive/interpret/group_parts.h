@@ -17,7 +17,7 @@ struct LeftOutPart {
 
 struct GroupParts {
   bool any = false;  ///< false: nothing remains, so the whole group must be left out
-  IntBox bounds;     ///< of the remaining parts
+  IntBox bounds;     ///< bounds of the remaining parts
   std::vector<LeftOutPart> left_out;
 };
 

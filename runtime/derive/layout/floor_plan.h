@@ -18,7 +18,7 @@ inline constexpr double kTreemapWall = 0.2;
 
 /// The measures of a floor plan in units; all above 0.
 struct FloorPlanSizes {
-  int32_t x = 0, z = 0;  ///< of the floor, including outer walls
+  int32_t x = 0, z = 0;  ///< edges of the floor, including outer walls
   int32_t wall = 0;      ///< thickness of all walls, inner and outer
   int32_t door = 0;      ///< width of doors that no link requests
   int32_t corridor = 0;  ///< clear width of the corridor

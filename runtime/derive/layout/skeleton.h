@@ -23,7 +23,7 @@ struct Segment {
 struct Turtle {
   /// number of steps of the longest path from the root to a tip; a whole number, at most kMostSegments
   double steps = 0;
-  double length = 0;  ///< of a step, above 0
+  double length = 0;  ///< length of a step, metres, above 0
   double turn = 0;    ///< maximum turn between steps, radians; 0 to a right angle
   double fork = 0;    ///< probability of a side branch after a step, 0 to 1
 };

@@ -14,8 +14,8 @@ namespace sgm {
 namespace {
 
 struct Contents {
-  int32_t coarsest_cell = 0;  ///< as in Layer; 0: invisible
-  bool by_level = false;      ///< as in Layer
+  int32_t coarsest_cell = 0;  ///< as Layer::coarsest_cell; 0: invisible at every level
+  bool by_level = false;      ///< as Layer::by_level
   bool anchors = false;
 
   static Contents shape() { return {std::numeric_limits<int32_t>::max(), false, false}; }

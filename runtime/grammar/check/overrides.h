@@ -38,7 +38,7 @@ class Overrides {
   const RuleTypes& rules_;
   Statements& statements_;
   RuleUses& rule_uses_;
-  std::vector<RuleUses> uses_;  ///< by index into Program::overrides
+  std::vector<RuleUses> uses_;  ///< what each override's block uses, by index into Program::overrides
   std::set<uint32_t> in_rooms_;
 };
 

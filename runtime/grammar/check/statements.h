@@ -64,7 +64,7 @@ class Statements {
   /// next StmtNode::ordinal and ExprNode::ordinal; continue through all heads of a rule
   uint32_t ordinal_ = 0, draws_ = 0;
   std::vector<ScaleAround> scales_;  ///< scales that enclose the current statement, from the outside in
-  RuleUses uses_;                    ///< of the body being checked
+  RuleUses uses_;                    ///< rules and layers used by the body being checked
 };
 
 }  // namespace sgm

@@ -62,7 +62,7 @@ class Symbols {
   void reportMisusedAsset(const Span& span, NameId name);
 
   CheckContext& check_;
-  std::vector<Table> tables_;  ///< by module
+  std::vector<Table> tables_;  ///< the symbol table of each file, by module index
   bool layers_known_ = false;
   bool uses_lost_ = false;
 };

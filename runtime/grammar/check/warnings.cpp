@@ -241,7 +241,7 @@ class WholeNumbers {
 
   const Program& program_;
   std::vector<Frame> frames_;
-  std::map<uint32_t, std::vector<ExprId>> calls_;    ///< by rule
+  std::map<uint32_t, std::vector<ExprId>> calls_;    ///< calls of each rule, by rule index
   std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< formals under evaluation: rule, index
 };
 

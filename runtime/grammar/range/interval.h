@@ -31,11 +31,11 @@ Interval maximum(Interval a, Interval b);
 Interval atLeastZero(Interval a);   ///< the maximum of a and 0; an end that is NaN becomes 0
 Interval positivePart(Interval a);  ///< the maximum of a and 0; an end that is NaN stays NaN
 Interval absolute(Interval a);
-Interval squareRoot(Interval a);  ///< of the part of `a` that is not negative
+Interval squareRoot(Interval a);  ///< negative values of `a` are ignored
 Interval floorOf(Interval a);
 Interval sine(Interval a);
 Interval cosine(Interval a);
-Interval power(Interval a, Interval b);  ///< of the part of `a` that is not negative
+Interval power(Interval a, Interval b);  ///< a to the power of b; negative values of `a` are ignored
 Interval smoothStep(Interval low, Interval high, Interval x);
 
 using IntervalVector = std::array<Interval, 3>;

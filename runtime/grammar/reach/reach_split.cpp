@@ -24,8 +24,8 @@ constexpr int kPieces = 4;
 /// The possible places of a part along the axis of its split, metres.
 struct PartPlace {
   size_t axis = 0;
-  Interval length;               ///< of the scope
-  Interval size;                 ///< of the part
+  Interval length;               ///< possible lengths of the split's scope along the axis
+  Interval size;                 ///< possible sizes of the part along the axis
   double before = 0, after = 0;  ///< total length of other parts that certainly lie before and after it
 };
 

@@ -18,7 +18,7 @@ struct PathPlace {
 struct WrittenStep {
   std::string_view qualifier, name;  ///< `cave` and `Hall` of cave.Hall[2]; qualifier may be empty
   std::optional<uint32_t> index;     ///< 2 in cave.Hall[2]
-  PathPlace place;                   ///< of the whole step
+  PathPlace place;                   ///< where the whole step stands in the path's text
 };
 
 /// A parsed path. Contains views into the parsed text.

@@ -38,7 +38,7 @@ struct Asset {
   std::shared_ptr<const asset::Polyhedron> solid;
   std::pmr::vector<std::pmr::string> material_names;  ///< in the order of the indices in the solid's faces
   std::pmr::vector<uint16_t> materials;  ///< resolved: for each name, an index in Program::materials; 0: inherited
-  uint64_t hash = 0;                     ///< of the solid and its material names
+  uint64_t hash = 0;                     ///< hash of the solid and its material names
 
   explicit Asset(std::pmr::memory_resource* memory) : path(memory), material_names(memory), materials(memory) {}
 };
@@ -107,7 +107,7 @@ struct Alternative {
   ExprId lod = kNoId;
   StmtId body = kNoId;      ///< a block
   uint32_t slot_count = 0;  ///< number of slots in its frame
-  Span span;                ///< of the head
+  Span span;                ///< span of the head in the text
 };
 
 /// All alternatives of one name. A morphic rule has one alternative, whose body is one morph statement.
@@ -119,7 +119,7 @@ struct Rule {
   std::pmr::vector<Alternative> alternatives;
   std::pmr::vector<uint32_t> calls;  ///< rules that it may call, including calls in its overrides, each once, ascending
   std::pmr::vector<uint32_t> overrides;  ///< overrides that may apply in it (Program::overrides), each once, ascending
-  Span span;                             ///< of the first name
+  Span span;                             ///< span of the rule's name in its first head
 
   explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
 };
