@@ -30,6 +30,11 @@ if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   target_compile_definitions(sgm INTERFACE SGM_STATIC)
 else()
   # Hidden visibility still exports template instances of the standard library; the map exports only the interface.
-  target_link_options(sgm PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+  # Without this option, a user's link would be the first to notice a missing module. The sanitizers' own functions are
+  # undefined in a library.
+  if(NOT SGM_SANITIZE)
+    set(SGM_NO_UNDEFINED LINKER:--no-undefined)
+  endif()
+  target_link_options(sgm PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map ${SGM_NO_UNDEFINED})
   set_property(TARGET sgm APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
 endif()

@@ -164,7 +164,7 @@ export async function hardTimes(checks, browser, base) {
   await pause(3500);
   checks.equal('it asks nothing while the tab is hidden', asked, 0);
   await hide(false);
-  checks.check('it asks again once the tab is seen', await until(() => asked > 0, 5));
+  checks.check('it asks again once the tab is seen', await until(() => asked > 0));
   await close();
 }
 
@@ -208,7 +208,7 @@ export async function worldsOtherwise(checks, browser, base) {
   await two.page.keyboard.press('End');
   checks.check(
     'the selector shows another world, by keyboard',
-    await until(async () => (await shown(two.page, 'waiting')) === 4711, 5),
+    await until(async () => (await shown(two.page, 'waiting')) === 4711),
     names.join(', '),
   );
   await two.page.locator('#map-canvas').scrollIntoViewIfNeeded();

@@ -110,7 +110,7 @@ async function keyboard(id) {
   await page.keyboard.press('ArrowLeft');
   checks.check(
     'the map moves by keys',
-    await until(async () => (await pictureOf(page, '#map-canvas')).sum !== before.sum, 5),
+    await until(async () => (await pictureOf(page, '#map-canvas')).sum !== before.sum),
   );
   let chooser = null;
   page.on('filechooser', (opened) => {
@@ -120,12 +120,12 @@ async function keyboard(id) {
   // Until the browser knows of the listener, it would open its own file chooser.
   await page.waitForTimeout(500);
   await page.keyboard.press('Space');
-  checks.check('space asks for files', await until(() => chooser?.isMultiple(), 10));
+  checks.check('space asks for files', await until(() => chooser?.isMultiple()));
   await page.focus(`[data-report="${id}"].link`);
   await page.keyboard.press('Enter');
   checks.check(
     'Enter opens a report',
-    await until(() => page.evaluate(() => document.activeElement.id === 'report'), 5),
+    await until(() => page.evaluate(() => document.activeElement.id === 'report')),
   );
   await page.waitForSelector('#mesh-view[data-marked]');
   await reaches(['mesh-view', '0', 'histogram-scale']);
@@ -136,7 +136,11 @@ async function keyboard(id) {
   await page.keyboard.press('ArrowUp');
   checks.check(
     'the view turns by keys',
-    await until(async () => (await pictureOf(page, '#mesh-view canvas:first-child')).sum !== still.sum, 5),
+    await until(async () => (await pictureOf(page, '#mesh-view canvas:first-child')).sum !== still.sum),
+    await page.evaluate(() => {
+      const { renderer, marked } = document.querySelector('#mesh-view').dataset;
+      return `focus: ${document.activeElement.id || document.activeElement.tagName}, ${renderer}, ${marked} marks`;
+    }),
   );
   isQuiet(noted);
   await close();

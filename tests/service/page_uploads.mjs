@@ -224,7 +224,7 @@ export async function withoutWebgl(checks, browser, base, id) {
   checks.equal('it does not turn where motion is unwanted', (await pictureOf(page, surface)).sum, first.sum);
   await page.focus('#mesh-view');
   await page.keyboard.press('ArrowRight');
-  checks.check('but by keys', await until(async () => (await pictureOf(page, surface)).sum !== first.sum, 5));
+  checks.check('but by keys', await until(async () => (await pictureOf(page, surface)).sum !== first.sum));
   checks.equal('nothing is wrong', [...noted.errors, ...noted.violations], []);
   await close();
 }

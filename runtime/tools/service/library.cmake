@@ -10,6 +10,9 @@ foreach(module http service_judge service_watch service_ports service)
 endforeach()
 target_link_libraries(sgm_service_library PUBLIC sgm PRIVATE prometheus-cpp::core Threads::Threads)
 if(NOT SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
-  target_link_options(sgm_service_library PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+  # libsgm hides the objects of base, so this library has its own copy of those that it uses.
+  target_link_libraries(sgm_service_library PRIVATE sgm_base)
+  target_link_options(sgm_service_library PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map
+    ${SGM_NO_UNDEFINED})
   set_property(TARGET sgm_service_library APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
 endif()
