@@ -150,7 +150,7 @@ PoolSize poolOf(uint64_t marks, uint64_t bounds, const Room& room) {
 size_t planBatch(std::span<const ChunkJob> jobs, const Room& room, Plan& plan) {
   Planner planner(room, plan);
   uint32_t taken = 0;
-  while (taken < jobs.size() && taken < kMostChunks && planner.add(jobs[taken], taken)) ++taken;
+  while (taken < jobs.size() && taken < kMaxChunks && planner.add(jobs[taken], taken)) ++taken;
   return taken;
 }
 

@@ -12,7 +12,7 @@
 namespace sgm::cuda {
 
 /// The maximum number of chunks in one submission.
-inline constexpr uint32_t kMostChunks = 256;
+inline constexpr uint32_t kMaxChunks = 256;
 
 /// The maximum size of a batch's results per chunk, and limits for the scratch and the parameters of a batch, which
 /// only a batch of one chunk may exceed.

@@ -51,9 +51,9 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   Session(const CudaBackendOptions& options, std::pmr::memory_resource* memory)
       : room_(options.room), warn_(options.warn), memory_(memory) {}
   BackendCapabilities capabilities() const override {
-    return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, placed_ || kept_};
+    return {BackendKind::cuda, device_->info().name, true, kMaxChunks, false, placed_ || kept_};
   }
-  uint32_t batch() const override { return kMostChunks; }
+  uint32_t batch() const override { return kMaxChunks; }
 
   std::unique_ptr<DeviceSlot> takeSlot() override {
     return slots_.take([this] { return std::make_unique<Slot>(memory_); });

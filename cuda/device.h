@@ -38,7 +38,7 @@ struct DeviceInfo {
   uint32_t processors = 1;  ///< number of multiprocessors
   int memory_pools = 0;     ///< 1: the device supports stream-ordered allocation
   DeviceId id{};
-  std::string ails;  ///< the problem, if the driver cannot describe the device; otherwise empty
+  std::string problem;  ///< the problem, if the driver cannot describe the device; otherwise empty
 };
 
 inline constexpr size_t kAlignment = 256;  ///< alignment of allocated device memory in bytes

@@ -33,7 +33,7 @@ struct CuPoolProperties {
   int location_type = 1;  ///< the location is a device
   int location = 0;       ///< number of that device
   void* security = nullptr;
-  size_t most_bytes = 0;  ///< 0: the system chooses
+  size_t max_bytes = 0;  ///< 0: the system chooses
   unsigned char reserved[56] = {};
 };
 

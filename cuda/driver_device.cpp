@@ -108,8 +108,8 @@ Error unusable(const Error& error) {
 
 }  // namespace
 
-std::string lackOf(const DeviceInfo& info) {
-  if (!info.ails.empty()) return info.ails;
+std::string unsupportedReason(const DeviceInfo& info) {
+  if (!info.problem.empty()) return info.problem;
   if (10 * info.capability_major + info.capability_minor < 75) {
     return "it has compute capability " + std::to_string(info.capability_major) + "." +
            std::to_string(info.capability_minor) + ", but needs at least 7.5";
@@ -135,7 +135,7 @@ Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver) {
     if (info) {
       infos.push_back(std::move(*info));
     } else {
-      infos.emplace_back().ails = info.error().message;
+      infos.emplace_back().problem = info.error().message;
     }
   }
   return infos;
@@ -151,7 +151,7 @@ Result<int> findDevice(const DriverTable& driver, const DeviceId& id) {
   const Result<std::vector<DeviceInfo>> infos = listDevices(driver);
   if (!infos) return unusable(infos.error());
   for (size_t i = 0; i < infos->size() && id != DeviceId{}; ++i) {
-    if ((*infos)[i].ails.empty() && (*infos)[i].id == id) return static_cast<int>(i);
+    if ((*infos)[i].problem.empty() && (*infos)[i].id == id) return static_cast<int>(i);
   }
   return Error{Code::unsupported, "the drawing GPU is not a device of the CUDA driver"};
 }
@@ -166,9 +166,9 @@ Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<
                  "there is no CUDA device " + std::to_string(index) + ": there are " + std::to_string(infos->size())};
   }
   size_t chosen = index < 0 ? 0 : static_cast<size_t>(index);
-  while (index < 0 && chosen + 1 < infos->size() && !lackOf((*infos)[chosen]).empty()) ++chosen;
+  while (index < 0 && chosen + 1 < infos->size() && !unsupportedReason((*infos)[chosen]).empty()) ++chosen;
   const DeviceInfo& info = (*infos)[chosen];
-  if (const std::string lack = lackOf(info); !lack.empty()) {
+  if (const std::string lack = unsupportedReason(info); !lack.empty()) {
     return Error{Code::unsupported, info.name + " cannot be used: " + lack};
   }
   auto opened = std::make_unique<Opened>(driver);
@@ -182,31 +182,31 @@ Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<
 }
 
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
-                                             const BorrowedContext& lent) {
+                                             const BorrowedContext& external) {
   if (image.empty()) return noKernels();
   auto opened = std::make_unique<Opened>(driver);
   opened->borrowed = true;
-  opened->context = lent.context;
-  opened->stream = lent.stream;
+  opened->context = external.context;
+  opened->stream = external.stream;
   opened->info.name = "the external CUDA context";
   CuDevice device = 0;
   int version = 0;
   {
-    const Current current(driver, lent.context);
+    const Current current(driver, external.context);
     if (!current) return unusable(Current::refused());
     CuResult result = driver.ctxGetDevice(&device);
     if (result == kCuSuccess) result = driver.driverGetVersion(&version);
     if (Result<void> got = opened->check(result, "querying the device"); !got) return unusable(got.error());
-    CuContext of_stream = lent.context;
-    if (lent.stream != nullptr) result = driver.streamGetCtx(lent.stream, &of_stream);
-    if (result != kCuSuccess || of_stream != lent.context) {
+    CuContext of_stream = external.context;
+    if (external.stream != nullptr) result = driver.streamGetCtx(external.stream, &of_stream);
+    if (result != kCuSuccess || of_stream != external.context) {
       return Error{Code::invalid_argument, "the external stream belongs to another context"};
     }
   }
   Result<DeviceInfo> info = describe(driver, device, version);
   if (!info) return unusable(info.error());
   opened->info = std::move(*info);
-  if (const std::string lack = lackOf(opened->info); !lack.empty()) {
+  if (const std::string lack = unsupportedReason(opened->info); !lack.empty()) {
     return Error{Code::unsupported, opened->info.name + " cannot be used: " + lack};
   }
   if (Result<void> made = loadKernels(*opened, device, image); !made) return unusable(made.error());

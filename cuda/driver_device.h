@@ -21,7 +21,7 @@ Result<DriverTable> openDriver();
 std::span<const std::byte> kernelImage();
 
 /// Returns the reason why the device cannot mesh, as a sentence; empty if it can. Pure.
-std::string lackOf(const DeviceInfo& info);
+std::string unsupportedReason(const DeviceInfo& info);
 
 /// Lists all devices of the driver, including unusable ones. Errors: device_lost, unsupported.
 Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver);
@@ -39,7 +39,7 @@ struct BorrowedContext {
 /// Opens a device in the engine's context, which the engine still owns. Each call restores the thread's current
 /// context. Errors: same as openDevice().
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
-                                             const BorrowedContext& lent);
+                                             const BorrowedContext& external);
 
 /// Returns the index of the GPU in listDevices(). Error: unsupported if the driver does not have it; others as
 /// listDevices().

@@ -85,9 +85,9 @@ class KeptMeshes {
   Device& device_;
   const uint64_t cap_;
   std::atomic<uint64_t> bytes_{0};
-  std::mutex ending_mutex_, bringing_mutex_;
-  std::unique_ptr<Stream> ending_;    ///< the stream in which memory is freed
-  std::unique_ptr<Stream> bringing_;  ///< the stream for copies from the host
+  std::mutex ending_mutex_, downloading_mutex_;
+  std::unique_ptr<Stream> ending_;       ///< the stream in which memory is freed
+  std::unique_ptr<Stream> downloading_;  ///< the stream for copies from the host
   Memory staging_;
 };
 

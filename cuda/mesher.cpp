@@ -199,7 +199,7 @@ Result<void> Mesher::run(Stream& stream, const Launches& launches, const Batch& 
   return {};
 }
 
-Result<void> Mesher::bring(const Plan& plan, BatchMemory& m, const Batch& batch) const {
+Result<void> Mesher::download(const Plan& plan, BatchMemory& m, const Batch& batch) const {
   const struct {
     const Memory& to;
     const void* from;
@@ -240,7 +240,7 @@ Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
   if (!batch) return batch.error();
   if (Result<void> cleared = clear(plan, m); !cleared) return cleared;
   if (Result<void> ran = run(*m.stream, launches(*batch), *batch); !ran) return ran;
-  if (Result<void> brought = bring(plan, m, *batch); !brought) return brought;
+  if (Result<void> brought = download(plan, m, *batch); !brought) return brought;
   return m.stream->mark();
 }
 
@@ -259,7 +259,7 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
   Sums* sums = nullptr;
   placeResult(plan, m.result_back.data(), head, parts, sums);
   if (plan.meshes) {
-    if (Result<void> brought = bringRest(*head, m); !brought) return brought.error();
+    if (Result<void> brought = downloadRest(*head, m); !brought) return brought.error();
   }
   return Output{parts, sums, reinterpret_cast<const Vertex*>(m.vertices_back.data()),
                 reinterpret_cast<const uint32_t*>(m.indices_back.data()),
@@ -267,7 +267,7 @@ Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
 }
 
 /// Downloads the vertices and indices that were not downloaded with the batch.
-Result<void> Mesher::bringRest(const Head& head, BatchMemory& m) {
+Result<void> Mesher::downloadRest(const Head& head, BatchMemory& m) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex),
                  indices = uint64_t{head.indices} * sizeof(uint32_t);
   // A quarter more than this batch had, because successive batches are similar.

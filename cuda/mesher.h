@@ -73,8 +73,8 @@ class Mesher {
   Result<void> makeTables();
   Batch sized(const Plan& plan) const;
   Result<void> fit(const Plan& plan, BatchMemory& memory, Batch& batch) const;
-  Result<void> bring(const Plan& plan, BatchMemory& memory, const Batch& batch) const;
-  Result<void> bringRest(const Head& head, BatchMemory& memory);
+  Result<void> download(const Plan& plan, BatchMemory& memory, const Batch& batch) const;
+  Result<void> downloadRest(const Head& head, BatchMemory& memory);
 
   Device& device_;
   const Room room_;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* kShaders[] = {"res://addons/sgm/shaders/triplanar.gdshader",
                                     "res://addons/sgm/shaders/uv.gdshader"};
-constexpr size_t kMostColors = 64, kMostViewers = 4;  // sizes of arrays in the shaders
-constexpr int kPatternMetres = 1024;                  // metres after which the patterns of the shaders repeat
+constexpr size_t kMaxColors = 64, kMaxViewers = 4;  // sizes of arrays in the shaders
+constexpr int kPatternMetres = 1024;                // metres after which the patterns of the shaders repeat
 
 Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
 
@@ -94,10 +94,10 @@ void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& r
                        const Placement& placement) {
   if (!sent_) {
     // Arrays have the full length: the engine pads shorter ones, but with warnings in some versions.
-    Packed<Color> colors(kMostColors);
-    Packed<int32_t> patterns(kMostColors);
-    Packed<float> reliefs(kMostColors);
-    for (size_t i = 0; i < kMostColors; ++i) {
+    Packed<Color> colors(kMaxColors);
+    Packed<int32_t> patterns(kMaxColors);
+    Packed<float> reliefs(kMaxColors);
+    for (size_t i = 0; i < kMaxColors; ++i) {
       const sgm::MaterialLook look = i < looks_.size() ? looks_[i] : sgm::MaterialLook();
       colors.data()[i] = i < palette_.size() ? linear(palette_[i]) : Color{};
       patterns.data()[i] = static_cast<int32_t>(look.pattern);
@@ -115,10 +115,10 @@ void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& r
   const bool moved = viewers.size() != viewers_.size() ||
                      std::memcmp(viewers.data(), viewers_.data(), viewers.size() * sizeof(Vector3)) != 0;
   if (moved || !sent_) {
-    Packed<Vector3> places(kMostViewers);
-    for (size_t i = 0; i < kMostViewers; ++i) places.data()[i] = i < viewers.size() ? viewers[i] : Vector3{};
+    Packed<Vector3> places(kMaxViewers);
+    for (size_t i = 0; i < kMaxViewers; ++i) places.data()[i] = i < viewers.size() ? viewers[i] : Vector3{};
     send("viewers", places.take());
-    send("viewer_count", static_cast<int64_t>(std::min(viewers.size(), kMostViewers)));
+    send("viewer_count", static_cast<int64_t>(std::min(viewers.size(), kMaxViewers)));
     viewers_ = viewers;
   }
   if (!(ranges == ranges_) || !sent_) {

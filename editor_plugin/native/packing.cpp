@@ -24,7 +24,7 @@ static_assert(sizeof(Attributes) == 24);
 constexpr uint32_t kNone = UINT32_MAX;
 
 // Morphing moves a vertex by up to four grid cells on an axis, in steps of 1/256 cell.
-constexpr int kMostMorph = 1024, kMorphBits = 12;
+constexpr int kMaxMorph = 1024, kMorphBits = 12;
 constexpr uint32_t kMorphZero = 2048;
 
 /// The triangles of one slot, as indices of corners. A corner is a wedge of the mesh, or a vertex if the mesh has no
@@ -128,7 +128,7 @@ Attributes attributesOf(const Reader& reader, uint32_t corner) {
   if (reader.mesh.morphs != nullptr) {
     const int16_t* offset = reader.mesh.morphs + size_t{reader.vertexOf(corner)} * 3;
     for (int i = 0; i < 3; ++i) {
-      morph[i] = static_cast<uint32_t>(std::clamp<int>(offset[i], -kMostMorph, kMostMorph) + int{kMorphZero});
+      morph[i] = static_cast<uint32_t>(std::clamp<int>(offset[i], -kMaxMorph, kMaxMorph) + int{kMorphZero});
     }
   }
   a.words[0] = static_cast<float>(morph[0] | morph[1] << kMorphBits);
@@ -163,7 +163,7 @@ Variant surfaceOf(const Reader& reader, const Corners& corners) {
       std::memcpy(indices.data() + i * 4, &corners.indices[i], 4);
     }
   }
-  const float room = reader.mesh.morphs != nullptr ? reader.scale() * kMostMorph : 0;
+  const float room = reader.mesh.morphs != nullptr ? reader.scale() * kMaxMorph : 0;
   const Vector3 grow{room, room, room};
   Variant surface = Variant::dictionary();
   surface.set("primitive", kTriangles);

@@ -20,7 +20,7 @@ BackendRequest requestFor(BackendKind kind, bool automatic = false) {
 }
 
 Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest request) {
-  if (request.kind == BackendKind::cuda && !request.automatic) request.lent = runtime.devices.drawing;
+  if (request.kind == BackendKind::cuda && !request.automatic) request.external = runtime.devices.drawing;
   request.pipeline_folder = runtime.pipeline_folder;
   request.inform = [&runtime](const std::string& message) { runtime.log(SGM_LOG_INFO, message); };
   request.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
@@ -31,7 +31,7 @@ Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest re
 
 /// Returns CUDA if it can store meshes in the memory of the external device; otherwise that device if it is hardware;
 /// otherwise the CPU.
-Result<std::shared_ptr<Backend>> makeBeside(sgm_runtime& runtime) {
+Result<std::shared_ptr<Backend>> createWithInterop(sgm_runtime& runtime) {
   Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
   if (cuda) return cuda;
   runtime.log(SGM_LOG_INFO, "backend auto skips CUDA: " + cuda.error().message);
@@ -69,7 +69,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
                                                                        : shared.vulkan;
   if (device && kept) return kept;
   Result<std::shared_ptr<Backend>> made =
-      wanted.automatic && shared.drawing ? makeBeside(runtime) : makeFor(runtime, wanted);
+      wanted.automatic && shared.drawing ? createWithInterop(runtime) : makeFor(runtime, wanted);
   if (!made) return made.error();
   const std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
@@ -84,13 +84,13 @@ namespace {
 
 /// Releases a backend that was only queried, so that an external one can replace it. Error: busy if a field uses the
 /// backend, or if it is external itself.
-Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool lent) {
+Result<void> yieldTo(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool external) {
   const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
     return kept && kept->capabilities().kind == kind;
   };
   for (std::shared_ptr<Backend>* kept : {&named, &shared.automatic}) {
     const long owners = named == shared.automatic ? 2 : 1;
-    if (isKind(*kept) && kept->use_count() == owners && !lent) kept->reset();
+    if (isKind(*kept) && kept->use_count() == owners && !external) kept->reset();
   }
   if (!isKind(named) && !isKind(shared.automatic)) return {};
   return Error{Code::busy,
@@ -104,18 +104,18 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
                         bool shares_memory) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
-  if (Result<void> free = giveWay(shared, BackendKind::vulkan, shared.vulkan, shared.lent); !free) return free;
-  if (shares_memory && !giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context)) {
+  if (Result<void> free = yieldTo(shared, BackendKind::vulkan, shared.vulkan, shared.external); !free) return free;
+  if (shares_memory && !yieldTo(shared, BackendKind::cuda, shared.cuda, shared.external_context)) {
     return Error{Code::busy,
                  "the runtime already has a CUDA device, whose meshes would not stay on this Vulkan device: lend the "
                  "Vulkan device first"};
   }
   BackendRequest request = requestFor(BackendKind::vulkan);
-  request.lent = device;
+  request.external = device;
   Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
   if (!made) return made.error();
   shared.vulkan = std::move(*made);
-  shared.lent = true;
+  shared.external = true;
   if (shares_memory) {
     shared.drawing = std::move(device);
     shared.none = false;
@@ -128,18 +128,18 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
 Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::BorrowedContext> context) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
-  if (Result<void> free = giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context); !free) return free;
+  if (Result<void> free = yieldTo(shared, BackendKind::cuda, shared.cuda, shared.external_context); !free) return free;
   BackendRequest request = requestFor(BackendKind::cuda);
-  request.lent_context = std::move(context);
+  request.external_context = std::move(context);
   Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
   // The code device_lost is reserved for a device that the runtime has used; here it only means that it cannot be used.
   if (!made)
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
-  shared.lent_context = true;
+  shared.external_context = true;
   // The automatic choice stays if it is an external hardware device, or CUDA with meshes in the external device's
   // memory.
-  if (shared.drawing || !shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
+  if (shared.drawing || !shared.external || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }
 

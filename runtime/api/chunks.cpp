@@ -13,7 +13,7 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr size_t kMostChunks = size_t{1} << 20;
+constexpr size_t kMaxChunks = size_t{1} << 20;
 constexpr sgm::Neighbourhood kBlocksAround = (1u << 27) - 1 - sgm::neighbourBit(0, 0, 0);
 
 sgm::ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key.z}}; }
@@ -21,7 +21,7 @@ sgm::ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y
 sgm_result checkRequests(const sgm_chunks_desc& desc, sgm_error* error) {
   if (desc.requests == nullptr) return nullArgument(error, "desc.requests");
   if (desc.count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
-  if (desc.count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
+  if (desc.count > kMaxChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
   if ((desc.flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE | SGM_MESHING_SHARP)) != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has unknown bits: pass 0 or values of sgm_meshing_flag");
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");

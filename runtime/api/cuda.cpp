@@ -12,11 +12,11 @@ using namespace sgm::api;
 namespace {
 
 sgm::cuda::BorrowedContext contextOf(const sgm_cuda_device_desc& desc) {
-  sgm::cuda::BorrowedContext lent;
-  lent.context = reinterpret_cast<sgm::cuda::CuContext>(desc.context);
-  lent.stream = reinterpret_cast<sgm::cuda::CuStream>(desc.stream);
-  if (desc.mesh_bytes != 0) lent.mesh_bytes = desc.mesh_bytes;
-  return lent;
+  sgm::cuda::BorrowedContext external;
+  external.context = reinterpret_cast<sgm::cuda::CuContext>(desc.context);
+  external.stream = reinterpret_cast<sgm::cuda::CuStream>(desc.stream);
+  if (desc.mesh_bytes != 0) external.mesh_bytes = desc.mesh_bytes;
+  return external;
 }
 
 sgm_cuda_part partOf(const sgm::cuda::CudaPart& part) {
@@ -37,9 +37,9 @@ sgm_result sgm_runtime_lend_cuda(sgm_runtime* runtime, const sgm_cuda_device_des
                   "desc.stream is CU_STREAM_PER_THREAD, which is another stream on every thread: pass a stream of "
                   "your own, CU_STREAM_LEGACY or NULL");
     }
-    const sgm::Result<void> lent =
+    const sgm::Result<void> external =
         lendCuda(*runtime, std::make_shared<const sgm::cuda::BorrowedContext>(contextOf(*desc)));
-    return lent ? SGM_OK : fail(error, lent.error());
+    return external ? SGM_OK : fail(error, external.error());
   });
 }
 

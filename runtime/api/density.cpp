@@ -8,8 +8,8 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMostPoints = 16384;         // maximum number of points on an axis
-constexpr uint64_t kMostInVolume = 1ull << 33;  // maximum number of points in a volume
+constexpr uint32_t kMaxPoints = 16384;         // maximum number of points on an axis
+constexpr uint64_t kMaxInVolume = 1ull << 33;  // maximum number of points in a volume
 
 /// Converts a pitch from bytes to values; 0 becomes the minimum pitch.
 sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least, const char* name, size_t& pitch) {
@@ -27,12 +27,12 @@ sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least,
 sgm_result takeGrid(sgm_error* error, const sgm_density_desc& desc, const sgm::Domain& domain, sgm::DensityGrid& grid) {
   if (desc.spacing < 1) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.spacing is below 1");
   for (size_t axis = 0; axis < 3; ++axis) {
-    if (desc.size[axis] < 1 || desc.size[axis] > kMostPoints)
+    if (desc.size[axis] < 1 || desc.size[axis] > kMaxPoints)
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                  "desc.size[" + std::to_string(axis) + "] is not between 1 and " + std::to_string(kMostPoints));
+                  "desc.size[" + std::to_string(axis) + "] is not between 1 and " + std::to_string(kMaxPoints));
     grid.size[axis] = desc.size[axis];
   }
-  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostInVolume)
+  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMaxInVolume)
     return fail(error, SGM_ERR_LIMIT, "the volume has more than 2^33 points");
   grid.origin = {desc.origin[0], desc.origin[1], desc.origin[2]};
   grid.spacing = desc.spacing;

@@ -22,7 +22,7 @@ struct alignas(std::max_align_t) HandleHead {
 
 /// The maximum size of head and handle together. The public header states it as the memory that a destroyed handle
 /// holds.
-inline constexpr size_t kMostHandleSize = 512;
+inline constexpr size_t kMaxHandleSize = 512;
 
 /// Adds an owner. Returns false, and changes nothing, if the handle is destroyed.
 bool gainOwner(HandleHead& head) noexcept;

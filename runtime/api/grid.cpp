@@ -9,8 +9,8 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMostSamples = 16384;        // maximum number of samples on an axis
-constexpr uint64_t kMostTogether = 1ull << 33;  // maximum number of samples in a grid
+constexpr uint32_t kMaxAxisSamples = 16384;   // maximum number of samples on an axis
+constexpr uint64_t kMaxSamples = 1ull << 33;  // maximum number of samples in a grid
 constexpr double kSmallestCell = 1e-30, kLargestCell = 1e30;
 
 sgm_result checkGrid(const sgm_grid_desc& desc, GridSamples& grid, sgm_error* error) {
@@ -18,12 +18,12 @@ sgm_result checkGrid(const sgm_grid_desc& desc, GridSamples& grid, sgm_error* er
   if (!(desc.cell >= kSmallestCell && desc.cell <= kLargestCell))
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.cell is not a number from 1e-30 to 1e30");
   for (size_t axis = 0; axis < 3; ++axis) {
-    if (desc.size[axis] < 2 || desc.size[axis] > kMostSamples)
+    if (desc.size[axis] < 2 || desc.size[axis] > kMaxAxisSamples)
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                  "desc.size[" + std::to_string(axis) + "] is not between 2 and " + std::to_string(kMostSamples));
+                  "desc.size[" + std::to_string(axis) + "] is not between 2 and " + std::to_string(kMaxAxisSamples));
     grid.size[axis] = desc.size[axis];
   }
-  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostTogether)
+  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMaxSamples)
     return fail(error, SGM_ERR_LIMIT, "the grid has more than 2^33 samples");
   grid.stride_y = desc.stride_y != 0 ? desc.stride_y : grid.size[0];
   if (grid.stride_y < grid.size[0]) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.stride_y is below desc.size[0]");

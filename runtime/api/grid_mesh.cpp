@@ -15,7 +15,7 @@ namespace sgm::api {
 namespace {
 
 /// The maximum number of vertices and of indices.
-constexpr uint64_t kMostNumbers = std::numeric_limits<uint32_t>::max();
+constexpr uint64_t kMaxNumbers = std::numeric_limits<uint32_t>::max();
 
 /// The crossed edges and the active cells of a slab of planes.
 struct Lists {
@@ -133,8 +133,8 @@ void GridMesher::expect() {
   edges.allocate(edgeRoom(size_x, 1));
   job.lattice.signs = signs.data();
   job.lattice.uniform = uniform.data();
-  constexpr size_t kMostRows = 128;
-  const size_t apart = (grid_.size[2] + kMostRows - 1) / kMostRows;
+  constexpr size_t kMaxRows = 128;
+  const size_t apart = (grid_.size[2] + kMaxRows - 1) / kMaxRows;
   ListCounts sum;
   for (size_t z = 0; z + 1 < grid_.size[2]; z += apart) {
     const double turn = static_cast<double>(z) * kGolden;
@@ -147,7 +147,7 @@ void GridMesher::expect() {
     sum.triangles += counts.triangles;
   }
   const auto expected = [&](uint64_t count) {
-    return std::min(count * apart * grid_.size[1] / 8 * 9, kMostNumbers / 3);
+    return std::min(count * apart * grid_.size[1] / 8 * 9, kMaxNumbers / 3);
   };
   provide(expected(sum.vertices), expected(sum.triangles), 0);
 }
@@ -297,7 +297,7 @@ void GridMesher::mesh(size_t number, Worker& worker) {
     listed.cells_below = below.lists->cells.data() + (first_cell_[plane] - first_cell_[below.first]);
   }
   worker.numbers.grow(0, 2 * grid_.size[0] * grid_.size[1]);
-  worker.offsets.grow(0, first_vertex_[slab.last] - first + kMostLanes);
+  worker.offsets.grow(0, first_vertex_[slab.last] - first + kMaxLanes);
   const GridBounds bounds = kernels_.mesh(job_, listed, {worker.numbers.data(), worker.offsets.data()});
   slab.meshed = true;
   const std::lock_guard lock(mutex_);
@@ -344,7 +344,7 @@ Result<GridMesh> GridMesher::run() {
   if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
 
   const uint64_t vertices = first_vertex_.back(), triangles = first_triangle_.back();
-  if (vertices > kMostNumbers || triangles > kMostNumbers / 3)
+  if (vertices > kMaxNumbers || triangles > kMaxNumbers / 3)
     return Error{Code::limit, "the mesh has more vertices or indices than a 32-bit number can count", 0, 0};
   const auto rest = std::find_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.meshed; });
   const auto meshed = static_cast<size_t>(rest - slabs_.begin());

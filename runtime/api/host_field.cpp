@@ -9,7 +9,7 @@ namespace sgm::api {
 
 namespace {
 
-constexpr size_t kMostHosts = 16;
+constexpr size_t kMaxHosts = 16;
 constexpr float kSteepest = 1000;
 
 sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& program, const std::string& name) {
@@ -64,8 +64,8 @@ sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program
                      std::vector<HostField>& hosts) {
   if (desc.host_count == 0) return SGM_OK;
   if (desc.hosts == nullptr) return nullArgument(error, "desc.hosts");
-  if (desc.host_count > kMostHosts)
-    return fail(error, SGM_ERR_LIMIT, "desc.host_count is more than " + std::to_string(kMostHosts));
+  if (desc.host_count > kMaxHosts)
+    return fail(error, SGM_ERR_LIMIT, "desc.host_count is more than " + std::to_string(kMaxHosts));
   size_t stride = desc.host_stride;
   if (sgm_result r = checkStride<sgm_host_field>(error, stride, "desc.host_stride"); r != SGM_OK) return r;
   for (size_t i = 0; i < desc.host_count; ++i) {

@@ -5,7 +5,7 @@
 namespace sgm::api {
 namespace {
 
-constexpr size_t kMostTold = 64;
+constexpr size_t kMaxReported = 64;
 
 /// Returns the message without its numbers: for example, the amount by which a shape is too large differs from cell to
 /// cell.
@@ -19,8 +19,8 @@ std::string kindOf(std::string message) {
 
 bool NoteLog::isNew(const DeriveNote& note, bool& last) {
   const std::lock_guard lock(mutex_);
-  last = told_.size() == kMostTold;
-  return told_.size() <= kMostTold && told_.insert({note.line, note.column, kindOf(note.message)}).second;
+  last = told_.size() == kMaxReported;
+  return told_.size() <= kMaxReported && told_.insert({note.line, note.column, kindOf(note.message)}).second;
 }
 
 void NoteLog::tell(const GrammarChunk& cell) {

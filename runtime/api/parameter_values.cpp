@@ -16,12 +16,12 @@ Result<uint32_t> findParameter(const Program& program, std::string_view name) {
   std::string message = join({"the grammar has no parameter '", name, "'"});
   if (const std::string hint = nearest.hint(); !hint.empty()) message += "; " + hint;
   // The maximum number of names listed in a message; a grammar may have hundreds.
-  constexpr size_t kMostNames = 12;
+  constexpr size_t kMaxNames = 12;
   const size_t count = program.params.size();
   message += count == 0 ? "; it has none" : "; it has ";
-  for (size_t i = 0; i < std::min(count, kMostNames); ++i)
+  for (size_t i = 0; i < std::min(count, kMaxNames); ++i)
     message += join({i == 0 ? "" : ", ", program.text(program.params[i].name)});
-  if (count > kMostNames) message += join({" and ", std::to_string(count - kMostNames), " more"});
+  if (count > kMaxNames) message += join({" and ", std::to_string(count - kMaxNames), " more"});
   return Error{Code::invalid_argument, message};
 }
 
@@ -30,9 +30,9 @@ Result<void> setFromText(const Program& program, std::string_view name, std::str
   const Result<uint32_t> index = findParameter(program, name);
   if (!index) return index.error();
 
-  constexpr uint32_t kMostTokens = 8;
-  DiagnosticSink sink(kMostTokens);
-  const LexResult lexed = lex(text, 0, kMostTokens, sink, std::pmr::get_default_resource());
+  constexpr uint32_t kMaxTokens = 8;
+  DiagnosticSink sink(kMaxTokens);
+  const LexResult lexed = lex(text, 0, kMaxTokens, sink, std::pmr::get_default_resource());
   if (const std::vector<Diagnostic> wrong = sink.take(); !wrong.empty())
     return Error{Code::bad_input, join({"parameter '", name, "': ", wrong.front().message})};
   size_t at = 0;

@@ -6,7 +6,7 @@
 namespace sgm::api {
 namespace {
 
-constexpr uint32_t kMostThreads = 1024;
+constexpr uint32_t kMaxThreads = 1024;
 
 sgm_result checkVersion(uint32_t version, sgm_error* error) {
   const uint32_t major = version / 1'000'000, minor = version / 1'000 % 1'000;
@@ -20,8 +20,8 @@ sgm_result checkVersion(uint32_t version, sgm_error* error) {
 
 sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
   if (sgm_result r = checkVersion(desc.api_version, error); r != SGM_OK) return r;
-  if (desc.threads > kMostThreads)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT, "threads is above " + std::to_string(kMostThreads));
+  if (desc.threads > kMaxThreads)
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "threads is above " + std::to_string(kMaxThreads));
   if (desc.allocator != nullptr && (desc.allocator->allocate == nullptr || desc.allocator->release == nullptr))
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "the allocator needs both allocate and release");
   if (desc.jobs != nullptr && (desc.jobs->concurrency == nullptr || desc.jobs->submit == nullptr))

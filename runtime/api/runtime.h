@@ -79,7 +79,7 @@ struct DeviceBackends {
   std::mutex mutex;
   std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until first requested
   /// true if `vulkan` uses an external device; true if `cuda` uses an external context
-  bool lent = false, lent_context = false;
+  bool external = false, external_context = false;
   bool none = false;  ///< true if the automatic choice has found no device
   /// The external device in whose memory CUDA stores meshes; null if there is none.
   std::shared_ptr<const vulkan::BorrowedDevice> drawing;
@@ -119,7 +119,7 @@ template <class Handle, class... Arguments>
 Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   constexpr size_t kSize = sizeof(HandleHead) + sizeof(Handle);
   static_assert(alignof(Handle) <= alignof(HandleHead));
-  static_assert(kSize <= kMostHandleSize);
+  static_assert(kSize <= kMaxHandleSize);
   void* memory = runtime.memory.allocate(kSize, alignof(HandleHead));
   auto* head = new (memory) HandleHead{runtime, kSize};
   Handle* handle = nullptr;

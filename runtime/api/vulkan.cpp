@@ -14,24 +14,24 @@ using namespace sgm::api;
 namespace {
 
 sgm::vulkan::BorrowedDevice deviceOf(const sgm_vulkan_device_desc& desc) {
-  sgm::vulkan::BorrowedDevice lent;
-  lent.get_instance_proc_addr = desc.get_instance_proc_addr;
-  lent.instance = desc.instance;
-  lent.physical = desc.physical_device;
-  lent.device = desc.device;
-  lent.queue = desc.queue;
-  lent.family = desc.queue_family;
+  sgm::vulkan::BorrowedDevice external;
+  external.get_instance_proc_addr = desc.get_instance_proc_addr;
+  external.instance = desc.instance;
+  external.physical = desc.physical_device;
+  external.device = desc.device;
+  external.queue = desc.queue;
+  external.family = desc.queue_family;
   const std::span readers(desc.reader_families, desc.reader_family_count);
-  lent.readers.assign(readers.begin(), readers.end());
-  lent.lock = desc.lock_queue;
-  lent.unlock = desc.unlock_queue;
-  lent.user = desc.user;
-  lent.api_version = desc.api_version;
-  lent.timeline_semaphores = desc.timeline_semaphores != 0;
-  lent.memory_budget = desc.memory_budget != 0;
-  lent.external_memory = desc.external_memory != 0;
-  if (desc.mesh_bytes != 0) lent.resident_cap = desc.mesh_bytes;
-  return lent;
+  external.readers.assign(readers.begin(), readers.end());
+  external.lock = desc.lock_queue;
+  external.unlock = desc.unlock_queue;
+  external.user = desc.user;
+  external.api_version = desc.api_version;
+  external.timeline_semaphores = desc.timeline_semaphores != 0;
+  external.memory_budget = desc.memory_budget != 0;
+  external.external_memory = desc.external_memory != 0;
+  if (desc.mesh_bytes != 0) external.resident_cap = desc.mesh_bytes;
+  return external;
 }
 
 sgm_vulkan_part partOf(const sgm::vulkan::VulkanPart& part) {
@@ -47,9 +47,9 @@ sgm_result sgm_runtime_lend_vulkan(sgm_runtime* runtime, const sgm_vulkan_device
     if (desc->reader_families == nullptr && desc->reader_family_count != 0) {
       return nullArgument(error, "desc.reader_families");
     }
-    const sgm::Result<void> lent = lendVulkan(
+    const sgm::Result<void> external = lendVulkan(
         *runtime, std::make_shared<const sgm::vulkan::BorrowedDevice>(deviceOf(*desc)), desc->external_memory != 0);
-    return lent ? SGM_OK : fail(error, lent.error());
+    return external ? SGM_OK : fail(error, external.error());
   });
 }
 

@@ -96,8 +96,8 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.collider_distance = desc->collider_distance * sgm::kUnitsPerMetre;
     const sgm::Program& program = *field->content->world.settings().program;
     settings.edits.author = desc->author;
-    settings.edits.most_material = static_cast<uint16_t>(program.materials.size() - 1);
-    settings.edits.most_tag = static_cast<uint16_t>(program.tags.size() - 1);
+    settings.edits.max_material = static_cast<uint16_t>(program.materials.size() - 1);
+    settings.edits.max_tag = static_cast<uint16_t>(program.tags.size() - 1);
     settings.journal = pathOf(desc->journal);
     settings.cache = pathOf(desc->cache_folder);
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;

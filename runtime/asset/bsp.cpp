@@ -9,7 +9,7 @@ namespace sgm::asset {
 namespace {
 
 constexpr double kSamePlane = 1e-12;  ///< two normals are the same if their cosine is at least 1 minus this value
-constexpr size_t kMostCandidates = 24;
+constexpr size_t kMaxCandidates = 24;
 
 /// A part of a face, within a cell that is not completely divided yet.
 struct Fragment {
@@ -143,7 +143,7 @@ class CellCutter {
         known->first -= f.area;
     }
     std::sort(candidates.begin(), candidates.end());
-    if (candidates.size() > kMostCandidates) candidates.resize(kMostCandidates);
+    if (candidates.size() > kMaxCandidates) candidates.resize(kMaxCandidates);
     uint32_t best = candidates.front().second;
     size_t fewest = cell.fragments.size() + 1;
     for (const auto& candidate : candidates) {

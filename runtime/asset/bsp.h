@@ -36,9 +36,9 @@ struct BspCells {
   Plane sidePlane(Side side) const { return side.before ? planes[side.plane].turned() : planes[side.plane]; }
 };
 
-inline constexpr size_t kMostCells = 8192;
+inline constexpr size_t kMaxCells = 8192;
 
 /// Cuts the space around and inside a polyhedron. Errors: limit if there would be more than `most` cells.
-Result<BspCells> cutIntoCells(const Polyhedron& solid, size_t most = kMostCells);
+Result<BspCells> cutIntoCells(const Polyhedron& solid, size_t most = kMaxCells);
 
 }  // namespace sgm::asset

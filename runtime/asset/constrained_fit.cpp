@@ -146,7 +146,7 @@ class FaceMover {
         if (std::find(corner.by.begin(), corner.by.end(), f) != corner.by.end()) continue;
         LinearForm stays = moveOf(c, normalOf(f));
         stays.emplace_back(f, -1);
-        if (!system.demand(stays, 0, tolerance_)) return std::nullopt;
+        if (!system.hardConstraint(stays, 0, tolerance_)) return std::nullopt;
       }
     }
     for (uint32_t c = 0; c < corners_.size(); ++c)
@@ -155,9 +155,9 @@ class FaceMover {
         along[axis] = 1;
         const double moved = wanted_[c][axis] - solid_.points[c][axis];
         if (maps_[static_cast<size_t>(axis)].isStiff(solid_.points[c][axis], tolerance_)) {
-          if (!system.demand(moveOf(c, along), moved, 8 * tolerance_)) return std::nullopt;
+          if (!system.hardConstraint(moveOf(c, along), moved, 8 * tolerance_)) return std::nullopt;
         } else {
-          system.wish(moveOf(c, along), moved, kPlaceWeight / (edge_ * edge_));
+          system.softConstraint(moveOf(c, along), moved, kPlaceWeight / (edge_ * edge_));
         }
       }
     for (const auto& [a, b] : edges_) {
@@ -165,8 +165,8 @@ class FaceMover {
       const double size = length(way);
       LinearForm longer = moveOf(b, (1 / size) * way);
       for (const auto& [face, times] : moveOf(a, (1 / size) * way)) longer.emplace_back(face, -times);
-      const double wish = dot((1 / size) * way, wanted_[b] - wanted_[a]) - size;
-      system.wish(longer, wish, 1 / (size * size));
+      const double softConstraint = dot((1 / size) * way, wanted_[b] - wanted_[a]) - size;
+      system.softConstraint(longer, softConstraint, 1 / (size * size));
     }
     return moved(system.solve());
   }

@@ -24,7 +24,7 @@ struct PieceSide {
 using ConvexPiece = std::vector<PieceSide>;
 
 struct CoverLimits {
-  size_t cells = kMostCells, pieces = 4096, features = 65536;
+  size_t cells = kMaxCells, pieces = 4096, features = 65536;
 };
 
 /// Returns pieces of maximal size, none of them redundant. Errors: limit if the polyhedron is too intricate; bad_input

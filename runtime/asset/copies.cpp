@@ -25,8 +25,8 @@ class Repeater {
       faceAt(zone.from, moved);
       for (size_t i = 0; i < count; ++i) {
         part(zone.from, zone.to, moved + static_cast<double>(i) * (zone.to - zone.from));
-        if (triangles_.size() > kMostCopiedTriangles)
-          return Error{Code::limit, "its copies have more than " + std::to_string(kMostCopiedTriangles) + " triangles",
+        if (triangles_.size() > kMaxCopiedTriangles)
+          return Error{Code::limit, "its copies have more than " + std::to_string(kMaxCopiedTriangles) + " triangles",
                        0, 0};
       }
       moved += (static_cast<double>(count) - 1) * (zone.to - zone.from);

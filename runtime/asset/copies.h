@@ -13,7 +13,7 @@ struct Stretch {
   double from = 0, to = 0;
 };
 
-inline constexpr size_t kMostCopiedTriangles = 65536;
+inline constexpr size_t kMaxCopiedTriangles = 65536;
 
 /// Repeats each zone `count` times (0: removes it), and moves everything behind a zone accordingly. The zones must be
 /// in order and disjoint. Errors: bad_input if the sections at the two ends of a zone differ, so that the copies would

@@ -13,7 +13,7 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kMostCopies = 1000;
+constexpr double kMaxCopies = 1000;
 constexpr int kBisections = 14;
 constexpr char kAxes[] = "xyz";
 
@@ -40,7 +40,7 @@ struct AxisPlan {
     const double fixed = length - sum(repeats), one = sum(repeats);
     const double least = static_cast<double>(leastCopies());
     const double nearest = std::floor((size - fixed) / one + 0.5);
-    return static_cast<size_t>(std::clamp(nearest, least, kMostCopies));
+    return static_cast<size_t>(std::clamp(nearest, least, kMaxCopies));
   }
 
   /// Returns the plan without its repeating zones, for zero copies.

@@ -17,9 +17,9 @@ class LeastSquares {
   explicit LeastSquares(size_t unknowns);
 
   /// Adds the hard constraint form = value. Returns false if it contradicts earlier ones by more than `tolerance`.
-  bool demand(const LinearForm& form, double value, double tolerance);
+  bool hardConstraint(const LinearForm& form, double value, double tolerance);
   /// Adds the soft constraint weight * (form - value)^2.
-  void wish(const LinearForm& form, double value, double weight);
+  void softConstraint(const LinearForm& form, double value, double weight);
   /// Returns the values of the unknowns; 0 for those that no constraint determines.
   std::vector<double> solve() const;
 

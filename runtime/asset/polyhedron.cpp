@@ -117,10 +117,10 @@ double Polyhedron::volume() const {
 }
 
 Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
-  if (mesh.triangles.size() > kMostTriangles)
+  if (mesh.triangles.size() > kMaxTriangles)
     return Error{Code::limit,
                  "it has " + std::to_string(mesh.triangles.size()) + " triangles, and `fit` takes at most " +
-                     std::to_string(kMostTriangles),
+                     std::to_string(kMaxTriangles),
                  0, 0};
   Polyhedron solid;
   // Only points that triangles use determine the box.
@@ -139,10 +139,10 @@ Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
   std::vector<uint32_t> materials;
   for (const uint32_t source : welded->source) materials.push_back(mesh.materials[source]);
   FaceFinder(solid, materials).run();
-  if (solid.faces.size() > kMostFaces)
+  if (solid.faces.size() > kMaxFaces)
     return Error{Code::limit,
                  "it has " + std::to_string(solid.faces.size()) + " plane faces, and `fit` takes at most " +
-                     std::to_string(kMostFaces),
+                     std::to_string(kMaxFaces),
                  0, 0};
   return solid;
 }

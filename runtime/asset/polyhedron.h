@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-inline constexpr size_t kMostTriangles = 4096, kMostFaces = 256;
+inline constexpr size_t kMaxTriangles = 4096, kMaxFaces = 256;
 
 /// The tolerance of an asset whose longest edge has this length: points closer to each other count as one point.
 constexpr double toleranceOf(double longest_edge) { return 2e-6 * longest_edge; }

@@ -53,8 +53,8 @@ class Welder {
       }
       add(corners, t);
     }
-    constexpr int kMostRounds = 16;
-    for (int round = 0; round < kMostRounds && splitEdges(); ++round) {
+    constexpr int kMaxRounds = 16;
+    for (int round = 0; round < kMaxRounds && splitEdges(); ++round) {
     }
     if (const std::optional<std::string> open = complaint()) return Error{Code::bad_input, *open, 0, 0};
     return std::move(out_);

@@ -14,7 +14,7 @@ struct DeviceCounters {
 };
 
 /// Opening a device takes longer than a batch, so after this many failures in a row it is not opened again.
-constexpr unsigned kMostInVain = 8;
+constexpr unsigned kMaxFailures = 8;
 
 /// State that the backend shares with its batches. The batches must not outlive it.
 struct DeviceShared {
@@ -42,7 +42,7 @@ struct DeviceShared {
     if (!warn) return;
     try {
       warn(name + " was lost, and the CPU continues: " + why.message);
-      if (in_vain.load() == kMostInVain) warn(name + " is no longer used: it was lost repeatedly");
+      if (in_vain.load() == kMaxFailures) warn(name + " is no longer used: it was lost repeatedly");
     } catch (const std::bad_alloc&) {
       // There is no memory for the message; the counter still shows the loss.
     }
@@ -302,7 +302,7 @@ class DeviceBackend final : public Backend {
   /// Returns the session; after a loss, opens a new one. Null if the device cannot be opened.
   std::shared_ptr<DeviceSession> session() {
     const std::scoped_lock lock(shared_.mutex);
-    if (shared_.session || shared_.in_vain.load() >= kMostInVain) return shared_.session;
+    if (shared_.session || shared_.in_vain.load() >= kMaxFailures) return shared_.session;
     if (Result<std::shared_ptr<DeviceSession>> opened = shared_.open()) {
       shared_.session = std::move(*opened);
     } else {

@@ -15,8 +15,8 @@ Error readError(const std::string& name, const std::string& why) {
   return {Code::io, "cannot read " + name + ": " + why};
 }
 
-Error tooLarge(const std::string& name, uint64_t most_bytes) {
-  return {Code::limit, name + " is larger than " + std::to_string(most_bytes) + " bytes"};
+Error tooLarge(const std::string& name, uint64_t max_bytes) {
+  return {Code::limit, name + " is larger than " + std::to_string(max_bytes) + " bytes"};
 }
 
 Result<platform::File> openForReading(const std::filesystem::path& path, Readable readable) {
@@ -51,27 +51,27 @@ bool append(int file, std::string& content, size_t bytes) {
 
 }  // namespace
 
-Result<std::string> readOpenFile(int file, const std::string& name, uint64_t most_bytes) {
+Result<std::string> readOpenFile(int file, const std::string& name, uint64_t max_bytes) {
   platform::FileStatus status;
   if (platform::statusOf(file, status) != 0) return readError(name, systemMessage(errno));
   const uint64_t reported = status.isRegular() ? status.bytes : 0;
-  if (reported > most_bytes) return tooLarge(name, most_bytes);
+  if (reported > max_bytes) return tooLarge(name, max_bytes);
   std::string content;
   // Read one byte more than the file's reported size, to detect whether the file has ended there.
   size_t next = std::max(static_cast<size_t>(reported) + 1, reported > 0 ? 0 : kPiece);
   for (;;) {
     const size_t before = content.size();
     if (!append(file, content, next)) return readError(name, systemMessage(errno));
-    if (content.size() > most_bytes) return tooLarge(name, most_bytes);
+    if (content.size() > max_bytes) return tooLarge(name, max_bytes);
     if (content.size() - before < next) return content;
     next = std::max(kPiece, content.size());
   }
 }
 
-Result<std::string> readFile(const std::filesystem::path& path, uint64_t most_bytes, Readable readable) {
+Result<std::string> readFile(const std::filesystem::path& path, uint64_t max_bytes, Readable readable) {
   const Result<platform::File> file = openForReading(path, readable);
   if (!file) return file.error();
-  return readOpenFile(file->number(), path.string(), most_bytes);
+  return readOpenFile(file->number(), path.string(), max_bytes);
 }
 
 Result<std::string> readBeginning(const std::filesystem::path& path, size_t bytes) {

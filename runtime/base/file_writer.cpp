@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr size_t kBufferBytes = size_t{1} << 20;
-constexpr int kMostLinks = 40;
-constexpr int kMostNames = 1000;
+constexpr int kMaxLinks = 40;
+constexpr int kMaxNames = 1000;
 
 Error writeError(const fs::path& target, const std::string& reason) {
   return {Code::io, "cannot write '" + target.string() + "': " + reason};
@@ -25,7 +25,7 @@ Error writeError(const fs::path& target, int code) { return writeError(target, s
 /// The path with symbolic links at its end resolved, even if the file to which the last link points does not exist yet.
 Result<std::string> followed(const fs::path& target) {
   fs::path place = target;
-  for (int links = 0; links < kMostLinks; ++links) {
+  for (int links = 0; links < kMaxLinks; ++links) {
     std::error_code why;
     if (!fs::is_symlink(fs::symlink_status(place, why))) return place.string();
     const fs::path to = fs::read_symlink(place, why);
@@ -59,7 +59,7 @@ void removeIfLeft(const std::string& name) {
 }
 
 void removeLeft(const std::string& place) {
-  for (int number = 0; number < kMostNames; ++number) {
+  for (int number = 0; number < kMaxNames; ++number) {
     const std::string name = nameBeside(place, number);
     platform::FileStatus there;
     if (platform::statusAt(name, there, false) != 0) return;
@@ -134,7 +134,7 @@ FileWriter::~FileWriter() {
 
 /// Returns 0, or the errno if no file could be opened.
 int FileWriter::openNamed() {
-  for (int number = 0; number < kMostNames; ++number) {
+  for (int number = 0; number < kMaxNames; ++number) {
     temporary_ = nameBeside(place_, number);
     file_ = platform::openFile(temporary_,
                                platform::kWrite | platform::kCreate | platform::kExclusive | platform::kNoFollow);
@@ -154,7 +154,7 @@ int FileWriter::openNamed() {
 
 /// Gives the nameless file a name beside the target. Returns 0, or the errno of the failure.
 int FileWriter::nameNameless() {
-  for (int number = 0; number < kMostNames; ++number) {
+  for (int number = 0; number < kMaxNames; ++number) {
     std::string name = nameBeside(place_, number);
     if (platform::nameFile(file_, name) == 0) {
       temporary_ = std::move(name);

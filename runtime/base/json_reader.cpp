@@ -15,14 +15,14 @@ constexpr double kLargestWhole = 9007199254740992.0;
 
 class JsonParser {
  public:
-  JsonParser(std::string_view text, size_t most_values) : text_(text), most_values_(most_values) {}
+  JsonParser(std::string_view text, size_t max_values) : text_(text), max_values_(max_values) {}
 
   Result<JsonValue> run() {
     JsonValue value = parse(0);
     skip();
     if (!failed_ && at_ < text_.size()) fail("text after the value");
-    if (values_ > most_values_)
-      return Error{Code::limit, "it has more than " + std::to_string(most_values_) + " JSON values", 0, 0};
+    if (values_ > max_values_)
+      return Error{Code::limit, "it has more than " + std::to_string(max_values_) + " JSON values", 0, 0};
     if (failed_) return Error{Code::bad_input, message_, 0, 0};
     return value;
   }
@@ -55,7 +55,7 @@ class JsonParser {
   JsonValue parse(int depth) {
     JsonValue value;
     skip();
-    if (++values_ > most_values_) {
+    if (++values_ > max_values_) {
       failed_ = true;  // run() returns the error
     } else if (depth > kDeepest) {
       fail("values nested too deeply");
@@ -184,7 +184,7 @@ class JsonParser {
   }
 
   std::string_view text_;
-  size_t at_ = 0, values_ = 0, most_values_;
+  size_t at_ = 0, values_ = 0, max_values_;
   bool failed_ = false;
   std::string message_;
 };
@@ -215,6 +215,6 @@ std::optional<size_t> JsonValue::whole() const {
   return static_cast<size_t>(number);
 }
 
-Result<JsonValue> readJson(std::string_view text, size_t most_values) { return JsonParser(text, most_values).run(); }
+Result<JsonValue> readJson(std::string_view text, size_t max_values) { return JsonParser(text, max_values).run(); }
 
 }  // namespace sgm

@@ -37,8 +37,8 @@ class JsonValue {
 };
 
 /// Parses the text of one JSON value. A value takes about 100 bytes of memory, but may take only two bytes of text;
-/// `most_values` therefore limits the number of values.
-/// Errors: bad_input, with the byte offset in the message; limit for more than `most_values`.
-Result<JsonValue> readJson(std::string_view text, size_t most_values = SIZE_MAX);
+/// `max_values` therefore limits the number of values.
+/// Errors: bad_input, with the byte offset in the message; limit for more than `max_values`.
+Result<JsonValue> readJson(std::string_view text, size_t max_values = SIZE_MAX);
 
 }  // namespace sgm

@@ -21,8 +21,8 @@ struct RecordHeader {
 };
 static_assert(sizeof(RecordHeader) == (6 + 7 * 6) * sizeof(uint32_t) && std::is_trivially_copyable_v<RecordHeader>);
 
-constexpr int kMostPosition = kChunkCells * kSubcell;
-constexpr uint32_t kMostSolid = kChunkCells * kChunkCells * kChunkCells;
+constexpr int kMaxPosition = kChunkCells * kSubcell;
+constexpr uint32_t kMaxSolid = kChunkCells * kChunkCells * kChunkCells;
 
 /// Writes the words of the records by column, as differences. Returns the end of the output.
 template <class Word, size_t kWords>
@@ -123,7 +123,7 @@ Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memo
   const uint64_t expected = sizeof header + uint64_t{header.vertices} * sizeof(Vertex) +
                             uint64_t{header.indices} * sizeof(uint32_t) + header.extra;
   if (bytes.size() != expected || header.indices % 3 != 0) return badRecord("its sizes contradict each other");
-  if (header.seams >= 1u << 6 || header.solid_samples > kMostSolid)
+  if (header.seams >= 1u << 6 || header.solid_samples > kMaxSolid)
     return badRecord("its seams or its solid samples are out of range");
 
   ChunkRecord record(memory);
@@ -139,7 +139,7 @@ Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memo
 
   const auto outside = [](const Vertex& v) {
     const int beyond = isFeature(v.kind) ? 2 * kSubcell : 0;
-    return std::max({v.x, v.y, v.z}) > kMostPosition + beyond || std::min({v.x, v.y, v.z}) < -beyond;
+    return std::max({v.x, v.y, v.z}) > kMaxPosition + beyond || std::min({v.x, v.y, v.z}) < -beyond;
   };
   if (std::any_of(record.mesh.vertices.begin(), record.mesh.vertices.end(), outside)) {
     return badRecord("a vertex lies outside the chunk");

@@ -56,7 +56,7 @@ bool getExtra(std::span<const std::byte> bytes, const ChunkPartInputs& inputs, C
     part.anchors.push_back(a);
   }
   const size_t voids = in.left() / sizeof(VoidComponent);
-  if (voids > kMostVoidComponents || (voids != 0 && !inputs.request().signs)) return false;
+  if (voids > kMaxVoidComponents || (voids != 0 && !inputs.request().signs)) return false;
   part.voids.resize(voids);
   for (VoidComponent& component : part.voids) {
     for (uint64_t& face : component.faces) face = in.get<uint64_t>();

@@ -16,11 +16,11 @@ namespace {
 MorphOffset newtonStep(double value, const std::array<double, 3>& gradient, int32_t cell) {
   const double square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
   MorphOffset offset{};
-  if (!(square > 0) || std::fabs(value) > std::sqrt(square) * kMostMorph / kSubcell * cell) return offset;
+  if (!(square > 0) || std::fabs(value) > std::sqrt(square) * kMaxMorph / kSubcell * cell) return offset;
   const double scale = -value / square * kSubcell / cell;
   for (size_t axis = 0; axis < 3; ++axis) {
     const double step = std::floor(scale * gradient[axis] + 0.5);
-    offset[axis] = static_cast<int16_t>(std::clamp(step, double{-kMostMorph}, double{kMostMorph}));
+    offset[axis] = static_cast<int16_t>(std::clamp(step, double{-kMaxMorph}, double{kMaxMorph}));
   }
   return offset;
 }

@@ -15,11 +15,11 @@ namespace sgm {
 using MorphOffset = std::array<int16_t, 3>;
 
 /// The largest component of an offset: two cells of the coarser level.
-inline constexpr int kMostMorph = 4 * kSubcell;
+inline constexpr int kMaxMorph = 4 * kSubcell;
 
 /// Returns one offset for each vertex: a Newton step on the field of the next coarser level. It is a pure function of
 /// the vertex's position and the chunk's level, so chunks of one level agree on shared vertices. The offset is 0 on the
-/// highest level; where the coarser level has no surface within kMostMorph; and for a seam's vertices that belong to
+/// highest level; where the coarser level has no surface within kMaxMorph; and for a seam's vertices that belong to
 /// the coarser level or join the two. These vertices do not move, so a coarse chunk must not be blended where it meets
 /// a finer one. Errors: those of WorldField::compile. Throws std::bad_alloc.
 Result<std::pmr::vector<MorphOffset>> morphOffsets(const WorldField& world, const PackedMesh& mesh,

@@ -18,12 +18,12 @@ constexpr size_t kBatchChunks = 256;
 // The maximum number of chunks that a thread prepares in a row: successive requests mostly use the same cells.
 constexpr size_t kPreparedTogether = 16;
 // The maximum number of cells that a thread holds between chunks, in addition to those in the cache.
-constexpr size_t kMostAtHand = 1024;
+constexpr size_t kMaxCachedCells = 1024;
 
-/// True if a thread should release the cells it holds between chunks: they are more than kMostAtHand, or more than the
-/// thread's share of the cache's bytes.
-bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
-  if (cells.size() > kMostAtHand) return true;
+/// True if a thread should release the cells it holds between chunks: they are more than kMaxCachedCells, or more than
+/// the thread's share of the cache's bytes.
+bool tooMany(const CachedCells& cells, size_t byte_limit) {
+  if (cells.size() > kMaxCachedCells) return true;
   size_t bytes = 0;
   for (const auto& [key, cell] : cells) bytes += cell->bytes;
   return bytes > byte_limit;
@@ -31,7 +31,7 @@ bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
 
 /// Prepares the backend's job for a chunk, and the content of the chunk that needs no meshing (such as anchors).
 Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
-                     CellsAtHand& at_hand, ChunkJob& job, PlacedChunk& chunk) {
+                     CachedCells& cached_cells, ChunkJob& job, PlacedChunk& chunk) {
   const Result<ChunkGrid> grid = chunkGrid(world, request.key);
   if (!grid) return grid.error();
   chunk.grid = job.grid = *grid;
@@ -44,19 +44,19 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.prompt = request.prompt;
   job.sums_only = request.sums_only;
   Result<std::shared_ptr<const FieldProgram>> field =
-      world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits, &at_hand);
+      world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits, &cached_cells);
   if (!field) return field.error();
   job.field = std::move(*field);
   if (request.seams != 0) {
     const int above = grid->level + 1;
     Result<std::shared_ptr<const FieldProgram>> coarse =
         request.outermost ? world.compileOutside(above)
-                          : world.compile(sampledBox(*grid, above, request.sharp), above, edits, &at_hand);
+                          : world.compile(sampledBox(*grid, above, request.sharp), above, edits, &cached_cells);
     if (!coarse) return coarse.error();
     job.coarse = std::move(*coarse);
   }
   if (request.anchors) {
-    Result<std::vector<Anchor>> anchors = world.anchors(chunkBox(*grid), &at_hand);
+    Result<std::vector<Anchor>> anchors = world.anchors(chunkBox(*grid), &cached_cells);
     if (!anchors) return anchors.error();
     chunk.anchors = std::move(*anchors);
   }
@@ -151,12 +151,12 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     std::optional<Error> error;
     size_t error_at = 0;
     const size_t together = std::clamp<size_t>(batch.size() / (4 * jobs.concurrency()), 1, kPreparedTogether);
-    const size_t at_hand_limit = world.settings().cache_bytes / jobs.concurrency();
+    const size_t cached_cells_limit = world.settings().cache_bytes / jobs.concurrency();
     parallelFor(jobs, (batch.size() + together - 1) / together, [&](size_t run) {
-      CellsAtHand at_hand;
+      CachedCells cached_cells;
       for (size_t i = run * together; i < std::min((run + 1) * together, batch.size()); ++i) {
-        if (tooMany(at_hand, at_hand_limit)) at_hand.clear();
-        const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
+        if (tooMany(cached_cells, cached_cells_limit)) cached_cells.clear();
+        const Result<void> prepared = prepare(world, batch[i], edits, cached_cells, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
         // Of several errors, the one of the first request is reported, so that the result does not depend on the
         // threads' speed.
@@ -212,12 +212,12 @@ Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const
     }
   }
   const uint64_t count = countChunks(region, unit->cell);
-  if (const uint64_t most = std::min(max_chunks, kMostRegionChunks); count > most) {
+  if (const uint64_t most = std::min(max_chunks, kMaxRegionChunks); count > most) {
     return Error{Code::limit,
                  "the region has " + std::to_string(count) + " chunks, more than " + std::to_string(most) +
                      "; make the cells larger" + fittingCellText({&region, 1}, level, world.cellAt(0), most) +
                      " or the region smaller" +
-                     (max_chunks < kMostRegionChunks ? ", or raise the limit" : ": the limit cannot be raised")};
+                     (max_chunks < kMaxRegionChunks ? ", or raise the limit" : ": the limit cannot be raised")};
   }
   std::pmr::vector<ChunkKey> keys(world.memory());
   keys.reserve(static_cast<size_t>(count));

@@ -15,7 +15,7 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMostLooks = 32;   ///< examined parts of one statement; its other parts are assumed to be alike
+constexpr size_t kMaxLooks = 32;    ///< examined parts of one statement; its other parts are assumed to be alike
 constexpr size_t kTracedCells = 8;  ///< of a layer; later cells are traced if they have thin shapes of a new kind
 
 /// Samples the world near a part.
@@ -211,7 +211,7 @@ class PartCounter {
 
   /// Whether a part counts: it stands free, or is assumed to, as other parts of its statement do.
   Result<bool> countsAs(Found& found, const ThinShape& thin) {
-    if (found.looked < kMostLooks) {
+    if (found.looked < kMaxLooks) {
       const Result<bool> alone = surroundings_.standsAlone(thin.slab, thin.cut);
       if (!alone) return alone.error();
       ++found.looked;

@@ -4,25 +4,25 @@
 // that are not 0, so that the sum of three products is the same in every order, and so are the bits. Included by
 // evaluate_lists.inl.
 
-inline constexpr size_t kMostNoisePeriods = 7;  ///< maximum number of periods along an axis, which have kRow corners
-inline constexpr size_t kMostNoiseRows = kEvalBlock / kRow;
+inline constexpr size_t kMaxNoisePeriods = 7;  ///< maximum number of periods along an axis, which have kRow corners
+inline constexpr size_t kMaxNoiseRows = kEvalBlock / kRow;
 
 /// One axis of a block in an octave. Each word is repeated kRow times, because vectors of rows read it.
 struct NoiseAxis {
   size_t periods = 0;                                           ///< number of periods that contain the coordinates
   /// period of each coordinate, counted from that of the first one
-  uint8_t period[kMostNoiseRows];
+  uint8_t period[kMaxNoiseRows];
   /// the corners at the beginnings of the periods, and at the end of the last one
-  alignas(64) uint32_t corner[(kMostNoisePeriods + 1) * kRow];
-  alignas(64) uint32_t rest[kMostNoiseRows * kRow];             ///< position of each coordinate within its period
-  alignas(64) uint32_t faded[kMostNoiseRows * kRow];            ///< same as rest, after smoothing
+  alignas(64) uint32_t corner[(kMaxNoisePeriods + 1) * kRow];
+  alignas(64) uint32_t rest[kMaxNoiseRows * kRow];             ///< position of each coordinate within its period
+  alignas(64) uint32_t faded[kMaxNoiseRows * kRow];            ///< same as rest, after smoothing
 };
 
-/// Fills the axis for `count` coordinates from `origin` on. Returns false if they lie in more than kMostNoisePeriods
+/// Fills the axis for `count` coordinates from `origin` on. Returns false if they lie in more than kMaxNoisePeriods
 /// periods.
 SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t count, int period, float inv_period) {
-  alignas(64) uint32_t cell[kMostNoiseRows], rest[kMostNoiseRows], faded[kMostNoiseRows];
-  for (size_t i = 0; i < kMostNoiseRows; ++i) cell[i] = origin + static_cast<uint32_t>(step) * static_cast<uint32_t>(i);
+  alignas(64) uint32_t cell[kMaxNoiseRows], rest[kMaxNoiseRows], faded[kMaxNoiseRows];
+  for (size_t i = 0; i < kMaxNoiseRows; ++i) cell[i] = origin + static_cast<uint32_t>(step) * static_cast<uint32_t>(i);
   for (size_t i = 0; i < count; i += kLanes) {
     const LatticePlace p = latticePlace(loadInt(cell + i), period, inv_period);
     const Real f = toReal(p.rest) * inv_period;
@@ -33,7 +33,7 @@ SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t
   uint32_t last = 0;
   for (size_t i = 0; i < count; ++i) {
     const uint32_t beyond = cell[i] - cell[0];
-    if (beyond >= kMostNoisePeriods) return false;
+    if (beyond >= kMaxNoisePeriods) return false;
     axis.period[i] = static_cast<uint8_t>(beyond);
     last = beyond > last ? beyond : last;
     for (size_t lane = 0; lane < kRow; ++lane) {
@@ -50,7 +50,7 @@ SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t
 
 /// Gradients at the corners of all periods of a block; rows along x, and the rows of a slice together.
 struct NoiseCorners {
-  static constexpr size_t kWords = (kMostNoisePeriods + 1) * (kMostNoisePeriods + 1) * kRow + kRow;
+  static constexpr size_t kWords = (kMaxNoisePeriods + 1) * (kMaxNoisePeriods + 1) * kRow + kRow;
   alignas(64) uint32_t x[kWords], y[kWords], z[kWords];
 
   SGM_KERNEL void fill(uint32_t first_x, const NoiseAxis& rows, const NoiseAxis& slices, uint seed) {
@@ -131,7 +131,7 @@ SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, s
   size_t longest = kRow > height ? kRow : height;
   longest = longest > depth ? longest : depth;
   const int64_t finest = QI(P, 6 + 2 * (PI(P, 3) - 1));
-  if (f.lattice->step * static_cast<int64_t>(longest - 1) > static_cast<int64_t>(kMostNoisePeriods) * finest) return 0;
+  if (f.lattice->step * static_cast<int64_t>(longest - 1) > static_cast<int64_t>(kMaxNoisePeriods) * finest) return 0;
   uint32_t* const out = f.registers + in.dst * kRegisterWords<false>;
   NoiseBlock block;
   float weight = PF(P, 5);

@@ -12,7 +12,7 @@ namespace {
 // parameter words (shaders/common/lattice.h)
 constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;
 constexpr double kFarAway = double{kFarSample};
-constexpr int64_t kMostPoints = int64_t{1} << 25;
+constexpr int64_t kMaxPoints = int64_t{1} << 25;
 constexpr double kFarthest = 1 << 30;
 
 /// Returns the position `at` along an axis in lattice cells, at least 1, because the first and the last cell only
@@ -79,7 +79,7 @@ std::optional<size_t> latticePoints(const SampleLattice& lattice) {
   int64_t points = 1;
   for (const uint32_t count : lattice.count) {
     points *= count;
-    if (points > kMostPoints || int64_t{count} * lattice.spacing > static_cast<int64_t>(kFarthest)) return std::nullopt;
+    if (points > kMaxPoints || int64_t{count} * lattice.spacing > static_cast<int64_t>(kFarthest)) return std::nullopt;
   }
   return static_cast<size_t>(points);
 }

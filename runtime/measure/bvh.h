@@ -59,11 +59,11 @@ class Bvh {
 
   /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap. visit returns the
   /// steps that it took. A call counts as one step plus these, and so does each visit of two nodes. Stops after
-  /// `most_steps` steps; returns the number of steps taken.
+  /// `max_steps` steps; returns the number of steps taken.
   template <class Visit>
-  uint64_t visitPairs(Walk& walk, uint64_t most_steps, Visit&& visit) const {
+  uint64_t visitPairs(Walk& walk, uint64_t max_steps, Visit&& visit) const {
     uint64_t steps = 0;
-    for (; walk.count > 0 && steps < most_steps; ++steps) {
+    for (; walk.count > 0 && steps < max_steps; ++steps) {
       const auto [a, b] = walk.waiting[--walk.count];
       if (a != b && isLeaf(a)) {
         if constexpr (std::is_void_v<std::invoke_result_t<Visit&, uint32_t, uint32_t>>) {
@@ -85,15 +85,15 @@ class Bvh {
   };
 
   /// Calls visit(triangle) for each triangle whose box meets the ray from `at`. Returns false if it stopped because it
-  /// had visited `most_steps` nodes.
+  /// had visited `max_steps` nodes.
   template <class Visit>
-  bool visitColumn(Point at, Column column, uint64_t most_steps, Visit&& visit) const {
+  bool visitColumn(Point at, Column column, uint64_t max_steps, Visit&& visit) const {
     // Capacity: each row of the tree adds at most one waiting node.
     std::array<uint32_t, 34> waiting;
     waiting[0] = 1;
     size_t count = 1;
     for (uint64_t steps = 0; count > 0; ++steps) {
-      if (steps == most_steps) return false;
+      if (steps == max_steps) return false;
       const uint32_t node = waiting[--count];
       const Box& box = boxes_[node];
       const auto reaches = [&](int axis) {

@@ -100,7 +100,7 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
   for (int axis = 0; axis < 3; ++axis) {
     cubes[static_cast<size_t>(axis)] = std::floor((high[axis] - low[axis]) / edge) + 3;
   }
-  if (!(cubes[0] * cubes[1] * std::max(cubes[2], 64.0) <= static_cast<double>(kMostCubes))) {
+  if (!(cubes[0] * cubes[1] * std::max(cubes[2], 64.0) <= static_cast<double>(kMaxCubes))) {
     return Error{Code::limit, "the mesh's box holds more than 2^30 cubes: choose larger ones"};
   }
   double looks = 0;
@@ -113,7 +113,7 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
     }
     looks += columns;
   }
-  if (!(looks <= static_cast<double>(kMostLooks))) {
+  if (!(looks <= static_cast<double>(kMaxLooks))) {
     return Error{Code::limit, "the mesh's triangles lie over more than 2^27 columns of cubes: choose larger ones"};
   }
   Lattice corners;

@@ -17,16 +17,16 @@ struct CubeVolumes {
   double volumeOf(uint64_t cubes) const { return static_cast<double>(cubes) * edge * edge * edge; }
 };
 
-inline constexpr uint64_t kMostCubes = uint64_t{1} << 30;
+inline constexpr uint64_t kMaxCubes = uint64_t{1} << 30;
 /// The maximum number of columns of cubes that are visited, summed over triangles. Only a densely folded surface needs
 /// more.
-inline constexpr uint64_t kMostLooks = uint64_t{1} << 27;
+inline constexpr uint64_t kMaxLooks = uint64_t{1} << 27;
 
 /// Counts cubes. They lie on a grid that starts `edge` before `low` and ends `edge` after `high`. A point is inside if
 /// the surface winds around it more often outward than inward, which is found along z; for an open mesh, the result
 /// means little. Precondition: the coordinates lie within low..high. Memory: a bit per cube, at least 8 bytes per
 /// column of cubes, 24 bytes per crossing of a column and a triangle. Errors: invalid_argument if edge is not above 0;
-/// limit if there are more than kMostCubes cubes (columns of less than 64 count as 64) or kMostLooks visits.
+/// limit if there are more than kMaxCubes cubes (columns of less than 64 count as 64) or kMaxLooks visits.
 Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, double edge);
 
 }  // namespace sgm::measure

@@ -24,7 +24,7 @@ class Places {
  public:
   explicit Places(const Triangles& mesh) : mesh_(mesh) {}
 
-  bool full(DefectKind kind) const { return counts_[static_cast<size_t>(kind)] == kMostExamples; }
+  bool full(DefectKind kind) const { return counts_[static_cast<size_t>(kind)] == kMaxExamples; }
   void add(DefectKind kind, uint32_t triangle, Point at) {
     if (full(kind)) return;
     ++counts_[static_cast<size_t>(kind)];

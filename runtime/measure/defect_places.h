@@ -45,7 +45,7 @@ struct Cut {
 /// The number of open edges that lie in the cut.
 uint64_t cutEdges(const Triangles& mesh, const Edges& edges, const Cut& cut);
 
-/// Returns at most kMostExamples defects of each kind: those of the lowest edges, triangles or shells. edges, parts,
+/// Returns at most kMaxExamples defects of each kind: those of the lowest edges, triangles or shells. edges, parts,
 /// nesting: computed from this mesh. self_intersections: null if they were not searched. Takes time linear in the size
 /// of the mesh.
 std::vector<DefectPlace> defectPlaces(const Triangles& mesh, const Edges& edges, const Shells& parts,

@@ -13,7 +13,7 @@
 namespace sgm::measure {
 namespace {
 
-constexpr uint32_t kMostCuts = 64;
+constexpr uint32_t kMaxCuts = 64;
 // Sizes of one job. They are fixed, so that results do not depend on the number of threads, and small, since one search
 // may visit much of the other surface if all of it is equally far.
 constexpr size_t kSampledTogether = 128;  // triangles, or points, per job
@@ -146,7 +146,7 @@ Error wrong(const char* message) { return {Code::invalid_argument, message}; }
 
 Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const HausdorffSettings& settings,
                               JobSystem& jobs) {
-  if (settings.cuts < 1 || settings.cuts > kMostCuts) return wrong("the cuts along an edge must be 1 to 64");
+  if (settings.cuts < 1 || settings.cuts > kMaxCuts) return wrong("the cuts along an edge must be 1 to 64");
   if (!(settings.tolerance >= 0)) return wrong("the tolerance is not a number of 0 or more");
   OneSided result;
   if (from.triangles.empty()) return result;

@@ -92,7 +92,7 @@ class BodyMeasurer {
       const Vertex& v = body_.vertices[i];
       directions_[i] = unfoldNormal(v.normal_x, v.normal_y);
       if (isFeature(v.kind)) {
-        const bool within = isWithin(v, kLeastPosition, kMostPosition);
+        const bool within = isWithin(v, kLeastPosition, kMaxPosition);
         count(Defect::outside) += !within;
         planes_[i] = static_cast<uint8_t>(kIsFeature | (within ? planesOfFeature(v) : kLeftOut));
         ++features_;
@@ -254,7 +254,7 @@ PartMeasures measureSeam(const PartView& seam) {
   part.vertices = static_cast<uint32_t>(seam.vertices.size());
   part.triangles = static_cast<uint32_t>(seam.indices.size() / 3);
   const auto outside = [](const Vertex& v) {
-    return isFeature(v.kind) ? !isWithin(v, kLeastPosition, kMostPosition) : !isWithin(v, 0, kEnd);
+    return isFeature(v.kind) ? !isWithin(v, kLeastPosition, kMaxPosition) : !isWithin(v, 0, kEnd);
   };
   part.defects[static_cast<size_t>(Defect::outside)] =
       static_cast<uint32_t>(std::count_if(seam.vertices.begin(), seam.vertices.end(), outside));

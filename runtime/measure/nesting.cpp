@@ -32,9 +32,9 @@ Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], 
 constexpr int kColumns = 6;
 
 /// Finds the nearest open shell above a point. If there is none, or it only touches the line, searches below, then
-/// along the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
+/// along the other axes. nullopt if one of these searches exceeds max_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
-                                   uint64_t most_steps) {
+                                   uint64_t max_steps) {
   for (int number = 0; number < kColumns; ++number) {
     const Bvh::Column column{(2 + number / 2) % 3, number % 2 == 0};
     const int away = column.above ? 1 : -1;
@@ -42,7 +42,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
     double nearest = std::numeric_limits<double>::infinity();
     // number of triangles at the nearest crossing that face away from the point, minus those that face it
     int facing = 0;
-    const bool ended = tree.visitColumn(at, column, most_steps, [&](uint32_t triangle) {
+    const bool ended = tree.visitColumn(at, column, max_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
       if (shell == kNoShell || !boundsUpToCut(parts.shells[shell])) return;
       std::array<Point, 3> t;
@@ -63,10 +63,10 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
 }  // namespace
 
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
-                           uint64_t most_steps) {
+                           uint64_t max_steps) {
   // In upward direction, empty space follows at the end, so each triangle that faces up is where a solid ends.
   int depth = 0;
-  const bool ended = tree.visitColumn(at, {}, most_steps, [&](uint32_t triangle) {
+  const bool ended = tree.visitColumn(at, {}, max_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
     if (shell == all_but || shell == kNoShell || !bounds(parts.shells[shell])) return;
     const Triangle& corners = mesh.triangles[triangle];
@@ -77,11 +77,11 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
   return ended ? std::optional<int>(depth) : std::nullopt;
 }
 
-Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t most_steps,
+Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t max_steps,
                   JobSystem& jobs) {
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
-  const uint64_t share = shells > 0 ? most_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
+  const uint64_t share = shells > 0 ? max_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
   // Without an open shell, all shells lie in the same space. If a shell faces outward, that space is void.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
@@ -125,7 +125,7 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
     all.not_judged += block.not_judged;
     for (const auto list : {&Nesting::first_inside_out, &Nesting::first_nested}) {
       for (const uint32_t shell : block.*list)
-        if ((all.*list).size() < kMostExamples) (all.*list).push_back(shell);
+        if ((all.*list).size() < kMaxExamples) (all.*list).push_back(shell);
     }
   }
   return all;

@@ -7,7 +7,7 @@
 
 namespace sgm::measure {
 
-SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs,
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t max_steps, JobSystem& jobs,
                                     const MeasureProgress& progress) {
   constexpr size_t kParts = 256;
   struct Part {
@@ -21,7 +21,7 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   uint64_t done = 0;
   // Parts of the search that need fewer steps than their share leave the rest to the others in the next round. So the
   // result does not depend on the speed of threads.
-  uint64_t left = most_steps;
+  uint64_t left = max_steps;
   for (;;) {
     std::vector<Part*> open;
     for (Part& part : parts)
@@ -37,7 +37,7 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
         ++part.found.pairs;
         part.found.folded += folded;
         auto& examples = folded ? part.found.folded_examples : part.found.examples;
-        if (examples.size() < kMostExamples) examples.push_back(std::minmax(a, b));
+        if (examples.size() < kMaxExamples) examples.push_back(std::minmax(a, b));
         return kStepsAPair - 1;
       });
       if (!progress || !part.walk.ended()) return;
@@ -57,7 +57,7 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   }
   for (auto* examples : {&all.examples, &all.folded_examples}) {
     std::sort(examples->begin(), examples->end());
-    examples->resize(std::min(examples->size(), kMostExamples));
+    examples->resize(std::min(examples->size(), kMaxExamples));
   }
   return all;
 }

@@ -19,7 +19,7 @@ struct SelfIntersections {
   uint64_t folded = 0;  ///< the pairs among these that overlap at an edge
   /// False if the search stopped after its maximum number of steps, because too many triangles lie close together.
   bool complete = true;
-  /// Pairs of triangles, the lower number first: at most kMostExamples that fold, and as many that cut.
+  /// Pairs of triangles, the lower number first: at most kMaxExamples that fold, and as many that cut.
   std::vector<std::pair<uint32_t, uint32_t>> folded_examples, examples;
 
   uint64_t cuts() const { return pairs - folded; }
@@ -28,10 +28,10 @@ struct SelfIntersections {
 /// Receives progress notices. Calls come from any thread, never concurrently, with ascending `done`.
 using MeasureProgress = std::function<void(uint64_t done, uint64_t total)>;
 
-/// Finds all pairs of triangles that intersect. Exact (triangle_pair.h). tree: of the same triangles. most_steps: the
+/// Finds all pairs of triangles that intersect. Exact (triangle_pair.h). tree: of the same triangles. max_steps: the
 /// maximum number of visits of two nodes of the tree plus tests of two triangles. A pair that intersects counts
 /// kStepsAPair, to end the search early in a large heap of intersecting triangles. The same for any number of threads.
-SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs,
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t max_steps, JobSystem& jobs,
                                     const MeasureProgress& progress = {});
 
 }  // namespace sgm::measure

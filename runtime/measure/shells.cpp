@@ -102,7 +102,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
     } else {
       shell.manifold = false;
       result.shells[number[other / 3]].manifold = false;
-      if (result.pinched.size() < kMostExamples) result.pinched.emplace_back(beginOf(triangles, corner), corner / 3);
+      if (result.pinched.size() < kMaxExamples) result.pinched.emplace_back(beginOf(triangles, corner), corner / 3);
     }
   }
 

@@ -38,7 +38,7 @@ struct Shells {
   /// "Independent objects", section 7.3 of the paper: groups of triangles connected through vertices. Two cubes that
   /// touch at a corner are one object and two shells.
   uint64_t objects = 0;
-  /// Non-manifold vertices, each with one of its triangles: at most kMostExamples.
+  /// Non-manifold vertices, each with one of its triangles: at most kMaxExamples.
   std::vector<std::pair<uint32_t, uint32_t>> pinched;
   /// index into shells of each triangle; kNoShell if the triangle has a repeated corner
   LargeVector<uint32_t> of_triangle;
@@ -47,7 +47,7 @@ struct Shells {
 inline constexpr uint32_t kNoShell = 0xFFFFFFFFu;
 
 /// The maximum number of examples that are listed for a defect. More would not help a reader.
-inline constexpr size_t kMostExamples = 16;
+inline constexpr size_t kMaxExamples = 16;
 
 /// Finds the shells of a mesh. edges: of the same triangles. centre: see Shell::volume. Triangles with a repeated
 /// corner belong to no shell, but connect objects.

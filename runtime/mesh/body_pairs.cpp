@@ -10,9 +10,9 @@ namespace {
 // Cell coordinates start two cells below the chunk, because feature vertices can lie outside it.
 constexpr int kBelow = 2, kCells = kChunkCells + 2 * kBelow + 1;
 constexpr int kLeast = -kBelow * kSubcell, kMost = (kChunkCells + kBelow) * kSubcell;
-constexpr int kMostSpan = 4 * kSubcell;
+constexpr int kMaxSpan = 4 * kSubcell;
 /// Maximum number of triangles in a cell that are compared cell by cell. A body without defects has at most a dozen.
-constexpr size_t kMostInCell = 64;
+constexpr size_t kMaxInCell = 64;
 
 using Cell = std::array<int, 3>;
 
@@ -52,7 +52,7 @@ class PairCounter {
       Cell home{};
       for (size_t axis = 0; axis < 3; ++axis) {
         const int low = triangle.low[axis], high = triangle.high[axis];
-        inside &= low >= kLeast && high <= kMost && high - low <= kMostSpan;
+        inside &= low >= kLeast && high <= kMost && high - low <= kMaxSpan;
         beyond |= high > ((low >> 8) + 1) * kSubcell;
         home[axis] = cellAt(low);
       }
@@ -77,7 +77,7 @@ class PairCounter {
     for (size_t t = 0; t + 1 < count; ++t) {
       const PairTriangle& triangle = triangles_[t];
       if (triangle.wide || triangle.home == kLeftOut) continue;
-      const size_t end = std::min(count, t + kMostInCell);
+      const size_t end = std::min(count, t + kMaxInCell);
       for (size_t other = t + 1; other < end; ++other) {
         if (triangles_[other].wide) continue;
         if (triangles_[other].home != triangle.home) break;

@@ -44,7 +44,7 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
   }
   // A position close to the edge of the side's own square is moved into it, where no other face vertex interferes.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
-  const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMostOutside &&
+  const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMaxOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
   for (const int k : {u, v})
     if (!is_beside || k != across) place[k] = std::clamp(place[k], 1, kSubcell - 1);

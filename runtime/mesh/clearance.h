@@ -16,7 +16,7 @@
 namespace sgm {
 
 /// Larger distances are clamped to this value, in cells: a chunk and its 26 neighbours cannot determine larger ones.
-inline constexpr int kMostClearance = kChunkCells;
+inline constexpr int kMaxClearance = kChunkCells;
 
 /// The signs of a chunk's samples.
 struct ChunkSigns {
@@ -35,7 +35,7 @@ struct ChunkSigns {
 using ChunkSignsAround = std::array<const ChunkSigns*, 27>;
 
 /// Returns the squared distances, in square cells, from each sample of the middle chunk to the nearest solid sample; x
-/// fastest, then y, then z. Distances above `most` (1 to kMostClearance squared) are returned as `most`. Reads only the
+/// fastest, then y, then z. Distances above `most` (1 to kMaxClearance squared) are returned as `most`. Reads only the
 /// samples within sqrt(most) of the middle chunk; if most = 1, the middle chunk alone. Pure.
 std::pmr::vector<uint16_t> squaredClearance(const ChunkSignsAround& around, int most,
                                             std::pmr::memory_resource* memory = std::pmr::get_default_resource());

@@ -138,7 +138,7 @@ Vector3 Creases::nearestOnCrease(const Tangent& a, const Tangent& b, const Int3&
 bool Creases::isOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& place) const {
   const auto isInPlane = [&](const Tangent& t) {
     const double off = dot(t.normal, minus(place, between(corner, t.point))) - t.distance;
-    return std::fabs(off) <= mostOffSurface();
+    return std::fabs(off) <= maxOffSurface();
   };
   return isInPlane(a) && isInPlane(b);
 }
@@ -157,15 +157,15 @@ std::optional<FacePoint> Creases::meetingInFace(const Tangent& a, const Tangent&
 
 Creases::Range Creases::rangeOn(int axis, const Int3& corner, int across) const {
   const auto chunk = static_cast<int32_t>((int64_t{grid_.origin[axis]} - corner[axis]) / grid_.cell) * kSubcell;
-  return {std::max(-kMostOutside, chunk + 1),
-          std::min((axis == across ? 0 : kSubcell) + kMostOutside, chunk + kChunkCells * kSubcell - 1)};
+  return {std::max(-kMaxOutside, chunk + 1),
+          std::min((axis == across ? 0 : kSubcell) + kMaxOutside, chunk + kChunkCells * kSubcell - 1)};
 }
 
 std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, int across) const {
   Int3 place;
   for (int k = 0; k < 3; ++k) {
     const double at = std::floor(units[static_cast<size_t>(k)] / grid_.cell * kSubcell + 0.5);
-    if (!(at >= -kMostOutside && at <= (k == across ? 0 : kSubcell) + kMostOutside)) return std::nullopt;
+    if (!(at >= -kMaxOutside && at <= (k == across ? 0 : kSubcell) + kMaxOutside)) return std::nullopt;
     const Range range = rangeOn(k, corner, across);
     place[k] = std::clamp(static_cast<int32_t>(at), range.least, range.most);
   }
@@ -194,7 +194,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
   Vector3 place;
   for (size_t k = 0; k < 3; ++k) {
     // The interval's ends are rounded, so the point is clamped again.
-    const double lo = -kMostOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMostOutside) * step;
+    const double lo = -kMaxOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMaxOutside) * step;
     place[k] = std::clamp(units[k] + at * along[k], lo, hi);
   }
   return onGrid(corner, place, across);
@@ -206,11 +206,11 @@ Int3 Creases::sampledAt(const Int3& corner, const Int3& place) const {
   return point;
 }
 
-double Creases::mostOffSurface() const { return kOffSurface * grid_.cell + 1; }
+double Creases::maxOffSurface() const { return kOffSurface * grid_.cell + 1; }
 
 bool Creases::isOnSurface(const FieldSample& sample) const {
   const Vector3 g = gradientOf(sample);
-  return std::fabs(double{sample.value}) <= mostOffSurface() * std::sqrt(dot(g, g));
+  return std::fabs(double{sample.value}) <= maxOffSurface() * std::sqrt(dot(g, g));
 }
 
 Vector3 Creases::unitsFrom(const Int3& corner, uint32_t vertex) const {

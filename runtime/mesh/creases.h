@@ -89,7 +89,7 @@ class Creases {
   static std::optional<FacePoint> meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis);
 
   /// Rounds a point, in units from a corner of the grid, to 1/256 of a cell. nullopt if the point lies more than
-  /// kMostOutside beyond the corner's cell or, along the axis `across` (-1: none), more than kMostOutside from the
+  /// kMaxOutside beyond the corner's cell or, along the axis `across` (-1: none), more than kMaxOutside from the
   /// cell's low face. A point beyond the chunk is moved to 1/256 of a cell inside it.
   std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
   /// Same as onGrid, for the point on the crease of the two planes that is nearest to `units` and within the allowed
@@ -100,7 +100,7 @@ class Creases {
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
   /// The tolerance, in units, for points on the surface. It includes one unit because the field is sampled at whole
   /// units.
-  double mostOffSurface() const;
+  double maxOffSurface() const;
   bool isOnSurface(const FieldSample& sample) const;
   /// The vector from a corner to a vertex of the part, in units.
   Vector3 unitsFrom(const Int3& corner, uint32_t vertex) const;

@@ -76,8 +76,8 @@ class Neighbours {
     const PlaceBox own = boxOf(loop);
     Int3 lo, hi;
     for (int k = 0; k < 3; ++k) {
-      lo[k] = (own.lo[k] - kMostOutside) >> 8;
-      hi[k] = (own.hi[k] + kMostOutside) >> 8;
+      lo[k] = (own.lo[k] - kMaxOutside) >> 8;
+      hi[k] = (own.hi[k] + kMaxOutside) >> 8;
     }
     visitCells(loop, own, lo, hi, visit);
   }
@@ -312,7 +312,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
     // it, so it is tested last.
     order.clear();
     for (const uint32_t number : dirty) {
-      const auto rank = static_cast<uint32_t>(kMostOutside - outsideOf(sharp, sharp.loops[number]));
+      const auto rank = static_cast<uint32_t>(kMaxOutside - outsideOf(sharp, sharp.loops[number]));
       order.push_back(uint64_t{rank} << 32 | number);
     }
     std::sort(order.begin(), order.end());

@@ -8,7 +8,7 @@ namespace sgm {
 namespace {
 
 /// The maximum number of points of a fan: the vertices and face vertices of a loop, and the centre.
-constexpr size_t kMostPoints = LoopTriangles::kMost + 1;
+constexpr size_t kMaxPoints = LoopTriangles::kMost + 1;
 
 struct Area {
   int64_t x = 0, y = 0, z = 0;
@@ -49,7 +49,7 @@ class Patch {
 
   /// Triangulates so that all triangles face one way. Returns false if no choice of diagonals achieves that.
   bool triangulateFlat(const IsFree& is_free, LoopTriangles& triangles) const {
-    std::array<std::array<uint8_t, kMostPoints>, kMostPoints> apexes;
+    std::array<std::array<uint8_t, kMaxPoints>, kMaxPoints> apexes;
     if (!findDiagonals(is_free, normal(), apexes)) return false;
     const auto write = [&](const auto& self, size_t i, size_t j) -> void {
       if (j - i < 2) return;
@@ -88,9 +88,9 @@ class Patch {
   /// Finds the diagonals by dynamic programming. apexes[i][j] becomes the apex of the triangle over the chord from
   /// corner i to j. Returns false if every triangulation has a triangle that faces away from `out`.
   bool findDiagonals(const IsFree& is_free, const Area& out,
-                     std::array<std::array<uint8_t, kMostPoints>, kMostPoints>& apexes) const {
+                     std::array<std::array<uint8_t, kMaxPoints>, kMaxPoints>& apexes) const {
     constexpr int64_t kNoTriangles = 0;
-    std::array<std::array<int64_t, kMostPoints>, kMostPoints> smallest{};
+    std::array<std::array<int64_t, kMaxPoints>, kMaxPoints> smallest{};
     for (size_t i = 0; i + 1 < count_; ++i) smallest[i][i + 1] = std::numeric_limits<int64_t>::max();
     for (size_t span = 2; span < count_; ++span) {
       for (size_t i = 0; i + span < count_; ++i) {
@@ -111,7 +111,7 @@ class Patch {
     return smallest[0][count_ - 1] != kNoTriangles;
   }
 
-  std::array<FanPoint, kMostPoints> corners_;
+  std::array<FanPoint, kMaxPoints> corners_;
   size_t count_;
 };
 

@@ -10,11 +10,11 @@ namespace sgm {
 /// The maximum distance of a feature vertex from its cell, or of a face vertex from its face's square, in 1/256 of a
 /// cell. A right-angled ridge can rise up to sqrt(1/2) of a cell (181/256) between samples that do not detect it. The
 /// limit is less than a cell, so that a fan never reaches a cell two cells away.
-inline constexpr int32_t kMostOutside = 200;
+inline constexpr int32_t kMaxOutside = 200;
 
 /// How far beyond a chunk of cells of this size (units) the field is sampled for sharp features, in units. A face
 /// vertex in the coarser chunk's face depends on loops up to two squares away, also beyond the finer chunk. These in
-/// turn depend on face vertices up to kMostOutside beyond their own squares (mesh/surroundings.h,
+/// turn depend on face vertices up to kMaxOutside beyond their own squares (mesh/surroundings.h,
 /// mesh/rounded_cells.h).
 inline constexpr int64_t sharpReach(int64_t cell) { return 3 * cell + 1; }
 

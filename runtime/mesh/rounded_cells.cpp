@@ -10,7 +10,7 @@ namespace {
 
 /// The maximum number of other sides of a claim (mesh/rounded_cells.h). Each side may have its face vertices or lose
 /// them, which doubles the number of cases to test.
-constexpr size_t kMostOthers = 4;
+constexpr size_t kMaxOthers = 4;
 
 }  // namespace
 
@@ -104,7 +104,7 @@ std::optional<RoundedCells::Border> RoundedCells::ownOf(const Claim& claim) cons
 bool RoundedCells::keepsClear(const Claim& claim) const {
   const std::optional<Border> own = ownOf(claim);
   const std::span<const Border> others(others_.data() + claim.first_other, claim.end_other - claim.first_other);
-  if (!own || others.size() > kMostOthers) return false;
+  if (!own || others.size() > kMaxOthers) return false;
   for (uint32_t present = 0; present < 1u << others.size(); ++present) {
     const LoopTriangles rounded = trianglesOf(own->loop, *own, others, present);
     if (hasFault(rounded)) return false;
@@ -124,8 +124,8 @@ LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::s
       if (part_.keys[own_loop.vertices[i]] == part_.keys[v]) return own_loop.vertices[i];
     return v;
   };
-  std::array<FanPoint, kLongestCubeLoop + FacePlaces::kMost*(kMostOthers + 1)> ring;
-  std::array<BorderVertex, FacePlaces::kMost*(kMostOthers + 1)> at_border;
+  std::array<FanPoint, kLongestCubeLoop + FacePlaces::kMost*(kMaxOthers + 1)> ring;
+  std::array<BorderVertex, FacePlaces::kMost*(kMaxOthers + 1)> at_border;
   std::array<Int3, kLongestCubeLoop> vertices;
   size_t count = 0, at_border_count = 0;
   const auto addSide = [&](const Border& border, size_t which_border) {

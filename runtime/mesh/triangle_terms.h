@@ -13,7 +13,7 @@ namespace sgm {
 
 /// The allowed positions of measured vertices on each axis: feature vertices may lie slightly more than a cell beyond
 /// the chunk.
-inline constexpr int kLeastPosition = -2 * kSubcell, kMostPosition = kChunkCells * kSubcell + 2 * kSubcell;
+inline constexpr int kLeastPosition = -2 * kSubcell, kMaxPosition = kChunkCells * kSubcell + 2 * kSubcell;
 
 /// A direction in integers: components are below 2^15 in magnitude, and their absolute values sum to 32767.
 struct PackedDirection {
@@ -52,7 +52,7 @@ struct TriangleTerms {
   int64_t six_volumes;  ///< six times the signed volume of the tetrahedron between the triangle and the chunk's origin
 };
 
-/// Precondition: all coordinates are in kLeastPosition..kMostPosition.
+/// Precondition: all coordinates are in kLeastPosition..kMaxPosition.
 SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex& c) {
   const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;

@@ -60,7 +60,7 @@ VoidComponents voidComponents(std::span<const uint64_t> signs, std::pmr::memory_
   for (size_t label = 0; label < runs.labels(); ++label) {
     const size_t root = runs.rootOf(label);
     if (root == label && touches[label] != 0) {
-      number[label] = static_cast<uint8_t>(std::min(touching, kMostVoidComponents - 2));
+      number[label] = static_cast<uint8_t>(std::min(touching, kMaxVoidComponents - 2));
       touching = size_t{number[label]} + 1;
     }
     number[label] = number[root];

@@ -20,7 +20,7 @@ namespace sgm {
 
 inline constexpr int kVoidBlock = 4;                          ///< cells per axis that one bit of a mask stands for
 inline constexpr int kVoidBlocks = kChunkCells / kVoidBlock;  ///< blocks per axis of a chunk
-inline constexpr size_t kMostVoidComponents = 64;             ///< per chunk
+inline constexpr size_t kMaxVoidComponents = 64;              ///< per chunk
 
 /// One void. Block i of an axis has the samples 4 i to 4 i + 4: a sample on the border of two blocks counts for both.
 struct VoidComponent {

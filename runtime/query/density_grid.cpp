@@ -145,11 +145,11 @@ class BlockFill {
 };
 
 Result<void> check(const QueryField& field, const DensityGrid& grid) {
-  if (!(grid.edge >= 1 && grid.edge <= double{kMostEdgeCells} * field.finest_cell)) {
+  if (!(grid.edge >= 1 && grid.edge <= double{kMaxEdgeCells} * field.finest_cell)) {
     return Error{Code::invalid_argument, "an edge of the density of " + numberText(grid.edge / kUnitsPerMetre) +
                                              " m is out of range: it must be at least one unit wide, and at most " +
-                                             std::to_string(kMostEdgeCells) + " cells of level 0, " +
-                                             numberText(double{kMostEdgeCells} * field.finest_cell / kUnitsPerMetre) +
+                                             std::to_string(kMaxEdgeCells) + " cells of level 0, " +
+                                             numberText(double{kMaxEdgeCells} * field.finest_cell / kUnitsPerMetre) +
                                              " m: make the edge narrower, or the cells larger"};
   }
   for (int axis = 0; axis < 3; ++axis) {

@@ -15,7 +15,7 @@ struct DensityGrid {
   Int3 origin;
   int32_t spacing = kUnitsPerMetre;  ///< distance of neighbouring points in units, at least 1
   std::array<uint32_t, 3> size{};    ///< number of points on each axis, at least 1
-  /// distance in units over which the density rises from 0 at the surface to 1: 1 to kMostEdgeCells finest cells
+  /// distance in units over which the density rises from 0 at the surface to 1: 1 to kMaxEdgeCells finest cells
   double edge = 10.0 * kUnitsPerMetre;
 };
 

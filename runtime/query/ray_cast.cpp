@@ -9,7 +9,7 @@ namespace {
 
 // a piece of the ray has one program; its length is the larger of these two
 constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;
-constexpr int64_t kMostPieces = 64;
+constexpr int64_t kMaxPieces = 64;
 constexpr int64_t kSampledPieceCells = 32;  // length of a piece if host fields are sampled for each program
 // evaluating this many samples costs as much as one more attempt to prove a stretch empty
 constexpr int64_t kLeafSteps = 48;
@@ -30,7 +30,7 @@ class RayWalk {
   Result<std::optional<SurfacePoint>> run() {
     const auto last = static_cast<int64_t>(std::ceil(length_ / step_));
     const int64_t units =
-        field_.sampled ? kSampledPieceCells * field_.finest_cell : longestRay(field_.finest_cell) / kMostPieces;
+        field_.sampled ? kSampledPieceCells * field_.finest_cell : longestRay(field_.finest_cell) / kMaxPieces;
     const auto piece = static_cast<int64_t>(static_cast<double>(units) / step_);
     for (int64_t first = 0; first <= last; first += piece) {
       const int64_t end = std::min(last, first + piece - 1);
@@ -107,7 +107,7 @@ double lengthInWorld(const SplitPosition& from, const Vector3& direction, double
 
 }  // namespace
 
-int64_t longestRay(int32_t finest_cell) { return kMostPieces * std::max(kPieceUnits, kPieceCells * finest_cell); }
+int64_t longestRay(int32_t finest_cell) { return kMaxPieces * std::max(kPieceUnits, kPieceCells * finest_cell); }
 
 Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const Vector3& from, const Vector3& direction,
                                             double length) {

@@ -13,7 +13,7 @@ namespace sgm {
 
 namespace {
 
-constexpr int kMostNeed = kMostClearance * kMostClearance;
+constexpr int kMaxNeed = kMaxClearance * kMaxClearance;
 constexpr int kRadiiTogether = 16;  // number of agent sizes that one pass over the region distinguishes
 // number of chunks whose voids are computed in parallel before they are added to the graph
 constexpr size_t kChunksTogether = 64;
@@ -76,14 +76,14 @@ class VoidSearch {
   Int3 unitsAt(Int3 sample) const { return {sample.x * field_.cell, sample.y * field_.cell, sample.z * field_.cell}; }
 
   Result<void> setUp() {
-    const double most = double{kMostClearance} * field_.cell;
+    const double most = double{kMaxClearance} * field_.cell;
     if (!(question_.radius >= 0 && question_.radius < most)) {
       return Error{Code::invalid_argument, "the radius is not a number from 0 to less than " +
-                                               std::to_string(kMostClearance) + " cells, " +
+                                               std::to_string(kMaxClearance) + " cells, " +
                                                numberText(most / kUnitsPerMetre) + " m"};
     }
     const int64_t edge = int64_t{kChunkCells} * field_.cell;
-    const uint64_t most_chunks = std::min(question_.max_chunks, kMostRegionChunks);
+    const uint64_t max_chunks = std::min(question_.max_chunks, kMaxRegionChunks);
     uint64_t chunks = 1;
     for (int axis = 0; axis < 3; ++axis) {
       if (question_.region.lo[axis] >= question_.region.hi[axis])
@@ -95,12 +95,12 @@ class VoidSearch {
       low_[axis] = static_cast<int32_t>(low);
       high_[axis] = static_cast<int32_t>(high);
       count_[axis] = high_[axis] - low_[axis];
-      chunks = std::min(chunks * static_cast<uint64_t>(count_[axis]), most_chunks + 1);
+      chunks = std::min(chunks * static_cast<uint64_t>(count_[axis]), max_chunks + 1);
     }
-    if (chunks > most_chunks) {
-      return Error{Code::limit, "the region has more than " + std::to_string(most_chunks) +
+    if (chunks > max_chunks) {
+      return Error{Code::limit, "the region has more than " + std::to_string(max_chunks) +
                                     " chunks; make the cells larger" +
-                                    fittingCellText({&question_.region, 1}, 0, field_.cell, most_chunks) +
+                                    fittingCellText({&question_.region, 1}, 0, field_.cell, max_chunks) +
                                     " or the region smaller, or raise the limit"};
     }
     return {};
@@ -149,7 +149,7 @@ class VoidSearch {
     // The eight samples around a place always lie in one chunk.
     const Int3 chunk = chunkOf(low);
     if (const Result<void> added = window_.add(chunksAround(chunk, 1), jobs_); !added) return added.error();
-    const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMostNeed);
+    const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMaxNeed);
     End end;
     double nearest = 0;
     for (int corner = 0; corner < 8; ++corner) {
@@ -176,7 +176,7 @@ class VoidSearch {
   /// Returns the smallest square that is greater than that of the radius: any nearer solid sample blocks the agent.
   int needed() const {
     int need = 1;
-    while (need < kMostNeed && isAsNear(need, question_.radius)) ++need;
+    while (need < kMaxNeed && isAsNear(need, question_.radius)) ++need;
     return need;
   }
 

@@ -21,7 +21,7 @@ namespace sgm {
 
 struct VoidQuestion {
   IntBox region;      ///< lo <= p < hi, units; grown to whole chunks
-  double radius = 0;  ///< radius of the agent in units: 0 to less than kMostClearance cells
+  double radius = 0;  ///< radius of the agent in units: 0 to less than kMaxClearance cells
   struct Ends {
     std::array<double, 3> from{}, to{};  ///< ends of the path in units, in the region
     bool widest = false;                 ///< also find the largest agent for which a path exists
@@ -47,11 +47,11 @@ struct VoidWay {
   /// shortest path within the chunks that VoidGraph::chunksOfWay() chooses. Empty if there is none.
   std::vector<Int3> places;
   double length = 0;
-  /// The distance from the sample of each end to the nearest solid sample, in units, at most kMostClearance cells; 0 in
+  /// The distance from the sample of each end to the nearest solid sample, in units, at most kMaxClearance cells; 0 in
   /// rock. Rounded up, so that an agent of this radius does not fit there.
   double from_clearance = 0, to_clearance = 0;
   /// If requested: the smallest radius, in units, for which there is no path; a path exists for every smaller radius.
-  /// 0: no agent has a path. Exact: the next smaller floating-point number has a path. kMostClearance cells also stand
+  /// 0: no agent has a path. Exact: the next smaller floating-point number has a path. kMaxClearance cells also stand
   /// for any larger value.
   double widest = 0;
   /// For each end, the number of samples in the void that contains it, for this radius; 0 if the place is not free.

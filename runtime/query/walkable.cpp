@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-constexpr int64_t kMostWalkChunks = 4096;
+constexpr int64_t kMaxWalkChunks = 4096;
 
 /// Columns of samples over a box, one cell apart, and the floors in them on which a walker can stand.
 class WalkGrid {
@@ -43,11 +43,11 @@ class WalkGrid {
       if (low[axis] * edge < INT32_MIN || (high[axis] + 1) * edge > INT32_MAX) {
         return Error{Code::range, "the box, with the walker's room around it, leaves the world"};
       }
-      chunks = std::min(chunks * (high[axis] - low[axis] + 1), kMostWalkChunks + 1);
+      chunks = std::min(chunks * (high[axis] - low[axis] + 1), kMaxWalkChunks + 1);
     }
-    if (chunks > kMostWalkChunks) {
+    if (chunks > kMaxWalkChunks) {
       return Error{Code::limit, "the box, with the walker's room around it, has more than " +
-                                    std::to_string(kMostWalkChunks) + " chunks of 32 cells; split the box"};
+                                    std::to_string(kMaxWalkChunks) + " chunks of 32 cells; split the box"};
     }
     solid_.resize(static_cast<size_t>(count_[0] * count_[1] * count_[2]));
     ChunkScratch scratch(field_.memory);

@@ -75,7 +75,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
       const std::span<const Piece> found = largerThan(
           program.text(e.of) == "air" ? region.pieces.air : region.pieces.solid, e.above_number / region.sample);
       result.value = static_cast<double>(found.size());
-      for (const Piece& piece : found.first(std::min(found.size(), kMostPieces)))
+      for (const Piece& piece : found.first(std::min(found.size(), kMaxPieces)))
         result.pieces.push_back(placed(piece, region));
       break;
     }

@@ -49,7 +49,7 @@ struct MeasuredPiece {
 };
 
 /// The maximum number of pieces listed in Measured::pieces: the smallest ones.
-inline constexpr size_t kMostPieces = 16;
+inline constexpr size_t kMaxPieces = 16;
 
 /// One measurement: of the region as a whole or, with `per`, of one use of a rule.
 struct Measured {
@@ -59,7 +59,7 @@ struct Measured {
   std::string path;                     ///< with `per`: the derivation path of the rule's use
   Int3 origin;                          ///< with `per`: the origin of the frame of the rule's use, in units
   bool holds = true;                    ///< whether the expectation holds; true for a report
-  std::vector<MeasuredPiece> pieces{};  ///< for components: the smallest counted pieces, ascending; at most kMostPieces
+  std::vector<MeasuredPiece> pieces{};  ///< for components: the smallest counted pieces, ascending; at most kMaxPieces
   /// for volume: m3 by counting cubes, equation 8 of the paper (cubeVolume() in measure.h)
   std::optional<double> cubes{};
 };

@@ -10,7 +10,7 @@
 namespace sgm::store {
 namespace {
 
-constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
+constexpr uint64_t kMaxTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
 constexpr uint32_t kTileVersion = 3;
 
@@ -40,7 +40,7 @@ Result<MadeChunk> makeChunk(const Bakery& bakery, const ChunkRequest& request, c
     Made& own = made.parts[static_cast<size_t>(part)];
     own.content = encodeChunkPart(part, mesh != nullptr ? *mesh : none, chunk.anchors, voids, bakery.memory);
     own.id = idOf(own.content);
-    if (own.content.size() <= kMostInlined) continue;
+    if (own.content.size() <= kMaxInlined) continue;
     Result<std::pmr::vector<std::byte>> frame = pack(own.content, bakery.memory);
     if (!frame) return frame.error();
     own.frame = std::move(*frame);
@@ -128,7 +128,7 @@ std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const s
 }
 
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
-  const auto bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
+  const auto bytes = readFile(tileFile(bakery.folder, tile), kMaxTileFile);
   if (!bytes) return std::nullopt;
   std::optional<TileRecord> record = decodeTileFile(bakery.job, std::as_bytes(std::span(*bytes)), bakery.memory);
   if (!record || record->key != tile) return std::nullopt;

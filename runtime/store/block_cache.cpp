@@ -23,7 +23,7 @@ std::pair<std::shared_ptr<BlockCache::Block>, bool> BlockCache::find(const Key& 
     used_.pop_front();
     throw;
   }
-  if (blocks_.size() > kMostBlocks) {
+  if (blocks_.size() > kMaxBlocks) {
     // Threads that already wait for an evicted block still get it, because they own a reference.
     blocks_.erase(used_.back());
     used_.pop_back();
@@ -74,7 +74,7 @@ void BlockCache::fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fet
   for (size_t from = 0; from < count; ++from) {
     if (!wanted.is_mine[from]) continue;
     size_t to = from;
-    while (to < count && wanted.is_mine[to] && to - from < kMostAtOnce) ++to;
+    while (to < count && wanted.is_mine[to] && to - from < kMaxConcurrent) ++to;
     const uint64_t begin = (wanted.first + from) * kBlock;
     const uint64_t end = std::min<uint64_t>((wanted.first + to) * kBlock, file_bytes);
     Result<std::pmr::vector<std::byte>> got = fetch(begin, static_cast<size_t>(end - begin));

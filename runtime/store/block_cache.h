@@ -22,9 +22,9 @@ namespace sgm::store {
 class BlockCache {
  public:
   static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; the last block of a file may be shorter
-  static constexpr size_t kMostBlocks = 256;
+  static constexpr size_t kMaxBlocks = 256;
   /// maximum number of blocks per fetch: small, so that little of a slow download is lost if it is interrupted
-  static constexpr size_t kMostAtOnce = 4;
+  static constexpr size_t kMaxConcurrent = 4;
 
   /// Fetches bytes of a file. The range begins at the start of a block and ends at the end of a block.
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;

@@ -26,7 +26,7 @@ Error lockError(const Folder& store, const fs::path& path, int number) {
   return ioError(path, number);
 }
 
-constexpr uint64_t kMostFormat = 64;  ///< maximum size of the format file, in bytes
+constexpr uint64_t kMaxFormat = 64;  ///< maximum size of the format file, in bytes
 
 std::string formatText() { return "sgm store " + std::to_string(kStoreVersion) + "\n"; }
 
@@ -75,7 +75,7 @@ Result<void> checkFormat(StoreFiles& files) {
   };
   const Result<std::shared_ptr<const StoredFile>> format = files.open(kFormatFile, std::nullopt);
   if (!format) return format.error();
-  if (*format == nullptr || (*format)->size() > kMostFormat) return none();
+  if (*format == nullptr || (*format)->size() > kMaxFormat) return none();
   const auto read = (*format)->read(0, static_cast<size_t>((*format)->size()), std::pmr::get_default_resource());
   if (!read) return read.error();
   const std::string text(reinterpret_cast<const char*>(read->data()), read->size());

@@ -105,9 +105,9 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   const size_t bytes = size * count;
   const long status = transfer.status();
-  constexpr size_t kMostOfPage = size_t{1} << 20;  // maximum size of a server's error page that is read
+  constexpr size_t kMaxErrorPage = size_t{1} << 20;  // maximum size of a server's error page that is read
   const bool wanted = status == 200 || status == 206;
-  if (bytes > (wanted ? transfer.count : kMostOfPage) - transfer.bytes.size()) {
+  if (bytes > (wanted ? transfer.count : kMaxErrorPage) - transfer.bytes.size()) {
     transfer.too_long = true;
     return 0;
   }

@@ -17,7 +17,7 @@ namespace {
 using Clock = Outage::Clock;
 
 /// The maximum number of concurrent requests to a server, and the maximum time to wait for one of them to end.
-constexpr int kMostRequests = 4;
+constexpr int kMaxRequests = 4;
 constexpr std::chrono::seconds kLongestWait{2};
 /// A file that could not be read is not requested again for this time.
 constexpr std::chrono::seconds kFailedFor{60};
@@ -124,7 +124,7 @@ class Server {
     bool is_free;
     explicit Slot(Server& of) : server(of) {
       std::unique_lock lock(server.mutex_);
-      is_free = server.ended_.wait_for(lock, kLongestWait, [this] { return server.running_ < kMostRequests; });
+      is_free = server.ended_.wait_for(lock, kLongestWait, [this] { return server.running_ < kMaxRequests; });
       server.running_ += is_free;
     }
     ~Slot() {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kIndexMagic = 0x574D4753;  // "SGMW"
 constexpr size_t kIndexHead = 8, kEntryBytes = 4 * 4 + 8 + 4 + 4 + 8;
-constexpr uint32_t kMostRecord = uint32_t{1} << 24, kMostFrame = kMostRecord + kMostRecord / 128;
+constexpr uint32_t kMaxRecord = uint32_t{1} << 24, kMaxFrame = kMaxRecord + kMaxRecord / 128;
 
 std::vector<std::byte> directoryOf(std::span<const TileEntry> tiles) {
   std::vector<std::byte> bytes;
@@ -110,7 +110,7 @@ Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* 
     tile.bytes = entries.get<uint32_t>();
     tile.checksum = entries.get<uint64_t>();
     if (tile.key != key || tile.offset < kIndexHead || tile.offset > offset || tile.stored > offset - tile.offset ||
-        tile.bytes > kMostRecord || tile.stored > kMostFrame)
+        tile.bytes > kMaxRecord || tile.stored > kMaxFrame)
       return damaged("its directory has an invalid entry");
     index.tiles.push_back(tile);
   }

@@ -8,10 +8,10 @@ namespace sgm::store {
 namespace {
 
 /// The maximum number of cached tile records, each about 60 KB: a viewer sees a few hundred tiles of all levels.
-constexpr size_t kMostRecords = 256;
+constexpr size_t kMaxRecords = 256;
 
 /// The maximum number of open packs: those around a viewer.
-constexpr size_t kMostOpen = 32;
+constexpr size_t kMaxOpen = 32;
 
 }  // namespace
 
@@ -96,7 +96,7 @@ Result<OpenStore::Record> OpenStore::recordOf(const WorldFile& world, const Tile
   if (const auto known = records_.find(key); known != records_.end()) return known->second->record;
   kept_.push_front({key, record});
   records_.emplace(key, kept_.begin());
-  if (kept_.size() > kMostRecords) {
+  if (kept_.size() > kMaxRecords) {
     records_.erase(kept_.back().key);
     kept_.pop_back();
   }
@@ -129,7 +129,7 @@ Result<OpenStore::Pack> OpenStore::packOf(const PackFile& pack) {
   if (*file == nullptr) return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' does not exist"};
   const std::lock_guard lock(mutex_);
   packs_.push_front({pack.name, *file});
-  if (packs_.size() > kMostOpen) packs_.pop_back();
+  if (packs_.size() > kMaxOpen) packs_.pop_back();
   return file;
 }
 

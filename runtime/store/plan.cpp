@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kPlanMagic = 0x4C4D4753;  // "SGML"
 constexpr uint32_t kPlanVersion = 1;
-constexpr uint64_t kMostPlan = uint64_t{1} << 28;
+constexpr uint64_t kMaxPlan = uint64_t{1} << 28;
 
 // Microseconds of one thread, measured with samples/grammars (tests/bench/README.md): for a chunk that is proven
 // uniform; for a chunk that is sampled, with its seams; and for each instruction of its pruned program.
@@ -68,13 +68,13 @@ class Estimate {
   }
 
   Result<double> cost() {
-    CellsAtHand at_hand;
+    CachedCells cached_cells;
     for (int block = 0; block < 8; ++block) {
       const ChunkKey first = neighbourOf(chunkOf(tile_, 0), 4 * (block & 1), 4 * (block >> 1 & 1), 4 * (block >> 2));
       if (count(first, 4) == 0) continue;
       const IntBox box = boxOf(bakery_.region, first, 4);
       const Result<std::shared_ptr<const FieldProgram>> program =
-          bakery_.world.compile(box, tile_.level, nullptr, &at_hand);
+          bakery_.world.compile(box, tile_.level, nullptr, &cached_cells);
       if (!program) return program.error();
       look((*program)->view(), first, 4);
     }
@@ -117,7 +117,7 @@ class Estimate {
 
 Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileKey> tiles, const Progress& progress) {
   const std::filesystem::path file = bakery.folder / "plan";
-  if (const auto bytes = readFile(file, kMostPlan)) {
+  if (const auto bytes = readFile(file, kMaxPlan)) {
     if (std::optional<std::vector<uint64_t>> costs =
             decodePlan(bakery.job, std::as_bytes(std::span(*bytes)), tiles.size()))
       return std::move(*costs);

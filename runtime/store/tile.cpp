@@ -10,7 +10,7 @@
 namespace sgm::store {
 namespace {
 
-constexpr uint64_t kMostTiles = uint64_t{1} << 22;
+constexpr uint64_t kMaxTiles = uint64_t{1} << 22;
 
 int64_t floorOf(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 
@@ -43,8 +43,8 @@ Result<void> check(const BakedRegion& region) {
                                       " leave the world, which ends about 2,097 km from the origin"};
     }
   }
-  if (countTiles(region) > kMostTiles)
-    return Error{Code::limit, "the region has more than " + std::to_string(kMostTiles) +
+  if (countTiles(region) > kMaxTiles)
+    return Error{Code::limit, "the region has more than " + std::to_string(kMaxTiles) +
                                   " tiles of 8 x 8 x 8 chunks: bake it in parts, or with larger cells"};
   return {};
 }
@@ -55,7 +55,7 @@ uint64_t countTiles(const BakedRegion& region) {
     uint64_t of_level = 1;
     for (int axis = 0; axis < 3; ++axis)
       of_level =
-          std::min(of_level * static_cast<uint64_t>(chunksOn(region, level, axis).count(kTileEdge)), kMostTiles + 1);
+          std::min(of_level * static_cast<uint64_t>(chunksOn(region, level, axis).count(kTileEdge)), kMaxTiles + 1);
     tiles += of_level;
   }
   return tiles;

@@ -12,7 +12,7 @@ namespace sgm::store {
 /// as small, are inlined: there are only a few different ones, most chunks share them, and no reader should have to
 /// open a file for each.
 inline constexpr uint32_t kInlined = 0xFFFFFFFF;
-inline constexpr size_t kMostInlined = 256;  ///< maximum size of an inlined content, in bytes
+inline constexpr size_t kMaxInlined = 256;  ///< maximum size of an inlined content, in bytes
 
 /// Where a content, the output of encodeChunkPart, is stored.
 struct StoredContent {

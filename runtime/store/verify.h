@@ -11,11 +11,11 @@ namespace sgm::store {
 
 /// The number of problems, and descriptions of the first few.
 struct Problems {
-  static constexpr size_t kMostTold = 20;
+  static constexpr size_t kMaxReported = 20;
   std::vector<std::string> told;
   uint64_t count = 0;
   void add(std::string problem) {
-    if (++count <= kMostTold) told.push_back(std::move(problem));
+    if (++count <= kMaxReported) told.push_back(std::move(problem));
   }
 };
 

@@ -47,11 +47,11 @@ uint64_t randomAuthor() {
 }
 
 /// Creates the threads that wait for servers. If none can be started, only nearby stores are used.
-std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, const WorldSettings& settings) {
-  Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(WorldCore::kLookers + 1, profiler, "sgm store");
-  if (lookers) return std::move(*lookers);
+std::unique_ptr<JobSystem> makePrefetchers(const Profiler& profiler, const WorldSettings& settings) {
+  Result<std::unique_ptr<JobSystem>> prefetchers = makeThreadPool(WorldCore::kPrefetchers + 1, profiler, "sgm store");
+  if (prefetchers) return std::move(*prefetchers);
   if (settings.on_warning) {
-    settings.on_warning("baked worlds cannot be read from a server (" + lookers.error().message +
+    settings.on_warning("baked worlds cannot be read from a server (" + prefetchers.error().message +
                         "): chunks are derived instead");
   }
   return nullptr;
@@ -80,11 +80,11 @@ Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> f
   if (Result<void> good = checkWorld(*field, settings, jobs.concurrency()); !good) return good.error();
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
-  std::unique_ptr<JobSystem> lookers;
-  if (own.baked != nullptr && own.baked->isFar()) lookers = makeLookers(field->profiler(), own);
+  std::unique_ptr<JobSystem> prefetchers;
+  if (own.baked != nullptr && own.baked->isFar()) prefetchers = makePrefetchers(field->profiler(), own);
   if (turns == nullptr) turns = std::make_shared<PlanTurns>(jobs);
-  auto core =
-      std::make_unique<WorldCore>(std::move(field), backend, jobs, std::move(turns), own, std::move(lookers), memory);
+  auto core = std::make_unique<WorldCore>(std::move(field), backend, jobs, std::move(turns), own,
+                                          std::move(prefetchers), memory);
   if (!own.journal.empty()) {
     if (Result<void> opened = openJournal(*core); !opened) return opened.error();
   }
@@ -99,8 +99,8 @@ Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> f
 World::~World() { core_->stop(); }
 
 Result<void> World::setViewers(std::span<const Viewer> viewers) {
-  if (viewers.size() > kMostViewers) {
-    return Error{Code::limit, "a world has at most " + std::to_string(kMostViewers) + " viewers"};
+  if (viewers.size() > kMaxViewers) {
+    return Error{Code::limit, "a world has at most " + std::to_string(kMaxViewers) + " viewers"};
   }
   for (const Viewer& viewer : viewers) {
     if (Result<void> checked = checkViewer(viewer); !checked) return checked;
@@ -115,7 +115,7 @@ Result<void> World::setViewers(std::span<const Viewer> viewers) {
 bool World::update(size_t bytes) {
   const TimedCall timed(*core_, &WorldTimes::update);
   const std::lock_guard front(front_);
-  core_->kickJournal();
+  core_->scheduleJournal();
   if (polled_ < events_.size()) return false;
   events_.clear();
   polled_ = 0;
@@ -170,13 +170,13 @@ void World::advance(size_t bytes, size_t colliders) {
     core_->edits_drawn = step->to->edits;
   }
   if (core_->planIsDue()) {
-    core_->kickPlanner();
+    core_->schedulePlanner();
   } else {
-    core_->kickOverdue();
+    core_->scheduleOverdue();
   }
   // Called even if this world's own plan waits: the elapsed time may suffice for its turn now (plan_turns.h).
   core_->startDuePlans();
-  core_->kickFieldSwitch();
+  core_->scheduleFieldSwitch();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
@@ -260,13 +260,13 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
   const std::lock_guard front(front_);
   uint64_t frame = 0, finished = 0;
   for (int in_vain = 0; in_vain < kLooksInVain; ++in_vain) {
-    core_->kickJournal();
+    core_->scheduleJournal();
     const size_t events = events_.size();
     advance(std::numeric_limits<size_t>::max(), std::numeric_limits<size_t>::max());
     if (events_.size() > events) in_vain = 0;
     std::unique_lock lock(core_->mutex);
     if (core_->settled() && core_->failed.empty()) return {};
-    if (((core_->mesh_jobs > 0 || core_->isLooking()) && !core_->scarce) || core_->fields.busy() ||
+    if (((core_->mesh_jobs > 0 || core_->isLooking()) && !core_->is_out_of_memory) || core_->fields.busy() ||
         core_->applied != frame || core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;
     frame = core_->applied;

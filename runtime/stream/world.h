@@ -75,7 +75,7 @@ struct WorldStats {
 
 class WorldCore;
 
-inline constexpr size_t kMostViewers = 256;
+inline constexpr size_t kMaxViewers = 256;
 
 /// Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
 class World {
@@ -95,7 +95,7 @@ class World {
   World& operator=(const World&) = delete;
 
   /// Replaces all viewers. Without viewers the drawn frame stays, and nothing is meshed. On error nothing changes.
-  /// Errors: those of checkViewer; limit (more than kMostViewers).
+  /// Errors: those of checkViewer; limit (more than kMaxViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
   /// Takes over finished work, and starts new work: emits events for at most `bytes` of new surfaces and max_colliders

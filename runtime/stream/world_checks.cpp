@@ -21,10 +21,10 @@ Result<void> checkLod(const LodSettings& lod) {
     return Error{Code::invalid_argument, "the finest and the view distance must be finite and above 0"};
   }
   const LodViewer one;
-  if (expectedLeaves({&one, 1}, lod) <= kMostExpectedLeaves) return {};
+  if (expectedLeaves({&one, 1}, lod) <= kMaxExpectedLeaves) return {};
   LodSettings near = lod;
   near.finest_distance = lod.finest_cell;
-  const bool views_too_far = expectedLeaves({&one, 1}, near) > kMostExpectedLeaves / 2;
+  const bool views_too_far = expectedLeaves({&one, 1}, near) > kMaxExpectedLeaves / 2;
   return Error{Code::limit, views_too_far ? "a view distance of " + metres(lod.view_distance) +
                                                 " needs too many chunks of level " + std::to_string(lod.top) +
                                                 ": raise the coarsest level, or lower the view distance"

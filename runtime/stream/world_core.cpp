@@ -24,18 +24,18 @@ PlannerSettings plannerSettings(const WorldSettings& settings) {
 
 WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_in, JobSystem& jobs_in,
                      std::shared_ptr<PlanTurns> turns, const WorldSettings& settings_in,
-                     std::unique_ptr<JobSystem> lookers, std::pmr::memory_resource* memory)
+                     std::unique_ptr<JobSystem> prefetchers, std::pmr::memory_resource* memory)
     : profiler(field->profiler()),
       backend(backend_in),
       jobs(jobs_in),
       settings(settings_in),
       edits(std::move(field), settings_in.edits, memory),
       fields(settings_in.sharp),
-      queue(lookers != nullptr ? lookers->concurrency() - 1 : 0),
+      queue(prefetchers != nullptr ? prefetchers->concurrency() - 1 : 0),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
-      lookers_(std::move(lookers)),
-      gate_(std::make_shared<Gate>(*this)),
+      prefetchers_(std::move(prefetchers)),
+      gate_(std::make_shared<JobGate>(*this)),
       turns_(std::move(turns)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
       measuring_(settings_in.measure ? std::make_unique<MeasuringPool>(memory) : nullptr),
@@ -46,13 +46,13 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
   turns_->join(turn_);
 }
 
-bool WorldCore::Gate::enter() noexcept {
+bool WorldCore::JobGate::enter() noexcept {
   const std::lock_guard lock(mutex);
   running += closed ? 0 : 1;
   return !closed;
 }
 
-void WorldCore::Gate::leave() noexcept {
+void WorldCore::JobGate::leave() noexcept {
   const std::lock_guard lock(mutex);
   --running;
   ended.notify_all();
@@ -104,7 +104,7 @@ void WorldCore::countWork() {
 
 bool WorldCore::submit(JobSystem& to, void (*function)(void*), int priority) noexcept {
   try {
-    auto owner = std::make_unique<std::shared_ptr<Gate>>(gate_);
+    auto owner = std::make_unique<std::shared_ptr<JobGate>>(gate_);
     to.submit(function, owner.get(), priority);
     static_cast<void>(owner.release());
     return true;
@@ -113,16 +113,16 @@ bool WorldCore::submit(JobSystem& to, void (*function)(void*), int priority) noe
   }
 }
 
-void WorldCore::tellScarce() noexcept {
+void WorldCore::reportOutOfMemory() noexcept {
   {
     const std::lock_guard lock(mutex);
-    scarce = true;
-    if (std::exchange(scarce_told_, true)) return;
+    is_out_of_memory = true;
+    if (std::exchange(out_of_memory_reported_, true)) return;
   }
   warn("there is too little memory for the viewers' chunks: the drawn ones stay, and every update tries again");
 }
 
-void WorldCore::kickJournal() {
+void WorldCore::scheduleJournal() {
   if (!edits.unwritten()) return;
   {
     const std::lock_guard lock(mutex);
@@ -155,7 +155,7 @@ void WorldCore::flushOnce() {
   warn(why.code == Code::out_of_memory ? "out of memory while writing the edit journal" : why.message.c_str());
 }
 
-void WorldCore::kickFieldSwitch() {
+void WorldCore::scheduleFieldSwitch() {
   FieldSwitch::Progress progress;
   {
     const std::lock_guard lock(mutex);
@@ -171,21 +171,21 @@ void WorldCore::compareOnce() {
   bool at_once;
   {
     const std::lock_guard lock(mutex);
-    at_once = handsOn();
+    at_once = isResubmitting();
     frame = drawn;
   }
   if (at_once) return fields.giveUp();  // the job system runs jobs inside submit(); the next update continues
   try {
     const ProfileScope scope(profiler, zone::kDerive);
-    if (fields.compare(frame, edits, jobs)) return handOn([this] { kickFieldSwitch(); });
+    if (fields.compare(frame, edits, jobs)) return resubmit([this] { scheduleFieldSwitch(); });
   } catch (const std::bad_alloc&) {
-    return tellScarce();
+    return reportOutOfMemory();
   }
   const std::lock_guard lock(mutex);
   changed.notify_all();
 }
 
-void WorldCore::kickPlanner() {
+void WorldCore::schedulePlanner() {
   {
     const std::lock_guard lock(mutex);
     if (stopped_) return;
@@ -200,7 +200,7 @@ void WorldCore::kickPlanner() {
 }
 
 void WorldCore::beginPlan(const std::shared_ptr<void>& owner) noexcept {
-  Gate& gate = *static_cast<Gate*>(owner.get());
+  JobGate& gate = *static_cast<JobGate*>(owner.get());
   if (!gate.enter()) return;
   WorldCore& core = gate.core;
   if (!core.submit(run<&WorldCore::planOnce>, kPlanPriority)) {
@@ -243,7 +243,7 @@ bool WorldCore::planIsDue() const {
   return stuck || news;
 }
 
-void WorldCore::losePlanner() {
+void WorldCore::resetPlanner() {
   std::vector<WorkItem> dropped;  // destroyed after the mutex is released
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
@@ -260,7 +260,7 @@ bool WorldCore::makePlan() {
     Plan plan = planner_.plan(planInput());
     // The engine may take a step that was offered before a restart; the planner no longer knows that frame.
     if (planner_.applied().number != planning_with_.applied) {
-      losePlanner();
+      resetPlanner();
       return false;
     }
     edits.forget(planner_.stats().edits_drawn);
@@ -268,8 +268,8 @@ bool WorldCore::makePlan() {
     return true;
   } catch (const std::bad_alloc&) {
     // The planner's data is inconsistent now. It restarts from the drawn frame at the next update.
-    tellScarce();
-    losePlanner();
+    reportOutOfMemory();
+    resetPlanner();
     return false;
   }
 }
@@ -282,13 +282,13 @@ void WorldCore::planOnce() {
   const bool planned = makePlan();
   double seconds = secondsSince(begun_at);
   if (planned) {
-    kickMeshing();
-    kickLooking();
+    scheduleMeshing();
+    schedulePrefetch();
     begun_at = Clock::now();
     try {
       makeColliders();
     } catch (const std::bad_alloc&) {
-      tellScarce();
+      reportOutOfMemory();
     }
     seconds += secondsSince(begun_at);
   }
@@ -323,7 +323,7 @@ void WorldCore::makeColliders() {
   collider_changes.swap(changes);
   collider_bytes = colliders_.bytes();
   colliders_done_ = done && frame == drawn;
-  if (settled()) scarce = scarce_told_ = false;
+  if (settled()) is_out_of_memory = out_of_memory_reported_ = false;
 }
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
@@ -349,7 +349,7 @@ void WorldCore::publish(Plan&& plan) {
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   // The previous queue is swapped into the plan, and destroyed without the mutex.
-  queue.replace(plan.queue, mayLook(), Clock::now());
+  queue.replace(plan.queue, mayPrefetch(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
@@ -362,7 +362,7 @@ void WorldCore::publish(Plan&& plan) {
   changed.notify_all();
 }
 
-bool WorldCore::handsOn() const {
+bool WorldCore::isResubmitting() const {
   return std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
 }
 

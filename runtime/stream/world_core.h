@@ -40,29 +40,29 @@ inline size_t largestChunk(const WorldSettings& settings) {
 
 class WorldCore {
  public:
-  static constexpr unsigned kLookers = 4;
+  static constexpr unsigned kPrefetchers = 4;
 
   /// lookers: threads that may wait for a server; null: all stores are nearby. turns: shared by all worlds on these
   /// jobs.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
-            std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> lookers,
+            std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> prefetchers,
             std::pmr::memory_resource* memory);
   ~WorldCore() { turns_->leave(turn_); }
   WorldCore(const WorldCore&) = delete;
   WorldCore& operator=(const WorldCore&) = delete;
 
   /// Schedules planning at the world's turn (plan_turns.h). If a plan is running, another one follows.
-  void kickPlanner();
+  void schedulePlanner();
   /// True if a plan would have new input.
   bool planIsDue() const;
   /// Begins plans of any world whose turn has come.
   void startDuePlans() { turns_->startDue(); }
   /// Schedules a write of the journal, unless the last one was less than kBetweenFlushes ago.
-  void kickJournal();
+  void scheduleJournal();
   /// Schedules the switch to the next requested field, if its turn has come.
-  void kickFieldSwitch();
+  void scheduleFieldSwitch();
   /// Schedules meshing of requests that have waited too long for their prefetch.
-  void kickOverdue();
+  void scheduleOverdue();
   /// Waits for running jobs, after which no job accesses the core. Writes the journal. Call once, before destruction.
   void stop() noexcept;
 
@@ -96,8 +96,8 @@ class WorldCore {
   /// number of the current generation of requests; results of earlier generations are dropped
   uint64_t generation = 0;
   uint64_t plans = 0;
-  size_t mesh_jobs = 0;  ///< number of mesh jobs submitted or running
-  bool scarce = false;   ///< true if memory ran out, and no chunk could be made since
+  size_t mesh_jobs = 0;           ///< number of mesh jobs submitted or running
+  bool is_out_of_memory = false;  ///< true if memory ran out, and no chunk could be made since
   PlannerStats planner_stats;
   MadeMeasures made;  ///< measures of finished work, if the settings request them
   WorldTimes times;
@@ -120,7 +120,7 @@ class WorldCore {
 
   /// The maximum number of mesh jobs. A device that meshes batches needs few: one job prepares its chunks, one finishes
   /// them.
-  size_t mostMeshJobs() const {
+  size_t maxMeshJobs() const {
     const size_t most = std::max(1u, jobs.concurrency() - 1);
     return backend.batch() > 1 ? std::min<size_t>(most, 3) : most;
   }
@@ -132,16 +132,16 @@ class WorldCore {
   bool hasRoom() const { return room() >= largestChunk(settings); }
   /// True if more requests may be prefetched: not while too little memory is free for one chunk, regardless of
   /// reservations.
-  bool mayLook() const {
-    return !scarce && settings.mesh_bytes >=
-                          surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + largestChunk(settings);
+  bool mayPrefetch() const {
+    return !is_out_of_memory && settings.mesh_bytes >= surfaces_->bytes() + planner_stats.record_bytes +
+                                                           collider_bytes + largestChunk(settings);
   }
   /// True if jobs could mesh requests that have waited too long for their prefetch.
   bool isOverdue() const;
 
   /// The object that jobs own instead of the core.
-  struct Gate {
-    explicit Gate(WorldCore& core_in) : core(core_in) {}
+  struct JobGate {
+    explicit JobGate(WorldCore& core_in) : core(core_in) {}
     /// Delays the end of the core until leave(). Returns false if the core has ended.
     bool enter() noexcept;
     void leave() noexcept;
@@ -160,12 +160,12 @@ class WorldCore {
   static void beginPlan(const std::shared_ptr<void>& owner) noexcept;
   /// Precondition: the mutex is held.
   void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
-  void kickMeshing();
+  void scheduleMeshing();
   /// Starts lookers if fewer are running than there are requests to prefetch.
-  void kickLooking();
+  void schedulePrefetch();
   PlanInput planInput();
   void publish(Plan&& plan);
-  void losePlanner();
+  void resetPlanner();
   /// Returns the frame from which the planner must restart; null if it need not.
   std::shared_ptr<const DrawnFrame> frameToRestartFrom();
   /// Makes and publishes a plan. Returns false if memory ran out.
@@ -173,19 +173,19 @@ class WorldCore {
   void planOnce();
   void makeColliders();
   /// The work of a looker: prefetches requests as long as there are any.
-  void lookFar();
+  void prefetch();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
   void meshAgain();
   /// Ends a mesh job that submits no successor.
   void endMeshJob();
   /// Calls `job`, which submits another job of the same kind. Some job systems run a submitted job at once, inside the
-  /// call: then handsOn() is true in it and it does nothing, so that no call does more than one job's work. Does
+  /// call: then isResubmitting() is true in it and it does nothing, so that no call does more than one job's work. Does
   /// nothing if memory runs out.
   template <class Submit>
-  void handOn(const Submit& job);
-  /// True if this thread is inside handOn(). Precondition: the mutex is held.
-  bool handsOn() const;
+  void resubmit(const Submit& job);
+  /// True if this thread is inside resubmit(). Precondition: the mutex is held.
+  bool isResubmitting() const;
   /// Takes as many items of the queue as one job meshes, at most `batch`; the vector has capacity for them.
   /// Precondition: the mutex is held.
   void takeItems(size_t batch, std::vector<WorkItem>& items);
@@ -196,7 +196,7 @@ class WorldCore {
   void flushOnce();
   void compareOnce();
   /// Reports that memory ran out. The next update tries again, with a single job at first.
-  void tellScarce() noexcept;
+  void reportOutOfMemory() noexcept;
   /// Sends a warning. Thread-safe, takes no lock.
   void warn(const char* message) const noexcept;
 
@@ -205,8 +205,8 @@ class WorldCore {
   static void run(void* argument) noexcept;
 
   std::pmr::memory_resource* memory_;
-  const std::unique_ptr<JobSystem> lookers_;  ///< null: no store is on a server
-  const std::shared_ptr<Gate> gate_;
+  const std::unique_ptr<JobSystem> prefetchers_;  ///< null: no store is on a server
+  const std::shared_ptr<JobGate> gate_;
   const std::shared_ptr<PlanTurns> turns_;
   PlanTurns::Member turn_;
   std::shared_ptr<SurfacePool> surfaces_;
@@ -215,9 +215,9 @@ class WorldCore {
   Colliders colliders_;                             ///< also used by the planning job only
 
   // The following members are guarded by the mutex.
-  bool scarce_told_ = false;   ///< true if low memory was reported since the world was last at rest
-  bool passed_over_ = false;   ///< true if memory ran out for a chunk since the last plan
-  bool planner_lost_ = false;  ///< true if memory ran out during planning
+  bool out_of_memory_reported_ = false;  ///< true if low memory was reported since the world was last at rest
+  bool passed_over_ = false;             ///< true if memory ran out for a chunk since the last plan
+  bool planner_lost_ = false;            ///< true if memory ran out during planning
   struct Seen {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
@@ -235,7 +235,7 @@ class WorldCore {
   /// the maximum number of bytes that the requests in work may need
   size_t reserved_ = 0;
   size_t look_jobs_ = 0;                     ///< number of lookers that run or are about to
-  std::vector<std::thread::id> submitting_;  ///< threads that are inside handOn()
+  std::vector<std::thread::id> submitting_;  ///< threads that are inside resubmit()
   /// true if a plan waits for its turn, is submitted or is running
   bool planning_ = false;
   bool plan_again_ = false;
@@ -249,15 +249,15 @@ class WorldCore {
 
 template <void (WorldCore::*work)()>
 void WorldCore::run(void* argument) noexcept {
-  const std::unique_ptr<std::shared_ptr<Gate>> owner(static_cast<std::shared_ptr<Gate>*>(argument));
-  Gate& gate = **owner;
+  const std::unique_ptr<std::shared_ptr<JobGate>> owner(static_cast<std::shared_ptr<JobGate>*>(argument));
+  JobGate& gate = **owner;
   if (!gate.enter()) return;
   (gate.core.*work)();
   gate.leave();
 }
 
 template <class Submit>
-void WorldCore::handOn(const Submit& job) {
+void WorldCore::resubmit(const Submit& job) {
   const std::thread::id self = std::this_thread::get_id();
   try {
     const std::lock_guard lock(mutex);

@@ -19,21 +19,22 @@ static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finish
 
 bool WorldCore::isLooking() const {
   // Without free memory, the requests wait for memory, not for a prefetch.
-  return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
+  return prefetchers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
 bool WorldCore::isOverdue() const {
-  return lookers_ != nullptr && !passed_over_ && !scarce && hasRoom() && queue.nextReady(queue.size(), Clock::now());
+  return prefetchers_ != nullptr && !passed_over_ && !is_out_of_memory && hasRoom() &&
+         queue.nextReady(queue.size(), Clock::now());
 }
 
-void WorldCore::kickMeshing() {
+void WorldCore::scheduleMeshing() {
   // The number is limited, because some job systems run a job at once, inside submit().
-  for (size_t more = mostMeshJobs(); more > 0; --more) {
+  for (size_t more = maxMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
-      const size_t most = scarce ? 1 : mostMeshJobs();
+      const size_t most = is_out_of_memory ? 1 : maxMeshJobs();
       // After a failed allocation, the other prefetched chunks are not tried one after the other.
-      if (lookers_ != nullptr && passed_over_) return;
+      if (prefetchers_ != nullptr && passed_over_) return;
       if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
       setMeshJobs(mesh_jobs + 1);
@@ -45,20 +46,20 @@ void WorldCore::kickMeshing() {
   }
 }
 
-void WorldCore::kickOverdue() {
-  if (lookers_ != nullptr) kickMeshing();
+void WorldCore::scheduleOverdue() {
+  if (prefetchers_ != nullptr) scheduleMeshing();
 }
 
-void WorldCore::kickLooking() {
-  if (lookers_ == nullptr) return;
-  for (unsigned more = kLookers; more > 0; --more) {
+void WorldCore::schedulePrefetch() {
+  if (prefetchers_ == nullptr) return;
+  for (unsigned more = kPrefetchers; more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
-      if (stopped_ || look_jobs_ >= kLookers || !mayLook()) return;
+      if (stopped_ || look_jobs_ >= kPrefetchers || !mayPrefetch()) return;
       if (look_jobs_ - queue.countLooking() >= queue.countToLook()) return;
       ++look_jobs_;
     }
-    if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
+    if (submit(*prefetchers_, run<&WorldCore::prefetch>, kLookPriority)) continue;
     const std::lock_guard lock(mutex);
     --look_jobs_;  // the prefetch failed to start; jobs mesh the requests after kPatience
     return;
@@ -67,12 +68,12 @@ void WorldCore::kickLooking() {
 
 void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   // A device needs many chunks at a time; but each idle job should get some, and there must be memory for them.
-  const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
+  const size_t idle = std::max<size_t>(1, maxMeshJobs() - std::min(maxMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
   const Clock::time_point now = Clock::now();
   const size_t share = std::max(shareOf(queue.countReady(now)), std::min<size_t>(batch, 8));
   const size_t most =
-      scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / largestChunk(settings)))});
+      is_out_of_memory ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / largestChunk(settings)))});
   for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
        at = queue.nextReady(*at, now)) {
     const WorkItem& next = queue[*at];
@@ -134,7 +135,7 @@ ChunkMesher WorldCore::mesherOf(const WorldState& under) const {
           settings.baked.get(), settings.resident, settings.sharp, measuring_.get()};
 }
 
-void WorldCore::lookFar() {
+void WorldCore::prefetch() {
   for (;;) {
     std::shared_ptr<Look> look;
     std::optional<FoundParts> found;
@@ -147,7 +148,7 @@ void WorldCore::lookFar() {
     WorldState under;
     {
       const std::lock_guard lock(mutex);
-      if (look != nullptr && !stopped_ && mayLook()) request = queue.beginLook(look, Clock::now());
+      if (look != nullptr && !stopped_ && mayPrefetch()) request = queue.beginLook(look, Clock::now());
       if (!request) {
         --look_jobs_;
         return;
@@ -165,7 +166,7 @@ void WorldCore::lookFar() {
       const Clock::time_point now = Clock::now();
       queue.endLook(*look, std::move(found), std::chrono::duration<double>(now - begun_at).count(), now);
     }
-    kickMeshing();
+    scheduleMeshing();
   }
 }
 
@@ -214,13 +215,13 @@ void WorldCore::meshOnce() {
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
-    // Inside handOn() nothing is taken: otherwise one call could mesh the whole queue, one job within the other.
-    if (!handsOn()) takeItems(batch, items);
+    // Inside resubmit() nothing is taken: otherwise one call could mesh the whole queue, one job within the other.
+    if (!isResubmitting()) takeItems(batch, items);
     under = queue_edits_;
     of_generation = generation;
   }
   if (items.empty()) return endMeshJob();
-  kickLooking();
+  schedulePrefetch();
   for (const WorkItem& item : items) {
     done.emplace_back();
     done.back().request = item.request;
@@ -257,7 +258,7 @@ void WorldCore::meshOnce() {
       }
       if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
       out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);
-      if (!chunk.error) scarce = false;
+      if (!chunk.error) is_out_of_memory = false;
       const ChunkKey key = chunk.request.key;
       try {
         finished_.push_back(std::move(chunk));
@@ -276,8 +277,8 @@ void WorldCore::meshOnce() {
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
   }
-  if (out_of_memory) tellScarce();
-  if (plan) kickPlanner();
+  if (out_of_memory) reportOutOfMemory();
+  if (plan) schedulePlanner();
   if (more) {
     meshAgain();
   } else {
@@ -287,7 +288,7 @@ void WorldCore::meshOnce() {
 
 void WorldCore::meshAgain() {
   bool submitted = false;
-  handOn([&] { return submitted = submit(run<&WorldCore::meshOnce>, kMeshPriority); });
+  resubmit([&] { return submitted = submit(run<&WorldCore::meshOnce>, kMeshPriority); });
   if (!submitted) return endMeshJob();
   turns_->startDue();
 }

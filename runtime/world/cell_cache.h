@@ -39,7 +39,7 @@ struct CellKey {
 
 /// Cells that one task has already found. Looking up a cell here, instead of in the cache, writes no memory that
 /// threads share (a shared pointer from the cache changes its reference count). Not thread-safe.
-using CellsAtHand = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
+using CachedCells = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
 
 struct CellCacheStats {
   uint64_t hits = 0, misses = 0, evicted = 0;

@@ -77,7 +77,7 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes) {
 
 Result<void> checkEdit(const EditOperation& operation) {
   for (const uint64_t n : {operation.order.time, operation.order.id.number}) {
-    if (n >= 1 && n <= kMostEditTime) continue;
+    if (n >= 1 && n <= kMaxEditTime) continue;
     return Error{Code::invalid_argument,
                  "an edit's time or number is " + std::to_string(n) + ", which is out of range"};
   }

@@ -38,7 +38,7 @@ struct EditOperation {
 };
 
 /// upper limit of times and of operation numbers; both start at 1
-inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;
+inline constexpr uint64_t kMaxEditTime = uint64_t{1} << 62;
 
 /// Checks an operation from outside. Errors: invalid_argument or range if no edit log could have created it.
 Result<void> checkEdit(const EditOperation& operation);
@@ -55,6 +55,6 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);
 Result<EditOperation> decodeEdit(ByteReader& bytes);
 
 inline constexpr size_t kLeastEditBytes = 41,
-                        kMostEditBytes = 75;  ///< minimum and maximum encoded size of an operation
+                        kMaxEditBytes = 75;  ///< minimum and maximum encoded size of an operation
 
 }  // namespace sgm

@@ -43,8 +43,8 @@ Result<void> EditLog::checkLabels(const Brush& brush) const {
     return Error{Code::invalid_argument, "a brush's " + std::string(what) + " is " + std::to_string(has) +
                                              ", but the last one is " + std::to_string(most)};
   };
-  if (brush.material > settings_.most_material) return beyond("material", brush.material, settings_.most_material);
-  if (brush.tag > settings_.most_tag) return beyond("tag", brush.tag, settings_.most_tag);
+  if (brush.material > settings_.max_material) return beyond("material", brush.material, settings_.max_material);
+  if (brush.tag > settings_.max_tag) return beyond("tag", brush.tag, settings_.max_tag);
   return {};
 }
 
@@ -56,7 +56,7 @@ void EditLog::makeRoom(size_t more) {
 IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
   const EditId id = operation.order.id;
   const uint64_t own = checksum(bytesOf(operation));
-  Sight* sight = laysBrush(operation) ? nullptr : &sights_[operation.target];
+  Observation* sight = laysBrush(operation) ? nullptr : &sights_[operation.target];
   const auto place = places_.emplace(id, known_.size()).first;
   IntBox changed;
   try {
@@ -87,13 +87,13 @@ IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
 }
 
 Result<EditLog::Edited> EditLog::make(EditOperation operation) {
-  if (known_.size() >= settings_.most_operations || number_ >= kMostEditTime) {
+  if (known_.size() >= settings_.max_operations || number_ >= kMaxEditTime) {
     return Error{Code::limit,
                  "the world cannot hold more edits than the " + std::to_string(known_.size()) + " that it has"};
   }
   // The time of a received operation may already be the largest possible. Then all later operations get that time, and
   // their ids order them.
-  operation.order = {std::min(latest_ + 1, kMostEditTime), {settings_.author, number_ + 1}};
+  operation.order = {std::min(latest_ + 1, kMaxEditTime), {settings_.author, number_ + 1}};
   if (Result<void> good = checkEdit(operation); !good) return good.error();
   makeRoom(1);
   const IntBox box = insert(operation, 0);
@@ -134,9 +134,9 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
       return Error{Code::bad_input, "edit " + nameOf(id) + " already exists with other contents"};
     }
   }
-  if (known_.size() + fresh.size() > settings_.most_operations) {
+  if (known_.size() + fresh.size() > settings_.max_operations) {
     return Error{Code::limit, "the world would have " + std::to_string(known_.size() + fresh.size()) +
-                                  " edits, but it holds at most " + std::to_string(settings_.most_operations)};
+                                  " edits, but it holds at most " + std::to_string(settings_.max_operations)};
   }
   // Undos and redos come first, the latest before earlier ones, so that no brush appears or disappears more than once.
   std::vector<const EditOperation*> order;
@@ -184,7 +184,7 @@ std::span<const EditOperation> EditLog::operations(uint64_t since) const {
 std::vector<std::byte> EditLog::exportBytes(uint64_t since) const {
   const std::span<const EditOperation> list = operations(since);
   std::vector<std::byte> bytes;
-  bytes.reserve(kExportHead + list.size() * kMostEditBytes + kChecksumBytes);
+  bytes.reserve(kExportHead + list.size() * kMaxEditBytes + kChecksumBytes);
   ByteWriter out(bytes);
   out.put(kExportMagic);
   out.put(kExportVersion);

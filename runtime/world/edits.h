@@ -23,8 +23,8 @@ struct EditSettings {
   uint64_t author = 1;
   /// The largest material and tag of brushes added here. Imported brushes may have larger ones, for example of another
   /// grammar.
-  uint16_t most_material = 0xFFFF, most_tag = 0xFFFF;
-  size_t most_operations = size_t{1} << 20;
+  uint16_t max_material = 0xFFFF, max_tag = 0xFFFF;
+  size_t max_operations = size_t{1} << 20;
 };
 
 /// Not thread-safe, but its snapshots may be used by any thread. The memory resource must be thread-safe and outlive
@@ -43,9 +43,9 @@ class EditLog {
 
   /// Sets the largest material and tag of brushes that are added from now on (see EditSettings). Existing brushes are
   /// kept.
-  void setLabels(uint16_t most_material, uint16_t most_tag) {
-    settings_.most_material = most_material;
-    settings_.most_tag = most_tag;
+  void setLabels(uint16_t max_material, uint16_t max_tag) {
+    settings_.max_material = max_material;
+    settings_.max_tag = max_tag;
   }
 
   /// Adds a brush on top of all known ones. Errors: those of checkBrush; invalid_argument (material or tag too large);
@@ -75,7 +75,7 @@ class EditLog {
   std::shared_ptr<const EditSnapshot> snapshot() const;
 
  private:
-  struct Sight {  ///< the latest undo or redo of a brush
+  struct Observation {  ///< the latest undo or redo of a brush
     EditOrder order;
     bool hidden = false;
   };
@@ -89,8 +89,8 @@ class EditLog {
 
   EditSettings settings_;
   std::pmr::vector<EditOperation> known_;
-  std::pmr::map<EditId, size_t> places_;  ///< index in known_ of each operation
-  std::pmr::map<EditId, Sight> sights_;   ///< by the id of the brush, which itself may be unknown yet
+  std::pmr::map<EditId, size_t> places_;       ///< index in known_ of each operation
+  std::pmr::map<EditId, Observation> sights_;  ///< by the id of the brush, which itself may be unknown yet
   EditSnapshot shown_;
   uint64_t latest_ = 0;  ///< the largest known time
   uint64_t number_ = 0;  ///< the largest number among the operations of this log's author

@@ -15,7 +15,7 @@ uint64_t countChunks(const IntBox& region, int64_t cell);
 
 /// The maximum number of chunks of one region, regardless of the caller's limit: a chunk takes at least half a kilobyte
 /// even before it is meshed.
-inline constexpr uint64_t kMostRegionChunks = uint64_t{1} << 24;
+inline constexpr uint64_t kMaxRegionChunks = uint64_t{1} << 24;
 
 /// Returns the smallest round cell edge in metres (1, 1.2, 1.5, 2 and so on, times a power of ten), not below `cell`
 /// (units), at which the boxes together meet at most max_chunks chunks of a level; nullopt if no edge up to 1 km is

@@ -180,10 +180,10 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
   return {finest_cell, cell, domain.solid, makeLabel(domain.material, 0)};
 }
 
-Result<void> WorldField::bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const {
+Result<void> WorldField::load(std::span<const CellKey> keys, CachedCells& cached_cells) const {
   std::pmr::vector<CellKey> missing(memory_);
   for (const CellKey& key : keys) {
-    if (at_hand.count(key) == 0) missing.push_back(key);
+    if (cached_cells.count(key) == 0) missing.push_back(key);
   }
   if (missing.empty()) return {};
   std::vector<std::shared_ptr<const DerivedCell>> found;
@@ -196,14 +196,14 @@ Result<void> WorldField::bring(std::span<const CellKey> keys, CellsAtHand& at_ha
       if (!derived) return derived.error();
       found[i] = std::move(*derived);
     }
-    at_hand.emplace(key, std::move(found[i]));
+    cached_cells.emplace(key, std::move(found[i]));
   }
   return {};
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
     uint32_t layers, const IntBox& box, const FieldSettings& field, std::span<const HostField> hosts,
-    std::span<const Brush> brushes, CellsAtHand& at_hand, GatheredCells* gathered) const {
+    std::span<const Brush> brushes, CachedCells& cached_cells, GatheredCells* gathered) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
   std::pmr::vector<IndexedCell> indexed(memory_);
@@ -224,8 +224,8 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
           return {};
         });
     if (!walked) return walked.error();
-    if (const Result<void> brought = bring(keys, at_hand); !brought) return brought.error();
-    for (const CellKey& key : keys) use(at_hand.at(key));
+    if (const Result<void> brought = load(keys, cached_cells); !brought) return brought.error();
+    for (const CellKey& key : keys) use(cached_cells.at(key));
   }
   Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
   if (!program) return program.error();
@@ -236,11 +236,11 @@ Result<ShapeField> WorldField::compileShapes(const IntBox& box, int level, const
   ShapeField shapes;
   FieldSettings settings = fieldSettings(settings_.finest_cell, cellAt(level));
   settings.shapes = &shapes.labels;
-  CellsAtHand at_hand;
+  CachedCells cached_cells;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
       compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box, settings, settings_.hosts,
-                    brushes(box, level, edits), at_hand, &gathered);
+                    brushes(box, level, edits), cached_cells, &gathered);
   if (!program) return program.error();
   shapes.program = std::move(*program);
   shapes.cells = std::move(gathered.cells);
@@ -248,11 +248,11 @@ Result<ShapeField> WorldField::compileShapes(const IntBox& box, int level, const
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level, const EditSnapshot* edits,
-                                                                CellsAtHand* at_hand) const {
-  CellsAtHand own;
+                                                                CachedCells* cached_cells) const {
+  CachedCells own;
   return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
                        fieldSettings(settings_.finest_cell, cellAt(level)), settings_.hosts, brushes(box, level, edits),
-                       at_hand != nullptr ? *at_hand : own);
+                       cached_cells != nullptr ? *cached_cells : own);
 }
 
 std::pmr::vector<Brush> WorldField::brushes(const IntBox& box, int level, const EditSnapshot* edits) const {
@@ -271,24 +271,24 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
                                                                      uint64_t* parameters) const {
   // A cell edge of one unit requests full detail, regardless of the cells with which the world is meshed.
-  CellsAtHand at_hand;
+  CachedCells cached_cells;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
-      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, at_hand, &gathered);
+      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, cached_cells, &gathered);
   if (parameters != nullptr) *parameters |= gathered.parameters;
   return program;
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                                      const std::function<void(const GrammarChunk&)>& visit,
-                                     const CellsAtHand* at_hand) const {
+                                     const CachedCells* cached_cells) const {
   if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
     if (!wanted(settings_.program->layers[layer])) continue;
     const Result<void> walked =
         walkCells(*settings_.program, settings_.shift, layer, box, by, [&](const CellKey& key) -> Result<void> {
-          if (at_hand != nullptr) {
-            if (const auto found = at_hand->find(key); found != at_hand->end())
+          if (cached_cells != nullptr) {
+            if (const auto found = cached_cells->find(key); found != cached_cells->end())
               return visit(found->second->chunk), Result<void>{};
           }
           Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
@@ -301,7 +301,7 @@ Result<void> WorldField::forEachCell(const IntBox& box, CellsBy by, const std::f
   return {};
 }
 
-Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAtHand* at_hand) const {
+Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CachedCells* cached_cells) const {
   std::vector<Anchor> found;
   const auto wanted = [](const Layer& layer) { return layer.anchors; };
   const auto visit = [&](const GrammarChunk& chunk) {
@@ -310,7 +310,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAt
     }
   };
   // Anchors always lie inside their own cell.
-  const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, at_hand);
+  const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, cached_cells);
   if (!visited) return visited.error();
   return found;
 }

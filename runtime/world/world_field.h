@@ -88,11 +88,11 @@ class WorldField {
                            const std::function<Result<void>(Int3 cell)>& visit) const;
 
   /// Compiles all groups that matter in the closed box at a level, below the host fields and the edits, neither of
-  /// which derivation sees. at_hand: cached cells of this field, which are searched first; all cells used are added.
-  /// Errors: limit if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a host
-  /// field; errors of derivation and of the host fields.
+  /// which derivation sees. cached_cells: cached cells of this field, which are searched first; all cells used are
+  /// added. Errors: limit if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a
+  /// host field; errors of derivation and of the host fields.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level, const EditSnapshot* edits = nullptr,
-                                                      CellsAtHand* at_hand = nullptr) const;
+                                                      CachedCells* cached_cells = nullptr) const;
 
   /// Same as compile(), but with labels that name shapes instead of materials and tags.
   Result<ShapeField> compileShapes(const IntBox& box, int level, const EditSnapshot* edits = nullptr) const;
@@ -103,9 +103,9 @@ class WorldField {
   /// Returns a program that is the domain's own state (solid or void) everywhere: the field beyond the drawn world.
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
 
-  /// Returns the anchors in the box lo <= p < hi, by layer, cell and key. at_hand: cached cells, which are searched
-  /// first. Errors: limit if the box holds points of more than 2^24 cells of a layer; errors of derivation.
-  Result<std::vector<Anchor>> anchors(const IntBox& box, const CellsAtHand* at_hand = nullptr) const;
+  /// Returns the anchors in the box lo <= p < hi, by layer, cell and key. cached_cells: cached cells, which are
+  /// searched first. Errors: limit if the box holds points of more than 2^24 cells of a layer; errors of derivation.
+  Result<std::vector<Anchor>> anchors(const IntBox& box, const CachedCells* cached_cells = nullptr) const;
 
   /// Returns notes on what derivation had to leave out in cells whose reach meets the box, of layers that are visible
   /// at cells of this edge or that may have anchors. The notes of each cell occur once. Errors: limit if there are more
@@ -133,14 +133,14 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
                                                             std::span<const HostField> hosts,
-                                                            std::span<const Brush> brushes, CellsAtHand& at_hand,
+                                                            std::span<const Brush> brushes, CachedCells& cached_cells,
                                                             GatheredCells* gathered = nullptr) const;
   /// Calls visit for the cells of all layers that `wanted` accepts and that matter in the box, in order.
   Result<void> forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit,
-                           const CellsAtHand* at_hand = nullptr) const;
-  /// Loads the cells of the keys that are missing in at_hand into it, from the cache or by derivation.
-  Result<void> bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const;
+                           const CachedCells* cached_cells = nullptr) const;
+  /// Loads the cells of the keys that are missing in cached_cells into it, from the cache or by derivation.
+  Result<void> load(std::span<const CellKey> keys, CachedCells& cached_cells) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
   /// Calls `derive` with access to the layers below the cell.
   template <class T, class Derive>

@@ -88,7 +88,7 @@ class VulkanDevice {
   }
 
   /// The first required feature that a device lacks; empty if it has all.
-  std::string lackOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) const {
+  std::string unsupportedReason(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) const {
     if (properties.apiVersion < VulkanInstance::kApiVersion) return "Vulkan 1.2";
     VkPhysicalDeviceVulkan12Features features12{};
     features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -123,7 +123,7 @@ class VulkanDevice {
     for (VkPhysicalDevice candidate : instance_.devices()) {
       VkPhysicalDeviceProperties properties;
       vkGetPhysicalDeviceProperties(candidate, &properties);
-      const std::string lack = lackOf(candidate, properties);
+      const std::string lack = unsupportedReason(candidate, properties);
       if (!lack.empty()) lacks += std::string("; ") + properties.deviceName + " lacks " + lack;
       if (!lack.empty() || rankOf(properties.deviceType) <= best) continue;
       best = rankOf(properties.deviceType);

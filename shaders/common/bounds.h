@@ -10,7 +10,7 @@ struct Bounds {
   float lo, hi;
 };
 
-const float kMostBound = 1.0e30f;
+const float kMaxBound = 1.0e30f;
 const float kHeldAt = 1.0e18f;  // results of expressions are clamped to this magnitude (real.h)
 
 FN Bounds makeBounds(float lo, float hi) {
@@ -24,7 +24,7 @@ FN float magnitudeOf(Bounds a) { return max(abs(a.lo), abs(a.hi)); }
 
 FN Bounds widened(Bounds a, float by) {
   float slack = by + 1.0e-6f * magnitudeOf(a) + 1.0e-20f;
-  return makeBounds(clamp(a.lo - slack, -kMostBound, kMostBound), clamp(a.hi + slack, -kMostBound, kMostBound));
+  return makeBounds(clamp(a.lo - slack, -kMaxBound, kMaxBound), clamp(a.hi + slack, -kMaxBound, kMaxBound));
 }
 
 FN Bounds clampedTo(Bounds a, float lo, float hi) { return makeBounds(clamp(a.lo, lo, hi), clamp(a.hi, lo, hi)); }
@@ -105,7 +105,9 @@ FN Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, flo
     float low = u.lo * u.lo * (3.0f - 2.0f * u.lo) - error - 1.0e-6f;
     float high = u.hi * u.hi * (3.0f - 2.0f * u.hi) + error + 1.0e-6f;
     // The evaluators clamp t before any other rounding, so that its ends give exactly 0 and 1.
-    return t.hi <= 0.0f ? makeBounds(0.0f, 0.0f) : t.lo >= 1.0f ? makeBounds(1.0f, 1.0f) : makeBounds(max(low, 0.0f), high);
+    return t.hi <= 0.0f   ? makeBounds(0.0f, 0.0f)
+           : t.lo >= 1.0f ? makeBounds(1.0f, 1.0f)
+                          : makeBounds(max(low, 0.0f), high);
   }
   if (number == kOp_mix) return keptOf(blendOf(a, b, c));
   if (number == kOp_minimum) return makeBounds(min(a.lo, b.lo), min(a.hi, b.hi));
@@ -118,7 +120,7 @@ FN Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, flo
     r = clampedTo(makeBounds(r.lo + 1.0f, r.hi + 1.0f), 0.0f, 1.0e9f);
     return kernelRange(productOf(makeBounds(r.lo * r.lo, r.hi * r.hi), makeBounds(p1, p1)), error);
   }
-  return makeBounds(-kMostBound, kMostBound);
+  return makeBounds(-kMaxBound, kMaxBound);
 }
 
 FN Bounds roundShare(Bounds d, float k) {
@@ -235,5 +237,6 @@ FN Bounds powerMorphBounds(Params P, Bounds t, float sizes, Box3 box) {
   float smallest = min(u.smallest, min(v.smallest, w.smallest));
   float largest = min(u.largest, min(v.largest, w.largest));
   return widened(makeBounds(norm_low * (norm_low > 0.0f ? smallest : largest),
-                            norm_high * (norm_high > 0.0f ? largest : smallest)), slack);
+                            norm_high * (norm_high > 0.0f ? largest : smallest)),
+                 slack);
 }

@@ -4,7 +4,7 @@
 // decides whether the current record stays, MARK_LAYER the value that decides it within a layer.
 
 const float kNever = 3.0e38f;
-const uint kMostLayers = 64u;
+const uint kMaxLayers = 64u;
 
 float low[kSlots], high[kSlots];
 ivec3 place_low[8], place_high[8];
@@ -125,7 +125,7 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
   {                                                                           \
     GROUP                                                                     \
     const bool ends = (flags & kEndsLayer) != 0u;                             \
-    const uint layer = min(slots_word, kMostLayers - 1u);                     \
+    const uint layer = min(slots_word, kMaxLayers - 1u);                     \
     MARK(met ? value.lo : kNever)                            \
     MARK_WHOLE(whole ? 1.0f : 0.0f) \
     float met_low = met && !ends ? value.lo : kNever;                         \

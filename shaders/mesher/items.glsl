@@ -59,8 +59,8 @@ const uint kJobScale = 9u;
 // Software Vulkan ends all loops of an invocation after 65,535 rounds in total (Mesa's guard against endless loops), so
 // long work is divided: sampling into slices, each an entry of the list of sampled items (number of the item, the
 // slice, number of slices), and attributes into units of limited numbers of vertices.
-const uint kMostRounds = 60000u;
-const uint kMostSlices = 16u;
+const uint kMaxRounds = 60000u;
+const uint kMaxSlices = 16u;
 // Returns an upper bound of the rounds of a sweep over this number of records: all kinds of op for each, and the
 // octaves of noise.
 uint roundsOf(uint records) { return 64u * records + 64u; }
@@ -73,7 +73,7 @@ uint slicesOfEntry(uint entry) { return entry >> 26; }
 // index: for a brick, into the list of vertices by brick; for a plane, among the vertices that are evaluated with the
 // plane's field.
 const uint kUnitWords = 4u;
-uint verticesOfUnit(uint records, uint width) { return max(kMostRounds / roundsOf(records), 1u) * width; }
+uint verticesOfUnit(uint records, uint width) { return max(kMaxRounds / roundsOf(records), 1u) * width; }
 
 uint brickItem(uint chunk, uint brick) { return items_at + kItemWords * (chunk * kBricks + brick); }
 // coarse: 0 or 1

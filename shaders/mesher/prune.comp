@@ -19,10 +19,10 @@ layout(local_size_x_id = 0) in;
 #include "common/bounds.h"
 
 const uint kEndOfWindow = 0xFFu;
-const uint kMostRecords = 1024u;
+const uint kMaxRecords = 1024u;
 
-float mark[kMostRecords];   // the value that decides whether a record stays
-float whole_mark[kMostRecords];
+float mark[kMaxRecords];   // the value that decides whether a record stays
+float whole_mark[kMaxRecords];
 float layer_add[64], layer_cut[64], layer_joined[64], layer_replaced[64];
 float nearest_high[64];     // by slot: upper bound of the nearest operand of a round union
 
@@ -92,7 +92,7 @@ void main() {
     lo[axis] = at;
     hi[axis] = at;
   }
-  setSlot(kFarSlot, makeBounds(kMostBound, kMostBound));
+  setSlot(kFarSlot, makeBounds(kMaxBound, kMaxBound));
   place_low[0] = lo;
   place_high[0] = hi;
 
@@ -204,7 +204,7 @@ void main() {
     const bool wanted = kind_of_job == 2u || faces == 0u || (faces & touched) != 0u;
     if (!(solid || empty) && kind_of_job != 1u && wanted) {
       const uint passes = 729u / (4u * gl_WorkGroupSize.x) + 8u;
-      const uint slices = min(passes * roundsOf(list_end - begin) / kMostRounds + 1u, kMostSlices);
+      const uint slices = min(passes * roundsOf(list_end - begin) / kMaxRounds + 1u, kMaxSlices);
       const uint at = sampled_at + atomicAdd(parts[kHeadSampled], slices);
       uint slice = 0u;
       do {

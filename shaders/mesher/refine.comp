@@ -43,7 +43,7 @@ void main() {
   const ivec3 first = ivec3(firstOfPart(number % kBricks, which)), last = ivec3(lastOfPart(number % kBricks, which));
   // Same as for bricks: bounded together with one more sample on each side.
   const ivec3 lo = origin + max(first - 1, ivec3(0)) * cell, hi = origin + min(last + 1, ivec3(32)) * cell;
-  setSlot(kFarSlot, makeBounds(kMostBound, kMostBound));
+  setSlot(kFarSlot, makeBounds(kMaxBound, kMaxBound));
   place_low[0] = lo;
   place_high[0] = hi;
 

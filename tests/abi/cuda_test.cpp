@@ -232,6 +232,6 @@ TEST_CASE("what is not in a lent context says so", "[cuda]") {
   const RuntimeOwner runtime = lender.runtime();
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
-  checkNothingLent(on_cpu.get(), "sgm_runtime_lend_cuda", sgm_cuda_mesh_view SGM_CUDA_MESH_VIEW_INIT,
-                   sgm_mesh_get_cuda_view, [](const sgm_cuda_mesh_view& view) { return view.body.vertices == 0; });
+  checkNothingBorrowed(on_cpu.get(), "sgm_runtime_lend_cuda", sgm_cuda_mesh_view SGM_CUDA_MESH_VIEW_INIT,
+                       sgm_mesh_get_cuda_view, [](const sgm_cuda_mesh_view& view) { return view.body.vertices == 0; });
 }

@@ -26,7 +26,7 @@
 
 namespace {
 
-constexpr int64_t kRemembered = 1024, kMostKept = 512;
+constexpr int64_t kRemembered = 1024, kMaxKept = 512;
 
 constexpr const char* kCavedRock =
     "sgm 1; units m; domain infinite solid;\nlayer l cell 32m reach 8m { start Ball; }\n"
@@ -355,7 +355,7 @@ TEST_CASE("handles that have ended keep little memory, and what they owned is fr
     const RuntimeOwner runtime = watch.makeRuntime();
     const int64_t bytes = watch.bytes;
     for (int i = 0; i < 20; ++i) REQUIRE(sgm_surface_destroy(makeNoise(runtime.get(), 32)) == SGM_OK);
-    CHECK(watch.bytes <= bytes + 20 * kMostKept);
+    CHECK(watch.bytes <= bytes + 20 * kMaxKept);
     CHECK(liveBytes(runtime) == 0);
 
     const GrammarOwner grammar = compile(runtime.get(), kBall);
@@ -366,7 +366,7 @@ TEST_CASE("handles that have ended keep little memory, and what they owned is fr
       REQUIRE(watch.blocks == blocks + std::min(i, kRemembered));
       REQUIRE(liveBytes(runtime) == live);
     }
-    CHECK(watch.bytes <= bytes + static_cast<int64_t>(live) + kRemembered * kMostKept);
+    CHECK(watch.bytes <= bytes + static_cast<int64_t>(live) + kRemembered * kMaxKept);
 #if defined(SGM_TEST_WATCHES_ADDRESSES)
     sgm_parameters* parameters = makeParameters(grammar.get());
     CHECK(__asan_address_is_poisoned(parameters) == 0);

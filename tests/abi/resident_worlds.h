@@ -78,7 +78,7 @@ void wanderBeside(sgm_field* field, const char* text, const Check& check) {
 /// Meshes of a field on the CPU have no view on a device: each call says so. lend: the function that would lend one;
 /// getView fills such a view as `init` is one, and isEmpty(view) says whether it has nothing.
 template <class View, class GetView, class IsEmpty>
-void checkNothingLent(sgm_field* on_cpu, const char* lend, const View& init, GetView getView, IsEmpty isEmpty) {
+void checkNothingBorrowed(sgm_field* on_cpu, const char* lend, const View& init, GetView getView, IsEmpty isEmpty) {
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.flags = SGM_WORLD_RESIDENT;
   sgm_world* refused = nullptr;

@@ -208,14 +208,14 @@ TEST_CASE("threads that do not start are done without, and their absence is an e
   sgm_runtime* made = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   {
-    const ScarceThreads none(0);
+    const FailingThreads none(0);
     CHECK(sgm_runtime_create(&desc, &made, &error) == SGM_ERR_LIMIT);
   }
   CHECK(made == nullptr);
   CHECK(error.code == SGM_ERR_LIMIT);
   CHECK(std::string(error.message).find("thread") != std::string::npos);
   {
-    const ScarceThreads few(3);
+    const FailingThreads few(3);
     REQUIRE(sgm_runtime_create(&desc, &made, &error) == SGM_OK);
   }
   const RuntimeOwner runtime(made);

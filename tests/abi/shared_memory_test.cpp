@@ -65,7 +65,7 @@ TEST_CASE("what CUDA meshes lies on the Vulkan device that draws, wherever the v
   const OneGpu gpu(lender);
   const sgm_backend backend = GENERATE(SGM_BACKEND_CUDA, SGM_BACKEND_AUTO);
   CAPTURE(backend);
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   {
     const GrammarOwner grammar = compile(runtime.get(), kLumps);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, backend);
@@ -95,7 +95,7 @@ TEST_CASE("so does what comes from the disk, and what was dug", "[shared]") {
   const OneGpu gpu(lender);
   const auto folder = std::filesystem::temp_directory_path() / ("sgm_shared_" + std::to_string(getpid()));
   for (const bool again : {false, true}) {
-    const RuntimeOwner runtime = lentRuntime(lender);
+    const RuntimeOwner runtime = externalRuntime(lender);
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT, folder.c_str());
@@ -128,7 +128,7 @@ TEST_CASE("a lent CUDA context meshes for the Vulkan device, too; meshes outlive
   Lender lender(true);
   const OneGpu gpu(lender);
   const CudaLender context(GENERATE(false, true));
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   const sgm_cuda_device_desc desc = context.lend();
   REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &desc, nullptr) == SGM_OK);
   std::vector<MeshOwner> meshes;
@@ -151,7 +151,7 @@ TEST_CASE("what CUDA meshes keeps to the bytes that it may have on the Vulkan de
   if (!vk::haveDevice()) return;
   Lender lender(true);
   const OneGpu gpu(lender);
-  const RuntimeOwner runtime = lentRuntime(lender, 100000);
+  const RuntimeOwner runtime = externalRuntime(lender, 100000);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
@@ -197,7 +197,7 @@ TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right whe
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-40, 40);
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kLumps);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
@@ -243,7 +243,7 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
   sgm_error error = SGM_ERROR_INIT;
   SECTION("another GPU") {
     gpu.state().id[0] ^= 1;
-    const RuntimeOwner runtime = lentRuntime(lender);
+    const RuntimeOwner runtime = externalRuntime(lender);
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_ERR_UNSUPPORTED);
     CHECK_THAT(error.message, Catch::Contains("the drawing GPU"));
     CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
@@ -256,7 +256,7 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
     gpu.state().fail_call = GENERATE("importExternalMemory", "externalMemoryGetMappedBuffer");
     gpu.state().fail_nth = 1;
     gpu.state().fail_result = 801;
-    const RuntimeOwner runtime = lentRuntime(lender);
+    const RuntimeOwner runtime = externalRuntime(lender);
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_ERR_UNSUPPORTED);
     CHECK_THAT(error.message, Catch::Contains("importing the drawing device's memory"));
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_OK);

@@ -140,7 +140,7 @@ inline size_t checkMesh(Lender& lender, const MeshOwner& mesh) {
   return view.index_count / 3;
 }
 
-inline RuntimeOwner lentRuntime(Lender& lender, uint64_t mesh_bytes = 0) {
+inline RuntimeOwner externalRuntime(Lender& lender, uint64_t mesh_bytes = 0) {
   RuntimeOwner runtime = makeRuntime();
   sgm_vulkan_device_desc desc = lender.lend();
   desc.mesh_bytes = mesh_bytes;

@@ -24,7 +24,7 @@ TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, whe
   if (!vk::haveDevice()) return;
   Lender lender;
   const char* text = GENERATE(kBalls, kLumps);
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), text);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
   wanderBeside(field.get(), text, [&](const MeshOwner& mesh) { return checkMesh(lender, mesh); });
@@ -35,7 +35,7 @@ TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan][cos
   Lender lender;
   const auto folder = std::filesystem::temp_directory_path() / ("sgm_resident_" + std::to_string(getpid()));
   for (const bool again : {false, true}) {
-    const RuntimeOwner runtime = lentRuntime(lender);
+    const RuntimeOwner runtime = externalRuntime(lender);
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT, folder.c_str());
@@ -54,7 +54,7 @@ TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan][cos
 TEST_CASE("a dig and its undo lie on the lent device, as do seams that come later", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
@@ -86,7 +86,7 @@ TEST_CASE("a dig and its undo lie on the lent device, as do seams that come late
 TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   std::vector<MeshOwner> meshes;
   {
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
@@ -104,7 +104,7 @@ TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
 TEST_CASE("meshes keep to the bytes that they may have on the device, and the rest is not there", "[vulkan][costly]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  const RuntimeOwner runtime = lentRuntime(lender, 100000);
+  const RuntimeOwner runtime = externalRuntime(lender, 100000);
   const auto residentNow = [&] {
     sgm_backend_info info = SGM_BACKEND_INFO_INIT;
     REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
@@ -162,10 +162,10 @@ TEST_CASE("a device that cannot be lent is refused, for a reason, and changes no
 TEST_CASE("what is not on a lent device says so", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  const RuntimeOwner runtime = lentRuntime(lender);
+  const RuntimeOwner runtime = externalRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
-  checkNothingLent(on_cpu.get(), "sgm_runtime_lend_vulkan", sgm_vulkan_mesh_view SGM_VULKAN_MESH_VIEW_INIT,
-                   sgm_mesh_get_vulkan_view,
-                   [](const sgm_vulkan_mesh_view& view) { return view.body.buffer == VK_NULL_HANDLE; });
+  checkNothingBorrowed(on_cpu.get(), "sgm_runtime_lend_vulkan", sgm_vulkan_mesh_view SGM_VULKAN_MESH_VIEW_INIT,
+                       sgm_mesh_get_vulkan_view,
+                       [](const sgm_vulkan_mesh_view& view) { return view.body.buffer == VK_NULL_HANDLE; });
 }

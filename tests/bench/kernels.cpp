@@ -85,7 +85,7 @@ void finish(Load& load) {
 
 Load surfaceLoad(const WorldField& world, size_t batches) {
   Load load;
-  const size_t chunks = batches * cuda::kMostChunks;
+  const size_t chunks = batches * cuda::kMaxChunks;
   load.name = std::to_string(chunks) + " surface chunks, batches at one time: " + std::to_string(batches);
   ChunkScratch scratch(heap);
   std::vector<ChunkJob> found;

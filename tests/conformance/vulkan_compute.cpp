@@ -46,10 +46,10 @@ Result<std::optional<VulkanCompute>> VulkanCompute::create(bool require, bool va
 }
 
 Result<ComputeShader> VulkanCompute::shader(std::span<const uint32_t> spirv, size_t buffers, size_t push_bytes) const {
-  const uint32_t most_buffers = device_->limits().maxPerStageDescriptorStorageBuffers;
+  const uint32_t max_buffers = device_->limits().maxPerStageDescriptorStorageBuffers;
   if (spirv.empty()) return Error{Code::invalid_argument, "no shader given"};
-  if (buffers == 0 || buffers > most_buffers) {
-    return Error{Code::invalid_argument, "a shader takes 1 to " + std::to_string(most_buffers) +
+  if (buffers == 0 || buffers > max_buffers) {
+    return Error{Code::invalid_argument, "a shader takes 1 to " + std::to_string(max_buffers) +
                                              " storage buffers here, not " + std::to_string(buffers)};
   }
   if (push_bytes > kMaxPushBytes || push_bytes % 4) {

@@ -15,7 +15,7 @@ using namespace sgm::service::http;
 namespace {
 
 constexpr ReaderLimits kLimits{.line_bytes = 256, .head_bytes = 1024, .fields = 8};
-constexpr uint64_t kMostBytes = 500;
+constexpr uint64_t kMaxBytes = 500;
 
 void check(bool holds) {
   if (!holds) std::abort();
@@ -54,16 +54,16 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 4) return 0;
   const auto* text = static_cast<const char*>(static_cast<const void*>(data));
   const std::string_view bytes(text + 4, size - 4);
-  const std::vector<Told> whole = readAll(bytes, kMostBytes, kLimits);
+  const std::vector<Told> whole = readAll(bytes, kMaxBytes, kLimits);
   size_t turn = 0;
   const auto cut = [&](size_t left) { return std::min<size_t>(left, size_t{data[turn++ % 4]} + 1); };
-  check(textOf(readAll(bytes, kMostBytes, kLimits, cut)) == textOf(whole));
-  check(textOf(readAll(bytes, kMostBytes, kLimits, [](size_t) { return size_t{1}; })) == textOf(whole));
+  check(textOf(readAll(bytes, kMaxBytes, kLimits, cut)) == textOf(whole));
+  check(textOf(readAll(bytes, kMaxBytes, kLimits, [](size_t) { return size_t{1}; })) == textOf(whole));
   for (const Told& told : whole) {
     check(&told == &whole.back() || (told.ended && told.refused == 0));
     check(!told.ended || (told.has_head && told.refused == 0));
     check(told.refused == 0 || (told.refused >= 400 && told.refused < 600 && !told.code.empty()));
-    check(told.body.size() <= kMostBytes);
+    check(told.body.size() <= kMaxBytes);
     if (told.has_head) checkRequest(told.request);
   }
   return 0;

@@ -17,7 +17,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr size_t kMostChanges = 12;
+constexpr size_t kMaxChanges = 12;
 
 /// Reads numbers from the input; 0 after its end.
 struct Input {
@@ -32,7 +32,7 @@ struct Input {
 
 /// Changes bytes from `first` on, and may truncate the bytes.
 void change(Input& input, std::vector<std::byte>& bytes, size_t first) {
-  for (size_t i = 0; i < kMostChanges && input.left > 0 && first < bytes.size(); ++i) {
+  for (size_t i = 0; i < kMaxChanges && input.left > 0 && first < bytes.size(); ++i) {
     const size_t at = first + input.next(3) % (bytes.size() - first);
     bytes[at] = static_cast<std::byte>(input.next(1));
     if (input.next(1) == 0xFF) bytes.resize(at);

@@ -187,7 +187,7 @@ Window leastVaried(CrossSections& sections, const std::vector<Point>& way, doubl
 
 TEST_CASE("an agent walks from each hall of a cave to each other, through passages that vary", "[walk]") {
   const std::filesystem::path folder(SGM_SAMPLE_GRAMMARS);
-  const Workshop shop;
+  const ReportContext shop;
   const char* const only = std::getenv("SGM_WALK_ONLY");
   for (const Walk& walk : kWalks) {
     if (only != nullptr && std::string(walk.grammar).find(only) == std::string::npos) continue;

@@ -9,7 +9,7 @@ import net from 'node:net';
 const [base, operations, pid, meshFile] = process.argv.slice(2);
 const { hostname, port } = new URL(base);
 const mesh = fs.readFileSync(meshFile);
-const kMostMilliseconds = 50, kMostMebibytes = 256;
+const kMaxMilliseconds = 50, kMaxMebibytes = 256;
 
 /// Runs a client's function on a new connection; resolves to the status of the answer, or 0 if there is none.
 function client(play) {
@@ -99,9 +99,9 @@ const share = (of) => times[Math.min(times.length - 1, Math.floor(times.length *
 console.log(`/healthz asked ${times.length} times: median ${share(0.5).toFixed(2)} ms, p99 ${share(0.99).toFixed(2)} ms, ` +
   `longest ${share(1).toFixed(2)} ms, ${lost} lost`);
 if (lost > 0 || times.length < 100) fail('/healthz was not answered each time');
-if (share(0.99) >= kMostMilliseconds) fail(`/healthz p99 must stay below ${kMostMilliseconds} ms`);
+if (share(0.99) >= kMaxMilliseconds) fail(`/healthz p99 must stay below ${kMaxMilliseconds} ms`);
 const status = fs.readFileSync(`/proc/${pid}/status`, 'utf8');
 const mebibytes = Number(/VmHWM:\s+(\d+)/.exec(status)[1]) / 1024;
 console.log(`resident at most ${mebibytes.toFixed(1)} MiB`);
-if (mebibytes >= kMostMebibytes) fail(`the service must stay below ${kMostMebibytes} MiB`);
+if (mebibytes >= kMaxMebibytes) fail(`the service must stay below ${kMaxMebibytes} MiB`);
 process.exit(failures === 0 ? 0 : 1);

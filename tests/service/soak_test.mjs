@@ -11,7 +11,7 @@ const [base, operations, pid, meshFile, secondsText, folder] = process.argv.slic
 const seconds = Number(secondsText), mesh = fs.readFileSync(meshFile);
 /// Allowed growth of resident memory in MiB after the warm-up: allocators' use of memory varies by this much at any
 /// time.
-const kMostGrowth = 6;
+const kMaxGrowth = 6;
 const kClients = 6;
 /// Milliseconds between a client's requests, so that other processes of the machine are not slowed down.
 const kPause = 30;
@@ -83,7 +83,7 @@ const growth = slope * (last.seconds - warm[0].seconds);
 console.log(`${asked} requests in ${seconds} s, ${failures} failures; warm from ${warm[0].seconds.toFixed(0)} s on: ` +
   `${level.toFixed(1)} MiB on average, ${growth.toFixed(2)} MiB by the fitted line (${(slope * 3600).toFixed(2)} MiB/h); ` +
   `files ${samples[0].files} to ${last.files}, threads ${samples[0].threads} to ${last.threads}`);
-if (growth > kMostGrowth) fail(`it grew by ${growth.toFixed(1)} MiB`);
+if (growth > kMaxGrowth) fail(`it grew by ${growth.toFixed(1)} MiB`);
 if (last.files > samples[0].files + 2) fail('files stay open');
 if (last.threads > samples[0].threads) fail('threads stay');
 if (asked < seconds) fail('next to nothing was asked');

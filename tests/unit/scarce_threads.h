@@ -22,9 +22,9 @@
 #include "catch.h"
 
 /// During its lifetime, the address space has room for the stacks of about `threads` more threads.
-class ScarceThreads {
+class FailingThreads {
  public:
-  explicit ScarceThreads(unsigned threads) {
+  explicit FailingThreads(unsigned threads) {
     // With large stacks, glibc cannot reuse a cached stack of an earlier thread.
     constexpr size_t kStack = size_t{256} << 20;
     pthread_attr_t large;
@@ -38,9 +38,9 @@ class ScarceThreads {
     scarce.rlim_cur = pages() * 4096 + (threads * kStack + kStack / 2);
     REQUIRE(setrlimit(RLIMIT_AS, &scarce) == 0);
   }
-  ScarceThreads(const ScarceThreads&) = delete;
-  ScarceThreads& operator=(const ScarceThreads&) = delete;
-  ~ScarceThreads() {
+  FailingThreads(const FailingThreads&) = delete;
+  FailingThreads& operator=(const FailingThreads&) = delete;
+  ~FailingThreads() {
     setrlimit(RLIMIT_AS, &before_);
     pthread_setattr_default_np(&usual_);
     pthread_attr_destroy(&usual_);

@@ -13,7 +13,7 @@
 namespace sgm_godot {
 namespace {
 
-constexpr int64_t kMostPoints = int64_t{1} << 27;
+constexpr int64_t kMaxPoints = int64_t{1} << 27;
 
 /// The nearest whole number of units; nullopt if `units` is not finite or beyond the runtime's coordinates.
 std::optional<int32_t> wholeUnits(double units) {
@@ -74,7 +74,7 @@ Bytes sampleDensity(const World& world, const Vector3& corner, double spacing, c
   const int64_t points = int64_t{size.x} * size.y * size.z;
   const double length = std::hypot(to_sun.x, to_sun.y, to_sun.z);
   if (size.x < 1 || size.y < 1 || size.z < 1 || size.x > 4096 || size.y > 4096 || size.z > 4096 ||
-      points > kMostPoints || !(to_sun.y > 0.05 * length) || !(fade > 0) || !(spacing > 0) || !(edge >= 0)) {
+      points > kMaxPoints || !(to_sun.y > 0.05 * length) || !(fade > 0) || !(spacing > 0) || !(edge >= 0)) {
     logError(
         "SgmWorld3D: sample_density takes 1 to 4,096 points along each axis and 134,217,728 in all, a spacing and a "
         "fade above 0, an edge of 0 or more, and a sun that stands 3 degrees above the horizon or higher");

@@ -6,7 +6,7 @@
 namespace sgm_godot {
 namespace {
 
-constexpr int kMostInTheWay = 8;  // bodies between a viewer and its ground
+constexpr int kMaxObstacles = 8;  // bodies between a viewer and its ground
 constexpr float kDepth = 32;      // metres below a viewer in which its ground is looked for
 
 }  // namespace
@@ -23,7 +23,7 @@ bool hasGround(Vector3 position, const WorldNode& node, const Colliders& collide
   Variant hit = space.call("intersect_ray", query);
   // The viewer's own body, or a body below it, may be in the way.
   const Variant others = Variant::array();
-  for (int i = 0; i < kMostInTheWay && hit.size() != 0 && hit.get("collider").object() != node.object; ++i) {
+  for (int i = 0; i < kMaxObstacles && hit.size() != 0 && hit.get("collider").object() != node.object; ++i) {
     others.call("push_back", hit.get("rid"));
     query.call("set_exclude", others);
     hit = space.call("intersect_ray", query);

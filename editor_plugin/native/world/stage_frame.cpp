@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kBytesAFrame = 4 << 20;
-constexpr size_t kMostWaiting = 512;  // parts of chunks; then the runtime waits for the engine
+constexpr size_t kMaxWaiting = 512;  // parts of chunks; then the runtime waits for the engine
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void Stage::stream(double delta, const std::function<double()>& seconds_left) {
     logWarning("SgmWorld3D: " + *failure);
     node_.messages.fail(*failure);
   }
-  if (pictures_.current()->counts().waiting < kMostWaiting) {
+  if (pictures_.current()->counts().waiting < kMaxWaiting) {
     std::vector<sgm_world_event> events;
     if (Failure failure = session()->update(kBytesAFrame, events)) node_.messages.fail(*failure);
     receive(events);

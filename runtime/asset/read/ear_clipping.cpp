@@ -197,7 +197,7 @@ void EarClipping::wake(uint32_t corner) {
 bool EarClipping::clip(Rule rule, std::vector<std::array<uint32_t, 3>>& out) {
   for (uint32_t i = 0; i < points_.size(); ++i) enqueue(i);
   for (size_t head = 0; head < queue_.size() && left_ > 3; ++head) {
-    if (++steps_ > most_steps_) return false;
+    if (++steps_ > max_steps_) return false;
     const uint32_t b = queue_[head];
     queued_[b] = false;
     if (gone_[b]) continue;

@@ -14,7 +14,7 @@ namespace sgm::asset {
 enum class Clipped {
   done,
   crossed,     ///< the polygon crosses itself or has no area, so no triangulation is correct
-  over_limit,  ///< the polygon needs more steps than are left of kMostSteps
+  over_limit,  ///< the polygon needs more steps than are left of kMaxSteps
 };
 
 /// Triangulates one polygon after another, and reuses its memory. An ear is clipped if no other corner of the polygon
@@ -23,9 +23,9 @@ enum class Clipped {
 class EarClipping {
  public:
   /// The maximum number of boxes of k-d trees that are visited for all polygons together; they take some seconds.
-  static constexpr uint64_t kMostSteps = uint64_t{1} << 29;
+  static constexpr uint64_t kMaxSteps = uint64_t{1} << 29;
 
-  explicit EarClipping(uint64_t most_steps = kMostSteps) : most_steps_(most_steps) {}
+  explicit EarClipping(uint64_t max_steps = kMaxSteps) : max_steps_(max_steps) {}
 
   /// Replaces `out` by the triangles, two fewer than there are corners, as indices of corners. Uses the fan around
   /// corner 0 if it is correct. Projects along Newell's normal. Requires at least four corners.
@@ -67,7 +67,7 @@ class EarClipping {
   std::vector<Box> boxes_;
   std::vector<uint32_t> stack_;
   size_t leaves_ = 0, left_ = 0;
-  uint64_t steps_ = 0, most_steps_;
+  uint64_t steps_ = 0, max_steps_;
 };
 
 }  // namespace sgm::asset

@@ -10,7 +10,7 @@ constexpr size_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedSho
                  kFloat = 5126;
 constexpr size_t kNowhere = SIZE_MAX;  ///< stands for an offset that is not an integer: lies beyond every end
 /// The maximum number of elements of an accessor without bytes, for which the file's size sets no limit.
-constexpr size_t kMostZeros = size_t{1} << 24;
+constexpr size_t kMaxZeros = size_t{1} << 24;
 
 std::string numbered(std::string_view what, size_t number) {
   return std::string(what).append(" ").append(std::to_string(number));
@@ -200,7 +200,7 @@ Result<GlbAccessors::Elements> GlbAccessors::elements(size_t number, Type type, 
   if (a.sparse && (a.sparse->count == 0 || a.sparse->count > *a.count))
     return wrongIn(number, "sparse/count", " replaces none of its elements, or more than it has");
   if (a.view) return elementsIn(number, "", *a.view, a.offset, *a.count, componentBytes(a.component) * numbers, false);
-  if (*a.count > kMostZeros) return wrongIn(number, "count", " holds too many elements for one without a buffer view");
+  if (*a.count > kMaxZeros) return wrongIn(number, "count", " holds too many elements for one without a buffer view");
   return Elements{nullptr, *a.count, 0, 0};
 }
 
@@ -268,7 +268,7 @@ Result<void> GlbAccessors::points(size_t a, const MeshLimits& limits, std::vecto
   const Result<Elements> from = elements(a, Type::triple, Holds::small);
   if (!from) return from.error();
   const size_t before = out.size();
-  if (from->count > limits.mostPoints() - before) return overLimit(limits.mostPoints(), "points");
+  if (from->count > limits.maxPoints() - before) return overLimit(limits.maxPoints(), "points");
   out.resize(before + from->count);
   Point* const to = out.data() + before;
   return each<3>(a, *from, " has a position " + noPlaceWithin(limits), [&](size_t i, const std::array<double, 3>& v) {

@@ -51,9 +51,9 @@ Result<std::vector<GlbMaterial>> readGlbMaterials(const JsonValue& root) {
     material.coordinates = transform->count("texCoord").value_or(material.coordinates);
     GlbTextureTransform& laid = material.transform.emplace();
     const JsonValue* const rotation = transform->find("rotation");
-    constexpr double kMostTurned = 1e6;
+    constexpr double kMaxTurned = 1e6;
     const bool turned = rotation == nullptr || (rotation->kind == JsonValue::Kind::number &&
-                                                rotation->number >= -kMostTurned && rotation->number <= kMostTurned);
+                                                rotation->number >= -kMaxTurned && rotation->number <= kMaxTurned);
     if (!turned || !readNumbers(*transform, "offset", laid.offset) || !readNumbers(*transform, "scale", laid.scale))
       return wrongInJson(
           "a texture transform has values that are not numbers, or a wrong count of them",

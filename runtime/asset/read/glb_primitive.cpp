@@ -73,7 +73,7 @@ void GlbMeshes::makeRoom() {
       coordinates = coordinates || p.own.coordinates != kAbsent;
     }
   }
-  points = std::min({points, limits_.mostPoints(), accessors_.bytes() / 12});
+  points = std::min({points, limits_.maxPoints(), accessors_.bytes() / 12});
   const size_t triangles = std::min({corners / 3, limits_.triangles, accessors_.bytes() / 3});
   mesh_.points.reserve(points);
   if (normals) mesh_.normals.values.reserve(points);

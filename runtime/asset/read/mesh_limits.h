@@ -21,7 +21,7 @@ struct MeshLimits {
   size_t nodes = 1u << 16;       ///< maximum number of nodes in a GLB file
 
   /// Point indices have 32 bits, and the largest index is reserved for "none".
-  size_t mostPoints() const { return std::min<size_t>(points, 0xFFFFFFFEu); }
+  size_t maxPoints() const { return std::min<size_t>(points, 0xFFFFFFFEu); }
   bool isPlace(double x, double y, double z) const {
     return std::fabs(x) <= farthest && std::fabs(y) <= farthest && std::fabs(z) <= farthest;
   }

@@ -165,7 +165,7 @@ class ObjReader {
     double v[3];
     if (!numbers(v, 3, 3, "v")) return false;
     if (!limits_.isPlace(v[0], v[1], v[2])) return fail("a point " + noPlaceWithin(limits_));
-    if (mesh_.points.size() >= limits_.mostPoints()) return failLimit(limits_.mostPoints(), "points");
+    if (mesh_.points.size() >= limits_.maxPoints()) return failLimit(limits_.maxPoints(), "points");
     mesh_.points.push_back({v[0], v[1], v[2]});
     return true;
   }

@@ -112,7 +112,7 @@ class PlyBodyReader {
     const bool strips = named("tristrips") != header_.elements.end();
     if (!strips && named("face") == header_.elements.end())
       return Error{Code::bad_input, "it has no element `face`", 0, 0};
-    vertex_count_ = std::min(vertices->count, limits_.mostPoints());
+    vertex_count_ = std::min(vertices->count, limits_.maxPoints());
     size_t due = 0;  // number of elements up to the last one that has points or triangles; later ones are not read
     for (size_t i = 0; i < header_.elements.size(); ++i)
       if (isRead(header_.elements[i])) due = i + 1;
@@ -200,7 +200,7 @@ class PlyBodyReader {
   Result<void> vertices(const PlyElement& element) {
     const std::vector<size_t> role = roles(element);
     if (!has_places_) return Error{Code::bad_input, "its element `vertex` has not all of x, y and z", 0, 0};
-    if (element.count > limits_.mostPoints()) return overLimit(limits_.mostPoints(), "points");
+    if (element.count > limits_.maxPoints()) return overLimit(limits_.maxPoints(), "points");
     mesh_.points.reserve(element.count);
     if (has_normals_) mesh_.normals.values.reserve(element.count);
     if (has_coordinates_) mesh_.coordinates.values.reserve(element.count);

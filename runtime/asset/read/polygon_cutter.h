@@ -31,8 +31,8 @@ void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
 class PolygonCutter {
  public:
   /// unit: the unit of places in messages, such as "line".
-  PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t most_steps = EarClipping::kMostSteps)
-      : mesh_(mesh), unit_(unit), clipping_(most_steps) {}
+  PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t max_steps = EarClipping::kMaxSteps)
+      : mesh_(mesh), unit_(unit), clipping_(max_steps) {}
 
   /// Checks the polygon that was read last. The mesh's last triangles must be its fan; it has `corners` corners, at
   /// least four. A polygon with points that are not read yet is stored for finish(). Error: limit if the polygons are

@@ -43,11 +43,11 @@ void addFacet(TriangleMesh& mesh, const Point (&corners)[3]) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-size_t mostFacets(const MeshLimits& limits) { return std::min(limits.triangles, limits.mostPoints() / 3); }
+size_t maxFacets(const MeshLimits& limits) { return std::min(limits.triangles, limits.maxPoints() / 3); }
 
 Result<TriangleMesh> readBinary(std::span<const std::byte> bytes, const MeshLimits& limits) {
   const size_t count = facetCount(bytes);
-  if (count > mostFacets(limits)) return overLimit(mostFacets(limits), "triangles");
+  if (count > maxFacets(limits)) return overLimit(maxFacets(limits), "triangles");
   TriangleMesh mesh;
   mesh.points.reserve(3 * count);
   mesh.triangles.reserve(count);
@@ -117,7 +117,7 @@ class StlTextReader {
   }
 
   Result<void> facet() {
-    if (mesh_.triangles.size() >= mostFacets(limits_)) return overLimit(mostFacets(limits_), "triangles");
+    if (mesh_.triangles.size() >= maxFacets(limits_)) return overLimit(maxFacets(limits_), "triangles");
     if (auto error = words({"normal"})) return *error;
     // Normals are skipped without parsing: flat triangles have normals such as "nan nan nan".
     for (int i = 0; i < 3; ++i) text_.wordOfAnyLine();
@@ -150,10 +150,10 @@ class StlTextReader {
 /// A file with more bytes behind is of some other format, in which the bytes at the place of the count happen to be a
 /// small enough number.
 bool hasLittleBehind(std::span<const std::byte> bytes) {
-  constexpr uint64_t kMostOwn = 4096;
+  constexpr uint64_t kMaxTrailer = 4096;
   if (bytes.size() < kFacetsAt || facetCount(bytes) == 0) return false;
   const uint64_t due = sizeWith(facetCount(bytes));
-  return due < bytes.size() && bytes.size() - due <= kMostOwn + (due - kFacetsAt);
+  return due < bytes.size() && bytes.size() - due <= kMaxTrailer + (due - kFacetsAt);
 }
 
 Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimits& limits) {

@@ -27,12 +27,12 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
     device.software = software;
     return vulkan::Device::open(device);
   };
-  if (request.lent) {
-    options.resident_cap = request.lent->resident_cap;
-    options.open = [lent = request.lent,
+  if (request.external) {
+    options.resident_cap = request.external->resident_cap;
+    options.open = [external = request.external,
                     opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<vulkan::Device>> {
       if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's Vulkan device was lost"};
-      return vulkan::Device::borrow(*lent);
+      return vulkan::Device::borrow(*external);
     };
   }
   options.pipeline_folder = request.pipeline_folder;
@@ -66,22 +66,22 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   if (!cpu) return cpu.error();
   CudaBackendOptions options;
   int device = request.device;
-  if (request.lent) {
-    Result<std::shared_ptr<MeshStore>> store = openStore(*request.lent);
+  if (request.external) {
+    Result<std::shared_ptr<MeshStore>> store = openStore(*request.external);
     if (!store) return store.error();
     const Result<int> found = cuda::findDevice(*driver, (*store)->device());
     if (!found) return found.error();
     device = *found;
     options.store = std::move(*store);
   }
-  options.open = [table = *driver, lent = request.lent_context, index = device,
+  options.open = [table = *driver, external = request.external_context, index = device,
                   opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
-    if (!lent) return cuda::openDevice(table, cuda::kernelImage(), index);
+    if (!external) return cuda::openDevice(table, cuda::kernelImage(), index);
     // A lost context is not opened again: meshes on it would count as present although they are lost.
     if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's CUDA context was lost"};
-    return cuda::borrowDevice(table, cuda::kernelImage(), *lent);
+    return cuda::borrowDevice(table, cuda::kernelImage(), *external);
   };
-  if (request.lent_context) options.resident_cap = request.lent_context->mesh_bytes;
+  if (request.external_context) options.resident_cap = request.external_context->mesh_bytes;
   options.warn = request.warn;
   return makeCudaBackend(options, std::move(*cpu), memory, profiler);
 }

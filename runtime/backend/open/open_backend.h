@@ -30,9 +30,9 @@ struct BackendRequest {
   std::string instruction_set;
   /// Vulkan: the engine's device; null: a new one is created. CUDA: the device in whose memory meshes stay, which needs
   /// external_memory; or null
-  std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;
+  std::shared_ptr<const vulkan::BorrowedDevice> external = nullptr;
   /// CUDA: the engine's context; null: a new one is used
-  std::shared_ptr<const cuda::BorrowedContext> lent_context = nullptr;
+  std::shared_ptr<const cuda::BorrowedContext> external_context = nullptr;
   std::filesystem::path pipeline_folder = {};  ///< Vulkan: folder of the pipeline cache; empty: not cached
   /// Receive one-line notices about slow work (inform) and about missing features (warn). Called from any thread; may
   /// be null.

@@ -64,9 +64,9 @@ static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 /// The largest number of parts for which the 32-bit sums of a batch cannot overflow, even in the worst case of signs.
 inline constexpr uint32_t kMaxParts = 8192;
 
-inline constexpr uint32_t kItemWords = 8;    ///< words of an item: a brick or a plane (shaders/mesher/items.glsl)
-inline constexpr uint32_t kBricks = 64;      ///< bricks in a chunk
-inline constexpr uint32_t kMostSlices = 16;  ///< the maximum number of slices into which sampling divides an item
+inline constexpr uint32_t kItemWords = 8;   ///< words of an item: a brick or a plane (shaders/mesher/items.glsl)
+inline constexpr uint32_t kBricks = 64;     ///< bricks in a chunk
+inline constexpr uint32_t kMaxSlices = 16;  ///< the maximum number of slices into which sampling divides an item
 /// words of a unit: a group of vertices whose attributes are evaluated together
 inline constexpr uint32_t kUnitWords = 4;
 

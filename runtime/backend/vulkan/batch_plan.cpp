@@ -16,7 +16,7 @@ constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: bricks, planes,
 constexpr uint32_t kBeyond = 256;
 // Maximum number of chunks in a batch. More could need over 65,535 workgroups for units of attributes, or over 20 bits
 // for the indices of items.
-constexpr size_t kMostChunks = 64;
+constexpr size_t kMaxChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
@@ -67,7 +67,7 @@ class Planner {
   }
 
   /// Adds job i. Returns false, having changed nothing, if scratch is too small for it; must: adds it even then.
-  bool add(uint32_t i, uint32_t most_scratch, bool must) {
+  bool add(uint32_t i, uint32_t max_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
     if (isUniform(job)) {
@@ -83,7 +83,7 @@ class Planner {
     }
     const Places before = places_;
     place(i, field, coarse);
-    if (!must && scratchWords() > most_scratch) {
+    if (!must && scratchWords() > max_scratch) {
       places_ = before;
       plan_.words.resize(words);
       undo(seams);
@@ -106,7 +106,7 @@ class Planner {
     s.max_indices = room_.indices * std::max(chunks, 8u);
     s.max_cells = room_.cells * std::max(chunks, 8u);
     s.items = places_.take(uint64_t{bricks + planes} * batch::kItemWords);
-    s.sampled = places_.take(uint64_t{bricks + planes} * batch::kMostSlices);
+    s.sampled = places_.take(uint64_t{bricks + planes} * batch::kMaxSlices);
     s.units = places_.take(unitWords(s.max_vertices, bricks + planes));
     s.entries = places_.take(s.max_vertices);
     s.cell_list = places_.take(uint64_t{s.max_cells} * batch::kCellWords);
@@ -141,9 +141,9 @@ class Planner {
   uint64_t scratchWords() const {
     const uint64_t chunks = std::max<uint64_t>(plan_.chunks.size(), 8);
     return places_.used() +
-           chunks * (batch::kBricks * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords) +
-                     room_.vertices * 2 + uint64_t{room_.cells} * batch::kCellWords) +
-           uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords);
+           chunks * (batch::kBricks * (batch::kItemWords + batch::kMaxSlices + batch::kUnitWords) + room_.vertices * 2 +
+                     uint64_t{room_.cells} * batch::kCellWords) +
+           uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + batch::kMaxSlices + batch::kUnitWords);
   }
 
   uint32_t newPart(bool body) {
@@ -225,10 +225,10 @@ class Planner {
 
 }  // namespace
 
-size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t most_scratch, BatchPlan& plan) {
+size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t max_scratch, BatchPlan& plan) {
   Planner planner(jobs, room, plan);
   uint32_t taken = 0;
-  while (taken < std::min(jobs.size(), kMostChunks) && planner.add(taken, most_scratch, plan.chunks.empty())) ++taken;
+  while (taken < std::min(jobs.size(), kMaxChunks) && planner.add(taken, max_scratch, plan.chunks.empty())) ++taken;
   planner.finish();
   return taken;
 }

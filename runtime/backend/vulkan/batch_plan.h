@@ -59,7 +59,7 @@ struct BatchPlan {
 };
 
 /// Plans jobs for one submission. Returns how many of the jobs were planned, from the first on: at most 64, fewer if
-/// they need more than most_scratch words, but at least one. Throws std::bad_alloc.
-size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t most_scratch, BatchPlan& plan);
+/// they need more than max_scratch words, but at least one. Throws std::bad_alloc.
+size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t max_scratch, BatchPlan& plan);
 
 }  // namespace sgm

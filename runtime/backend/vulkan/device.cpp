@@ -57,7 +57,8 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
     return Error{Code::unsupported, "the engine's Vulkan instance lacks functions of Vulkan 1.2"};
   }
   device->adopt(engine.physical);
-  if (std::string lack = lackOf(device->info_); !lack.empty()) return Error{Code::unsupported, std::move(lack)};
+  if (std::string lack = unsupportedReason(device->info_); !lack.empty())
+    return Error{Code::unsupported, std::move(lack)};
   uint32_t count = 0;
   device->instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(engine.physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
@@ -118,7 +119,7 @@ Result<void> Device::choose(const OwnDevice& options) {
   }
   if (options.index >= 0) {
     adopt((*devices)[static_cast<size_t>(options.index)]);
-    if (std::string lack = lackOf(info_); !lack.empty()) return Error{Code::unsupported, std::move(lack)};
+    if (std::string lack = unsupportedReason(info_); !lack.empty()) return Error{Code::unsupported, std::move(lack)};
     return {};
   }
   int best = -1;
@@ -126,7 +127,7 @@ Result<void> Device::choose(const OwnDevice& options) {
   VkPhysicalDevice chosen = VK_NULL_HANDLE;
   for (VkPhysicalDevice device : *devices) {
     const DeviceInfo info = describe(instance_calls_, device);
-    std::string lack = lackOf(info);
+    std::string lack = unsupportedReason(info);
     if (lack.empty() && info.software() && !options.software) {
       lack = info.name + " runs on the CPU and was not requested";
     }

@@ -43,7 +43,7 @@ int rankOf(VkPhysicalDeviceType type) {
   }
 }
 
-std::string lackOf(const DeviceInfo& info) {
+std::string unsupportedReason(const DeviceInfo& info) {
   const auto lacks = [&](const std::string& what) { return info.name + " lacks " + what; };
   const auto below = [&](const char* limit, uint64_t has, uint64_t needed) {
     return info.name + " has a " + limit + " of " + std::to_string(has) + ", but at least " + std::to_string(needed) +

@@ -43,7 +43,7 @@ struct DeviceInfo {
 
 /// Returns the reason why the device cannot mesh, as a sentence: the first missing feature or limit. Empty if it can
 /// mesh. Pure.
-std::string lackOf(const DeviceInfo& info);
+std::string unsupportedReason(const DeviceInfo& info);
 
 /// Ranks device types by their likely speed: discrete 4, integrated 3, virtual 2, software 1, others 0.
 int rankOf(VkPhysicalDeviceType type);

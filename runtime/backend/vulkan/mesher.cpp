@@ -26,7 +26,7 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 }  // namespace
 
-uint32_t Mesher::mostScratchWords() const {
+uint32_t Mesher::maxScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
   // grow() makes buffers a quarter larger than requested
   return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);
@@ -192,7 +192,7 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
   if (Result<void> ready = b.signs_back.beforeRead(); !ready) return ready.error();
   out.signs = reinterpret_cast<const uint32_t*>(b.signs_back.data());
   if (!plan.meshes || out.head->vertices == 0 || out.head->indices == 0) return out;
-  if (Result<void> brought = bringLater(*out.head, b); !brought) return brought.error();
+  if (Result<void> brought = downloadLater(*out.head, b); !brought) return brought.error();
   for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
     if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
   }
@@ -202,7 +202,7 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
 }
 
 /// Downloads the vertices and indices that were not downloaded with the batch.
-Result<void> Mesher::bringLater(const batch::Head& head, BatchBuffers& b) {
+Result<void> Mesher::downloadLater(const batch::Head& head, BatchBuffers& b) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
   const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
   // A quarter more than this batch had, because successive batches are similar.

@@ -50,14 +50,14 @@ class Mesher {
   };
   Result<Output> read(const BatchPlan& plan, BatchBuffers& buffers);
 
-  uint32_t mostScratchWords() const;
+  uint32_t maxScratchWords() const;
 
  private:
   Mesher(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels)
       : queue_(queue), memory_(memory), ring_(ring), kernels_(kernels) {}
   Result<void> fit(const BatchPlan& plan, BatchBuffers& buffers);
   Result<void> fitBack(const BatchPlan& plan, BatchBuffers& buffers);
-  Result<void> bringLater(const batch::Head& head, BatchBuffers& buffers);
+  Result<void> downloadLater(const batch::Head& head, BatchBuffers& buffers);
   Result<void> record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& buffers);
 
   Queue& queue_;

@@ -16,9 +16,9 @@ struct Placed final : Placement {
 
 class SharedMeshes final : public MeshStore, public std::enable_shared_from_this<SharedMeshes> {
  public:
-  static Result<std::shared_ptr<MeshStore>> open(const BorrowedDevice& lent) {
+  static Result<std::shared_ptr<MeshStore>> open(const BorrowedDevice& external) {
     const auto meshes = std::make_shared<SharedMeshes>();
-    if (const Result<void> made = meshes->make(lent); !made) return made.error();
+    if (const Result<void> made = meshes->make(external); !made) return made.error();
     return std::shared_ptr<MeshStore>(meshes);
   }
 
@@ -67,8 +67,8 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
   uint64_t bytes() override { return meshes_->bytes(); }
 
  private:
-  Result<void> make(const BorrowedDevice& lent) {
-    Result<std::unique_ptr<Device>> device = Device::borrow(lent);
+  Result<void> make(const BorrowedDevice& external) {
+    Result<std::unique_ptr<Device>> device = Device::borrow(external);
     if (!device) return device.error();
     device_ = std::move(*device);
     Result<std::unique_ptr<Queue>> queue = Queue::create(*device_);
@@ -76,8 +76,8 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
     queue_ = std::move(*queue);
     staging_ = std::make_unique<Memory>(*device_);
     MemoryOptions options;
-    options.cap = lent.resident_cap;
-    options.families = lent.readers;
+    options.cap = external.resident_cap;
+    options.families = external.readers;
     options.shared = true;
     memory_ = std::make_unique<Memory>(*device_, options);
     Result<std::unique_ptr<CommandRing>> ring = CommandRing::create(*queue_);
@@ -96,6 +96,8 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
 
 }  // namespace
 
-Result<std::shared_ptr<MeshStore>> openSharedMeshes(const BorrowedDevice& lent) { return SharedMeshes::open(lent); }
+Result<std::shared_ptr<MeshStore>> openSharedMeshes(const BorrowedDevice& external) {
+  return SharedMeshes::open(external);
+}
 
 }  // namespace sgm::vulkan

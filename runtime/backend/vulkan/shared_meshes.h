@@ -8,6 +8,6 @@ namespace sgm::vulkan {
 
 /// Opens the engine's device, which must have BorrowedDevice::external_memory. Errors: same as Device::borrow;
 /// out_of_memory.
-Result<std::shared_ptr<MeshStore>> openSharedMeshes(const BorrowedDevice& lent);
+Result<std::shared_ptr<MeshStore>> openSharedMeshes(const BorrowedDevice& external);
 
 }  // namespace sgm::vulkan

@@ -23,8 +23,8 @@ inline constexpr uint32_t kTapeSlots = 64;
 /// number of a slot that is never written and stands for a missing operand: farther than anything
 inline constexpr uint32_t kFarSlot = kTapeSlots;
 inline constexpr uint32_t kTapeRecordWords = 32;
-inline constexpr uint32_t kMostTapeRecords = 1024;
-inline constexpr uint32_t kMostTapeLayers = 64;
+inline constexpr uint32_t kMaxTapeRecords = 1024;
+inline constexpr uint32_t kMaxTapeLayers = 64;
 
 /// Instructions that are not an Op; they have the numbers from Op::count on.
 enum class TapeOp : uint32_t {

@@ -13,9 +13,9 @@ namespace {
 
 // Parameter words of octaves must be in the first part of a record (shaders/mesher/tape.glsl), which limits their
 // number.
-constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
+constexpr uint32_t kMaxOctaves = (kFirstWords - 6) / 2;
 // A shader would wait forever for a record that is larger than its window.
-constexpr uint32_t kMostWords = 100 * kTapeRecordWords;
+constexpr uint32_t kMaxWords = 100 * kTapeRecordWords;
 
 class Scheduler {
  public:
@@ -29,7 +29,7 @@ class Scheduler {
   bool run() {
     readNodes();
     fuseNodes(program_, scratch_);
-    if (!fits_ || nodes_.size() > kMostTapeRecords || layers_ > kMostTapeLayers) return false;
+    if (!fits_ || nodes_.size() > kMaxTapeRecords || layers_ > kMaxTapeLayers) return false;
     sortBlocks();
     return assignSlots();
   }
@@ -79,8 +79,8 @@ class Scheduler {
       n.place = in.place;
       n.params = in.params;
       const uint32_t* params = program_.params.data() + in.params;
-      fits_ = fits_ && (in.op == Op::noise ? params[3] <= kMostOctaves
-                                           : in.op == Op::copy || parameterWords(in.op, params) <= kMostWords);
+      fits_ = fits_ && (in.op == Op::noise ? params[3] <= kMaxOctaves
+                                           : in.op == Op::copy || parameterWords(in.op, params) <= kMaxWords);
       const OpShape shape = shapeOf(in.op);
       if (shape.operands > 0) n.a = registers_[in.a];
       if (shape.operands > 1) n.b = registers_[in.b];

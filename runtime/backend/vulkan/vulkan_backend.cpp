@@ -51,7 +51,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   }
   void release(std::unique_ptr<DeviceSlot> slot) noexcept override { slots_.give(std::move(slot)); }
   size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) override {
-    return planBatch(jobs, room_, mesher_->mostScratchWords(), static_cast<Slot&>(slot).plan);
+    return planBatch(jobs, room_, mesher_->maxScratchWords(), static_cast<Slot&>(slot).plan);
   }
   std::span<const uint32_t> uniform(const DeviceSlot& slot) const override {
     return static_cast<const Slot&>(slot).plan.uniform;

@@ -13,8 +13,8 @@ namespace {
 
 /// Returns the content of a file in /proc; empty if it does not exist.
 std::string procFile(const char* name) {
-  constexpr uint64_t kMostBytes = uint64_t{64} << 20;
-  Result<std::string> content = readFile(name, kMostBytes);
+  constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
+  Result<std::string> content = readFile(name, kMaxBytes);
   return content ? std::move(*content) : std::string();
 }
 

@@ -131,8 +131,8 @@ class Cancellation {
 struct RunSettings {
   std::string_view input;                         ///< written to the process's standard input if that is a pipe
   std::optional<std::chrono::milliseconds> time;  ///< wall time after which the process is ended
-  size_t most_output = SIZE_MAX / 2;  ///< limit of standard output in bytes; if it is exceeded, the process is killed
-  size_t most_error = 4096;           ///< maximum number of bytes of standard error to store, from its beginning
+  size_t max_output = SIZE_MAX / 2;  ///< limit of standard output in bytes; if it is exceeded, the process is killed
+  size_t max_error = 4096;           ///< maximum number of bytes of standard error to store, from its beginning
   const Cancellation* cancellation = nullptr;  ///< if it is requested, the process is killed; null: not cancellable
 };
 

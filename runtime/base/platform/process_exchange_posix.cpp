@@ -59,7 +59,7 @@ class ProcessExchange {
       return;
     }
     if (waited[1].revents != 0) readOutput();
-    if (waited[2].revents != 0) read(process_.error_, said_.error, run_.most_error);
+    if (waited[2].revents != 0) read(process_.error_, said_.error, run_.max_error);
     if (waited[3].revents != 0) write();
   }
 
@@ -72,8 +72,8 @@ class ProcessExchange {
 
   void readOutput() {
     // Read one byte more than the limit, to detect that the limit is exceeded.
-    read(process_.output_, said_.output, run_.most_output + 1);
-    if (said_.output.size() > run_.most_output) said_.stop = ProcessOutput::Stop::output_limit;
+    read(process_.output_, said_.output, run_.max_output + 1);
+    if (said_.output.size() > run_.max_output) said_.stop = ProcessOutput::Stop::output_limit;
   }
 
   void read(File& stream, std::string& into, size_t most) {
@@ -88,13 +88,13 @@ class ProcessExchange {
   /// After the child has ended, reads the output that is left in the pipes, without waiting for other processes that
   /// keep the pipes open.
   void readRest() {
-    constexpr int kMostPieces = 64;
+    constexpr int kMaxPieces = 64;
     bool more = true;
-    for (int i = 0; more && i < kMostPieces && said_.stop == ProcessOutput::Stop::none; ++i) {
+    for (int i = 0; more && i < kMaxPieces && said_.stop == ProcessOutput::Stop::none; ++i) {
       std::array<pollfd, 2> ready{{{process_.output_.number(), POLLIN, 0}, {process_.error_.number(), POLLIN, 0}}};
       more = poll(ready.data(), ready.size(), 0) > 0;
       if (ready[0].revents != 0) readOutput();
-      if (ready[1].revents != 0) read(process_.error_, said_.error, run_.most_error);
+      if (ready[1].revents != 0) read(process_.error_, said_.error, run_.max_error);
     }
   }
 

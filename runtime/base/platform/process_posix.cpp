@@ -46,7 +46,7 @@ constexpr int kFirstFree = 3;  // first descriptor after the standard streams
 
 /// A program cannot start while another process has its file open for writing. Usually that is a child process that is
 /// being started and still has a copy of the descriptor, for some microseconds; so starting is tried again.
-constexpr int kMostTries = 50;
+constexpr int kMaxTries = 50;
 constexpr std::chrono::milliseconds kBetweenTries{10};
 
 struct Ends {
@@ -318,7 +318,7 @@ Result<Process> Process::start(const ProcessSettings& settings) {
 
   pid_t id = -1;
   int failure = ETXTBSY;
-  for (int tries = 0; failure == ETXTBSY && tries < kMostTries; ++tries) {
+  for (int tries = 0; failure == ETXTBSY && tries < kMaxTries; ++tries) {
     if (tries > 0) std::this_thread::sleep_for(kBetweenTries);
     Result<Pipe> report = openPipe();
     if (!report) return report.error();

@@ -6,7 +6,7 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr size_t kMostPlansKept = 64;
+constexpr size_t kMaxPlansKept = 64;
 constexpr uint64_t kLooksOfStep = 2;
 
 }  // namespace
@@ -21,7 +21,7 @@ FloorPlan FloorPlanCache::layOut(const FloorPlanSizes& sizes, std::span<const do
   if (!budget.step(key.size(), span, activation)) return {};
   if (const auto known = plans_.find(key); known != plans_.end()) return known->second;
   FloorPlan plan = layOutFloor(sizes, areas, links, kLooksOfStep * (budget.stepsLeft() + 1));
-  if (budget.step(plan.work / kLooksOfStep, span, activation) && plans_.size() < kMostPlansKept)
+  if (budget.step(plan.work / kLooksOfStep, span, activation) && plans_.size() < kMaxPlansKept)
     plans_.emplace(std::move(key), plan);
   return plan;
 }

@@ -185,7 +185,7 @@ Value Evaluator::evaluateBranch(const ExprNode& node, const Env& env) {
   const PathKey key = env.key.child(kBranchSalt, node.ordinal);
   const Skeleton skeleton = grownSkeleton(key, {given[0], given[1], given[2], given[3]});
   if (!skeleton.whole) {
-    budget_.note("this branch has more than " + std::to_string(kMostSegments) +
+    budget_.note("this branch has more than " + std::to_string(kMaxSegments) +
                      " segments; side branches are left out: take fewer steps, or lower `fork`",
                  node.span, env.activation);
   }

@@ -53,7 +53,7 @@ BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<Box
     halves.clear();
     for (const IntBox& piece : pieces) {
       if (!meets(ball, piece)) continue;
-      if (++proof.pieces > kMostBallPieces) return proof;
+      if (++proof.pieces > kMaxBallPieces) return proof;
       const BoxContent found = content(piece);
       if (found == wanted) continue;
       if (found != BoxContent::unknown) return proof;

@@ -26,7 +26,7 @@ struct Ball {
 /// number of times that the ball's box is halved along each axis; 64 pieces per axis
 inline constexpr int kBallHalvings = 6;
 /// maximum number of pieces to visit; if a ball needs more, nothing is proven
-inline constexpr uint32_t kMostBallPieces = 4096;
+inline constexpr uint32_t kMaxBallPieces = 4096;
 
 struct BallProof {
   bool holds = false;

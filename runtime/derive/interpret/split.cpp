@@ -15,7 +15,7 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr double kMostParts = 1e6;
+constexpr double kMaxParts = 1e6;
 
 /// A face of a box, with the rotation that turns z outwards.
 struct Face {
@@ -141,7 +141,7 @@ void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out)
   if (repeated != nullptr && !(group > 0))
     c.budget.note("the parts that are repeated have no size; they are left out: give one of them a size, such as 2m",
                   repeated->group, env.activation);
-  SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
+  SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMaxParts));
   if (layout.too_many)
     return c.budget.fail("one split has more than a million parts (give them a larger size)", s.span, env.activation);
   if (layout.cut_off)

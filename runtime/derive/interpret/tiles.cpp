@@ -30,7 +30,7 @@ struct StandingTiles {
 /// Weights are scaled so that the heaviest tile has this weight.
 constexpr double kFullWeight = 1 << 20;
 /// The limit of visits is this number times (places + this number).
-constexpr uint64_t kMostVisits = 128;
+constexpr uint64_t kMaxVisits = 128;
 /// One search may use 1 / kSearchShare of the cell's steps; kVisitsOfStep cheap visits (with few tiles) count as a
 /// step.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
@@ -126,11 +126,11 @@ bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice&
     const double count = std::max(1.0, detFloor(edges[axis] / wanted[axis] + 0.5));
     sound = sound && edges[axis] >= 0 && std::isfinite(edges[axis]);
     places *= count;
-    if (sound && places <= kMostPlaces) lattice.size[static_cast<size_t>(axis)] = static_cast<uint32_t>(count);
+    if (sound && places <= kMaxPlaces) lattice.size[static_cast<size_t>(axis)] = static_cast<uint32_t>(count);
   }
   if (!sound)
     return nothing("this scope's box has no size, so it gets no tiles: give it one, such as size(12m, 3m, 12m)");
-  if (places > kMostPlaces)
+  if (places > kMaxPlaces)
     return nothing(
         "this scope has room for more than 32768 tiles; they are left out: use larger tiles, or a smaller scope");
   lattice.border.fill(~WaveLabels{0});
@@ -193,7 +193,7 @@ void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   // The limit of visits must not depend on the remaining steps of the cell, or other content of the cell would change
   // the tiles.
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
-  const uint64_t most = std::min(kMostVisits * (places + kMostVisits), c.in.limits.steps / kSearchShare);
+  const uint64_t most = std::min(kMaxVisits * (places + kMaxVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
   // Visits count only as fractions of a step: a hundred scopes without tiles are better than a failed cell.

@@ -28,8 +28,8 @@ struct Access {
 class FloorLayout {
  public:
   FloorLayout(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
-              uint64_t most_work)
-      : sizes_(sizes), links_(links), work_{most_work} {
+              uint64_t max_work)
+      : sizes_(sizes), links_(links), work_{max_work} {
     const int32_t x = sizes.x / 2 / kPlanStep * kPlanStep, z = sizes.z / 2 / kPlanStep * kPlanStep,
                   half = sizes.wall / 2;
     floor_ = {-x, -z, x, z};
@@ -322,8 +322,8 @@ class FloorLayout {
 }  // namespace
 
 FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
-                      uint64_t most_work) {
-  FloorLayout layout(sizes, areas, links, most_work);
+                      uint64_t max_work) {
+  FloorLayout layout(sizes, areas, links, max_work);
   FloorPlan plan = layout.run();
   plan.work = layout.work();
   return plan;

@@ -62,9 +62,9 @@ struct FloorPlan {
 /// rooms that they pass. Linked rooms are placed side by side if a squarified treemap of these areas allows it. The
 /// entrance leads into room 0, or into the first room with a suitable outer wall. Every room except those in `closed`
 /// can be reached from there: by links; otherwise by a door from the entrance's room if they share a wall; otherwise by
-/// a corridor from it; or by a door from any other room if no corridor fits. If that takes more than most_work, only
+/// a corridor from it; or by a door from any other room if no corridor fits. If that takes more than max_work, only
 /// `work` of the result is meaningful.
 FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
-                      uint64_t most_work = UINT64_MAX);
+                      uint64_t max_work = UINT64_MAX);
 
 }  // namespace sgm

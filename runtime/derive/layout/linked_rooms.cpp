@@ -6,7 +6,7 @@ namespace sgm {
 namespace {
 
 /// Rows with at most this many parts are tried in all permutations; longer ones only with two parts swapped.
-constexpr size_t kMostPermuted = 3;
+constexpr size_t kMaxPermuted = 3;
 
 size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links, int32_t wall) {
   return static_cast<size_t>(std::count_if(links.begin(), links.end(), [&](const RoomLink& link) {
@@ -21,7 +21,7 @@ size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links
 std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   std::vector<TreemapRow> out{row};
   TreemapRow other = row;
-  if (row.parts.size() <= kMostPermuted) {
+  if (row.parts.size() <= kMaxPermuted) {
     std::sort(other.parts.begin(), other.parts.end());
     do {
       out.push_back(other);

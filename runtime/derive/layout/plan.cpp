@@ -117,7 +117,7 @@ std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin) {
     const PlanCorner b = outward(at, piece.corners[(i + 1) % count]);
     // The new corner is the intersection of the two adjacent edges, each moved outwards by the margin.
     const double x = a.x + b.x, z = a.z + b.z;
-    const double share = std::max(1 + a.x * b.x + a.z * b.z, std::sqrt(x * x + z * z) / kMostMiter);
+    const double share = std::max(1 + a.x * b.x + a.z * b.z, std::sqrt(x * x + z * z) / kMaxMiter);
     if (share > 0) out[i] = {at.x + margin * x / share, at.z + margin * z / share};
   }
   return out;

@@ -42,7 +42,7 @@ bool isSimple(const PlanPiece& piece);
 /// the growth has closed a notch.
 bool isSimple(const PlanPiece& piece, const std::vector<PlanCorner>& grown);
 
-/// Returns the corners after all edges are moved outwards by `margin`, at least 0. A corner moves by at most kMostMiter
+/// Returns the corners after all edges are moved outwards by `margin`, at least 0. A corner moves by at most kMaxMiter
 /// * margin.
 std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin);
 

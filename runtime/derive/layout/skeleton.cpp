@@ -36,7 +36,7 @@ Skeleton grownSkeleton(PathKey key, const Turtle& turtle) {
   // Branches are grown in order of depth, so that if there are too many, the finest twigs are left out.
   for (size_t b = 0; b < buds.size(); ++b) {
     const Bud bud = buds[b];
-    if (steps - bud.first > kMostSegments - out.segments.size()) {
+    if (steps - bud.first > kMaxSegments - out.segments.size()) {
       out.whole = false;
       continue;
     }

@@ -21,7 +21,7 @@ struct Segment {
 };
 
 struct Turtle {
-  /// number of steps of the longest path from the root to a tip; a whole number, at most kMostSegments
+  /// number of steps of the longest path from the root to a tip; a whole number, at most kMaxSegments
   double steps = 0;
   double length = 0;  ///< length of a step, metres, above 0
   double turn = 0;    ///< maximum turn between steps, radians; 0 to a right angle
@@ -31,7 +31,7 @@ struct Turtle {
 struct Skeleton {
   /// the stem first, then branches in order of depth, each after the branch it starts from
   std::vector<Segment> segments;
-  bool whole = true;  ///< false: branches are missing because they would exceed kMostSegments
+  bool whole = true;  ///< false: branches are missing because they would exceed kMaxSegments
 };
 
 /// The turtle starts at the origin, facing +y. Its first step is straight; each further step turns to a direction drawn

@@ -56,9 +56,9 @@ class TileSearch {
   using Tiles = TileSet<kWords>;
 
  public:
-  TileSearch(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
-             size_t most_bytes)
-      : tiles_(tiles), lattice_(lattice), key_(key), most_visits_(most_visits), most_bytes_(most_bytes) {
+  TileSearch(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t max_visits,
+             size_t max_bytes)
+      : tiles_(tiles), lattice_(lattice), key_(key), max_visits_(max_visits), max_bytes_(max_bytes) {
     WaveLabels used = 0;
     for (const WaveTile& tile : tiles)
       for (const WaveLabels labels : tile.sides) used |= labels;
@@ -78,7 +78,7 @@ class TileSearch {
 
   WaveResult run() {
     WaveResult out;
-    uint64_t retreats = 0, most_retreats = kFirstRetreats;
+    uint64_t retreats = 0, max_retreats = kFirstRetreats;
     bool sound = begin();
     while (true) {
       if (spent_) {
@@ -90,12 +90,12 @@ class TileSearch {
           out.end = WaveEnd::impossible;
           break;
         }
-        if (++retreats > most_retreats) {
+        if (++retreats > max_retreats) {
           // Conclusions proven before the first choice remain.
           undo(choices_[0].changes);
           choices_.clear();
           retreats = 0;
-          most_retreats *= 2;
+          max_retreats *= 2;
           ++attempt_;
           sound = true;
           continue;
@@ -161,7 +161,7 @@ class TileSearch {
 
   /// Fits every place to the border, and then to its neighbours. Visits each place at least once.
   bool begin() {
-    spent_ = most_visits_ < domains_.size();
+    spent_ = max_visits_ < domains_.size();
     if (spent_) return false;
     for (uint32_t place = 0; place < domains_.size(); ++place) {
       Tiles fits = domains_[place];
@@ -225,7 +225,7 @@ class TileSearch {
   /// is needed.
   bool propagate() {
     for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
-      if (visits_ == most_visits_ || bytes() > most_bytes_) {
+      if (visits_ == max_visits_ || bytes() > max_bytes_) {
         spent_ = true;
         return false;
       }
@@ -283,8 +283,8 @@ class TileSearch {
 
   std::span<const WaveTile> tiles_;
   const WaveLattice& lattice_;
-  uint64_t key_, most_visits_;
-  size_t most_bytes_;
+  uint64_t key_, max_visits_;
+  size_t max_bytes_;
   uint64_t attempt_ = 0, visits_ = 0;
   bool spent_ = false;                                  ///< all allowed visits are used up
   std::vector<uint8_t> labels_;                         ///< of the tiles
@@ -302,11 +302,11 @@ class TileSearch {
 
 }  // namespace
 
-WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
-                        size_t most_bytes) {
+WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t max_visits,
+                        size_t max_bytes) {
   // Most tile sets fit in one word.
-  if (tiles.size() <= 64) return TileSearch<1>(tiles, lattice, key, most_visits, most_bytes).run();
-  return TileSearch<4>(tiles, lattice, key, most_visits, most_bytes).run();
+  if (tiles.size() <= 64) return TileSearch<1>(tiles, lattice, key, max_visits, max_bytes).run();
+  return TileSearch<4>(tiles, lattice, key, max_visits, max_bytes).run();
 }
 
 }  // namespace sgm

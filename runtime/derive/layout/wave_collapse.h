@@ -34,13 +34,13 @@ struct WaveLattice {
 enum class WaveEnd : uint8_t {
   solved,
   impossible,  ///< it is proven that no choice of tiles fits
-  gave_up,     ///< most_visits is exceeded (at once if it is less than the number of places), or most_bytes is
+  gave_up,     ///< max_visits is exceeded (at once if it is less than the number of places), or max_bytes is
 };
 
 struct WaveResult {
   WaveEnd end = WaveEnd::solved;
   std::vector<uint16_t> tiles;  ///< if solved: index of the tile for each place, x first, then y, then z
-  uint64_t visits = 0;          ///< number of places visited, a measure of the work; at most most_visits
+  uint64_t visits = 0;          ///< number of places visited, a measure of the work; at most max_visits
   uint64_t work = 0;            ///< cost of the visits: a visit costs more with many labels and tiles
   /// If not solved: the place where most often no tile fitted, and for each of its sides the labels that its neighbour
   /// allows there. kNoPlace: the search ended before such a place was found.
@@ -50,8 +50,8 @@ struct WaveResult {
 
 /// Finds a solution if one exists and the limits allow it. Unless it is proven impossible, the search restarts several
 /// times, each time with twice the number of visits, and starts with the places that were difficult before. tiles: 1 to
-/// 256. key: seed of the draws; equal inputs give equal results. most_bytes: limit of the memory for undoing choices.
-WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
-                        size_t most_bytes = SIZE_MAX);
+/// 256. key: seed of the draws; equal inputs give equal results. max_bytes: limit of the memory for undoing choices.
+WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t max_visits,
+                        size_t max_bytes = SIZE_MAX);
 
 }  // namespace sgm

@@ -10,7 +10,7 @@ namespace sgm {
 
 namespace {
 
-constexpr size_t kMostLayers = 256;
+constexpr size_t kMaxLayers = 256;
 
 /// Sorts the layers so that each comes after those that it uses.
 void sortLayers(CheckContext& check, Symbols& symbols) {
@@ -145,9 +145,9 @@ void checkLayers(CheckContext& check, Symbols& symbols, Types& types) {
   if (!root.layers.empty() && !decl.infinite && !decl.box && !check.lossy)
     check.sink.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
                      "write `domain infinite;` or `domain finite box(...)`");
-  if (root.layers.size() > kMostLayers)
-    check.sink.error(root.layers[kMostLayers].span, codes::kTooLarge,
-                     join({"the program has more than ", std::to_string(kMostLayers), " layers"}),
+  if (root.layers.size() > kMaxLayers)
+    check.sink.error(root.layers[kMaxLayers].span, codes::kTooLarge,
+                     join({"the program has more than ", std::to_string(kMaxLayers), " layers"}),
                      "put rules of several layers into one");
   if (check.sink.errorCount() > before) return;
   if (root.start != kNoId) {

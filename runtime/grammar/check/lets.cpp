@@ -43,8 +43,8 @@ Type Types::useValue(ExprId id, Ref ref, uint32_t index, const std::vector<Type>
                       join({"`", check_.text(name), "` is defined by itself"}), "only rules may call themselves");
     return {ValueKind::unknown, kRatio, sample, false};
   }
-  constexpr size_t kMostInstances = 20000;
-  if (known_.size() >= kMostInstances) {
+  constexpr size_t kMaxInstances = 20000;
+  if (known_.size() >= kMaxInstances) {
     check_.sink.error(check_.node(id).span, codes::kTooLarge,
                       "the program has more than 20000 lets and fields, counted once for each kind of arguments",
                       "write fewer of them, or call them with arguments of fewer kinds");

@@ -173,8 +173,8 @@ void OverridePaths::reportUnknown(const Override& edit, const WrittenStep& step,
                                                                          (step.qualifier.empty() ? 0 : 1))}));
   for (const std::string& name : known) suggestion.offer(name);
   std::string hint = suggestion.hint();
-  constexpr size_t kMostNamed = 8;
-  for (size_t i = 0; suggestion.best().empty() && i < std::min(known.size(), kMostNamed); ++i)
+  constexpr size_t kMaxNamed = 8;
+  for (size_t i = 0; suggestion.best().empty() && i < std::min(known.size(), kMaxNamed); ++i)
     hint += join({hint.empty() ? "it derives " : ", ", known[i]});
   check_.sink.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `", textAt(step.place), "`"}), hint);
 }

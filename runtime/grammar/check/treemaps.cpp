@@ -72,7 +72,7 @@ void checkRooms(CheckContext& check, Symbols& symbols, Types& types, const StmtN
           join({"`", part.floor == FloorPart::corridor ? "corridor" : "facade", "` stands twice in this treemap"}),
           "put both into one block after it");
   }
-  if ((rooms.empty() && !check.isLossy(s)) || rooms.size() > kMostRooms)
+  if ((rooms.empty() && !check.isLossy(s)) || rooms.size() > kMaxRooms)
     check.sink.error(s.span, codes::kArgumentCount, "a treemap has 1 to 32 rooms", "such as `living 28: Room;`");
   std::vector<std::pair<uint32_t, uint32_t>> linked;
   for (uint32_t i = 0; i < s.parts.count; ++i) {

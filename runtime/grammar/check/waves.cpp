@@ -45,7 +45,7 @@ void numberSides(CheckContext& check, const StmtNode& s) {
       const auto known = std::find(labels.begin(), labels.end(), check.program.idAt(names, i));
       const size_t bit = static_cast<size_t>(known - labels.begin());
       if (known == labels.end()) labels.push_back(check.program.idAt(names, i));
-      if (bit < kMostLabels) bits |= uint64_t{1} << bit;
+      if (bit < kMaxLabels) bits |= uint64_t{1} << bit;
     }
     return bits;
   };
@@ -67,10 +67,10 @@ void numberSides(CheckContext& check, const StmtNode& s) {
       if (known == kinds.end()) kinds.push_back(kind);
     }
   }
-  if (labels.size() > kMostLabels)
+  if (labels.size() > kMaxLabels)
     check.sink.error(s.span, codes::kArgumentCount, "the sides of a wfc have at most 63 labels",
                      "give sides that meet the same ones one label");
-  else if (kinds.size() > kMostSideKinds)
+  else if (kinds.size() > kMaxSideKinds)
     check.sink.error(s.span, codes::kArgumentCount, "a wfc has at most 64 kinds of sides: of labels and what they meet",
                      "give sides that meet the same ones the same labels");
   WaveNode& wave = check.program.ast.waves[s.extra];
@@ -176,7 +176,7 @@ void checkTiles(CheckContext& check, Types& types, const StmtNode& s) {
                        "give each tile a name of its own");
     tiles.push_back(part.label);
   }
-  if ((tiles.empty() && !check.isLossy(s)) || tiles.size() > kMostTiles)
+  if ((tiles.empty() && !check.isLossy(s)) || tiles.size() > kMaxTiles)
     check.sink.error(s.span, codes::kArgumentCount, "a wfc has 1 to 64 tiles",
                      "such as `wall 3 turn, left brick, right brick: Wall;`");
   numberSides(check, s);

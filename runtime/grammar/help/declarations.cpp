@@ -8,12 +8,12 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kMostTokens = 1u << 20;
+constexpr uint32_t kMaxTokens = 1u << 20;
 constexpr size_t kLongestHead = 240;
 
 LexResult tokensOf(std::string_view text) {
   DiagnosticSink unread(1);
-  return lex(text, 0, kMostTokens, unread, std::pmr::get_default_resource());
+  return lex(text, 0, kMaxTokens, unread, std::pmr::get_default_resource());
 }
 
 /// Reads declarations from the tokens.

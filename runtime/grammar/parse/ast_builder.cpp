@@ -7,14 +7,14 @@
 
 namespace sgm::parse {
 
-AstBuilder::AstBuilder(Ast& ast, NameTable& names, TokenStream& tokens, uint32_t most_nodes)
-    : ast_(ast), names_(names), tokens_(tokens), most_nodes_(most_nodes), first_expr_(ast.exprs.size()) {}
+AstBuilder::AstBuilder(Ast& ast, NameTable& names, TokenStream& tokens, uint32_t max_nodes)
+    : ast_(ast), names_(names), tokens_(tokens), max_nodes_(max_nodes), first_expr_(ast.exprs.size()) {}
 
 bool AstBuilder::hasRoom() {
   if (tokens_.isExhausted()) return false;
-  if (ast_.exprs.size() + ast_.stmts.size() < most_nodes_) return true;
+  if (ast_.exprs.size() + ast_.stmts.size() < max_nodes_) return true;
   tokens_.exhaust(codes::kTooLarge,
-                  join({"the text has more than ", std::to_string(most_nodes_), " expressions and statements"}),
+                  join({"the text has more than ", std::to_string(max_nodes_), " expressions and statements"}),
                   "use loops and rules to say the same in fewer");
   return false;
 }

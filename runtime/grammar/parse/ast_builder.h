@@ -15,8 +15,8 @@ namespace sgm::parse {
 /// Adds the nodes of one file to the syntax tree, and limits the depth of its expressions.
 class AstBuilder {
  public:
-  /// most_nodes: the maximum number of expressions and statements in the whole tree, other files included.
-  AstBuilder(Ast& ast, NameTable& names, TokenStream& tokens, uint32_t most_nodes);
+  /// max_nodes: the maximum number of expressions and statements in the whole tree, other files included.
+  AstBuilder(Ast& ast, NameTable& names, TokenStream& tokens, uint32_t max_nodes);
 
   /// Add a node whose span reaches from `begin` to the last token taken. Return kNoId if the tree is full, which is
   /// reported as an error only once.
@@ -49,7 +49,7 @@ class AstBuilder {
   Ast& ast_;
   NameTable& names_;
   TokenStream& tokens_;
-  uint32_t most_nodes_;
+  uint32_t max_nodes_;
   size_t first_expr_;  ///< the index in Ast::exprs of this file's first expression
   /// by expression of this file: height of its tree. Limited here since loops such as that for `a + b + ...` build deep
   /// trees without recursion

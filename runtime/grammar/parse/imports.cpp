@@ -50,7 +50,7 @@ class Loader {
   void parse(uint32_t module) { syntax_.push_back(parseModule(program_, names_, module, options_.limits, sink_)); }
 
   bool pathIsGood(const ImportDecl& import) {
-    const std::string complaint = importPathComplaint(program_.text(import.path));
+    const std::string complaint = importPathProblem(program_.text(import.path));
     if (!complaint.empty())
       sink_.error(import.path_span, codes::kImportPath, complaint,
                   "imports are relative: \"std/rock.sgm\", \"parts/arch.sgm\"");
@@ -208,7 +208,7 @@ class Loader {
 
 }  // namespace
 
-std::string importPathComplaint(std::string_view path) {
+std::string importPathProblem(std::string_view path) {
   if (path.empty()) return "the import has no path";
   if (path.size() > kLongestPath) return "the path is too long";
   if (path.front() == '/' || path.find('\\') != std::string_view::npos || path.find(':') != std::string_view::npos)

@@ -15,7 +15,7 @@
 namespace sgm {
 
 /// Returns the reason why a path may not be imported; empty if it is valid. See ImportResolver::read for the rules.
-std::string importPathComplaint(std::string_view path);
+std::string importPathProblem(std::string_view path);
 
 /// Whether a valid path refers to an asset (.glb).
 bool isAssetPath(std::string_view path);

@@ -79,7 +79,7 @@ void addItem(ParseContext& in, ItemKind kind, size_t index, const Span& begin, s
 }
 
 IdRange parseFormals(ParseContext& in) {
-  constexpr size_t kMostFormals = 16;
+  constexpr size_t kMaxFormals = 16;
   TokenStream& tokens = in.tokens;
   std::vector<FormalNode> list;
   if (!tokens.accept(Tok::open_paren)) return {};
@@ -98,7 +98,7 @@ IdRange parseFormals(ParseContext& in) {
     }
     formal.span = tokens.since(begin);
     list.push_back(formal);
-    if (list.size() > kMostFormals)
+    if (list.size() > kMaxFormals)
       tokens.fail(begin, codes::kTooLarge, "this has more than 16 parameters", "a vector holds three numbers in one");
     if (!tokens.accept(Tok::comma)) break;
   }

@@ -273,7 +273,7 @@ ExprId parseRangeOrExpression(ParseContext& in) {
 }
 
 std::vector<ArgNode> parseArguments(ParseContext& in, std::string_view callee) {
-  constexpr size_t kMostArguments = 80;
+  constexpr size_t kMaxArguments = 80;
   TokenStream& tokens = in.tokens;
   std::vector<ArgNode> args;
   if (!tokens.expect(Tok::open_paren, "`(`")) return args;
@@ -287,7 +287,7 @@ std::vector<ArgNode> parseArguments(ParseContext& in, std::string_view callee) {
     arg.value = parseExpression(in);
     arg.span = tokens.since(begin);
     args.push_back(arg);
-    if (args.size() > kMostArguments)
+    if (args.size() > kMaxArguments)
       tokens.fail(begin, codes::kTooLarge, "the call has more than 80 arguments", "split them among several shapes");
     if (!tokens.accept(Tok::comma)) break;
   }

@@ -44,7 +44,7 @@ std::string spellingHint(std::string_view wanted, std::string_view word) {
 
 TokenStream::TokenStream(std::string_view text, uint32_t file, const CompileLimits& limits, DiagnosticSink& sink,
                          std::pmr::memory_resource* memory)
-    : text_(text), sink_(sink), most_nested_(limits.nesting), lexed_(lex(text, file, limits.nodes, sink, memory)) {
+    : text_(text), sink_(sink), max_nested_(limits.nesting), lexed_(lex(text, file, limits.nodes, sink, memory)) {
   end_token_.span = lexed_.tokens.back().span;
   last_ = lexed_.tokens.front().span;
 }
@@ -188,9 +188,9 @@ void TokenStream::skip(Level level) {
 }
 
 bool Nested::fits() {
-  if (tokens_.nesting_ <= tokens_.most_nested_) return true;
+  if (tokens_.nesting_ <= tokens_.max_nested_) return true;
   tokens_.fail(tokens_.here(), codes::kTooDeep,
-               join({"this is nested more than ", std::to_string(tokens_.most_nested_), " deep"}),
+               join({"this is nested more than ", std::to_string(tokens_.max_nested_), " deep"}),
                "name a part of it: a value with let, a block with a rule");
   return false;
 }

@@ -84,7 +84,7 @@ class TokenStream {
 
   std::string_view text_;
   DiagnosticSink& sink_;
-  uint32_t most_nested_;
+  uint32_t max_nested_;
   LexResult lexed_;
   size_t next_ = 0;
   bool panic_ = false;

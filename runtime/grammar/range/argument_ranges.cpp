@@ -113,7 +113,7 @@ void report(const Program& program, const Misfit& misfit, DiagnosticSink& sink) 
 
 void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::span<const RangeValue> given,
                       const CallPath& calls) {
-  constexpr size_t kMostMisfits = 256;
+  constexpr size_t kMaxMisfits = 256;
   const ExprNode& call = program.expr(id);
   if (!compares_ || call.circular) return;
   for (uint32_t i = 0; i < formals.count && i < given.size(); ++i) {
@@ -135,7 +135,7 @@ void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::s
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
                                     [&](const Misfit& m) { return std::pair(m.argument, m.caller) == key; });
     if (known == misfits_.end()) {
-      if (misfits_.size() < kMostMisfits) misfits_.push_back(misfit);
+      if (misfits_.size() < kMaxMisfits) misfits_.push_back(misfit);
     } else if (known->loose && misfit.loose) {
       known->given = hull(known->given, value);
     } else if (known->loose || (certain && !known->certain)) {

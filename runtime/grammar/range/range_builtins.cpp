@@ -141,7 +141,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       return RangeValue::vector({in(0), in(1), in(2)});
     case Builtin::branch: {
       // The ends are at most as far as all steps in a straight line, plus the rounding of each step.
-      const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
+      const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMaxSegments)));
       const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
       return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};
     }

@@ -10,7 +10,7 @@ namespace sgm::reach {
 
 namespace {
 
-constexpr int kMostTrials = 6;
+constexpr int kMaxTrials = 6;
 /// Maximum edge of a tried cell or box, metres, so that a reach of several cells stays within the world.
 constexpr double kLargestEdge = 2.5e5;
 
@@ -87,7 +87,7 @@ std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context
   // Repeated, since the extent of shapes may depend on the cell or the box itself.
   const TrialDeclaration trials(index, context);
   Extent tried = extent;
-  for (int trial = 0; trial < kMostTrials && !tried.lost(); ++trial) {
+  for (int trial = 0; trial < kMaxTrials && !tried.lost(); ++trial) {
     const std::array<double, 3> edges = nextEdges(layer, tried, needed, context);
     if (!std::all_of(edges.begin(), edges.end(), [](double edge) { return edge <= kLargestEdge; })) break;
     declare(layer, edges, written_reach, context);

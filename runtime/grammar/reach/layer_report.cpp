@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
 constexpr const char* kGiveBox = "give the domain a box: `domain finite box(20m, 20m, 20m);`";
 constexpr const char* kSmaller = "make the shape smaller";
-constexpr size_t kMostParts = 32;      ///< calls of a start rule that are examined one by one
-constexpr uint64_t kMostAttempts = 8;  ///< limit for all calls of a start rule together, in steps of one attempt
+constexpr size_t kMaxParts = 32;      ///< calls of a start rule that are examined one by one
+constexpr uint64_t kMaxAttempts = 8;  ///< limit for all calls of a start rule together, in steps of one attempt
 
 /// Returns an example of a small positive value of a dimension, for hints; empty if the dimension has no unit.
 std::string_view smallValue(Dim dim) {
@@ -44,8 +44,8 @@ std::vector<Extent> boundCallsOneByOne(uint32_t index, ReachContext& context) {
   const std::vector<ExprId> calls = context.start_calls.endCollecting();
   context.budget.clearSpent();
   std::vector<Extent> parts;
-  for (size_t i = 0; i < std::min(calls.size(), kMostParts) && calls.size() > 1; ++i) {
-    if (context.budget.hasSpentMoreThan(kMostAttempts)) break;
+  for (size_t i = 0; i < std::min(calls.size(), kMaxParts) && calls.size() > 1; ++i) {
+    if (context.budget.hasSpentMoreThan(kMaxAttempts)) break;
     context.start_calls.restrictTo(calls[i]);
     context.budget.refill();
     const Extent part = proveStart(index, context);

@@ -81,7 +81,7 @@ Extent boundRoof(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   if (s.plan != kNoId) {
     plan = context.values.evaluate(s.plan, frame);
     floor = Interval::exactly(-kSeamOverlap);
-    overhang = overhang * Interval::exactly(kMostMiter);
+    overhang = overhang * Interval::exactly(kMaxMiter);
   }
   IntervalVector edges = plan.v;
   for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = positivePart(edges[axis]) + overhang + overhang;
@@ -89,7 +89,7 @@ Extent boundRoof(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   if (roof.form == RoofForm::flat) {
     edges[1] = positivePart(measure);
   } else {
-    const double pitch = std::clamp(measure.hi, kLeastPitch, kMostPitch);
+    const double pitch = std::clamp(measure.hi, kLeastPitch, kMaxPitch);
     const double slope = detSin(pitch) / detCos(pitch) * (1 + 1e-12);
     edges[1] = {0, boundProduct(slope, std::min(edges[0].hi, edges[2].hi)) / 2 + kRounding};
   }

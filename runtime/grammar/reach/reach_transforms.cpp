@@ -258,7 +258,7 @@ Extent boundForEach(const StmtNode& s, RangeFrame& frame, ReachContext& context)
     variable = context.values.evaluate(s.expr, frame);
     const bool branch = variable.kind == ValueKind::segments;
     variable.kind = branch ? ValueKind::segment : ValueKind::face;
-    if (branch) times.hi = kMostSegments;
+    if (branch) times.hi = kMaxSegments;
   }
   frame.slots[s.slot] = variable;
   const auto body = [&] { return boundStatement(s.body, frame, context); };

@@ -16,7 +16,7 @@ namespace sgm::reach {
 namespace {
 
 /// Upper bound of the number of rectangles of rooms and corridors, and of doors.
-constexpr double kMostBoxes = 1024;
+constexpr double kMaxBoxes = 1024;
 /// Number of pieces into which a range of room edges is divided: small rooms may lie farther out than large ones.
 constexpr int kRoomPieces = 2;
 
@@ -75,7 +75,7 @@ Extent boundTreemap(const StmtNode& s, RangeFrame& frame, ReachContext& context)
   const IntervalVector edges = {atLeastZero(frame.scope[0]), atLeastZero(frame.scope[1]), atLeastZero(frame.scope[2])};
   const Interval reach = Interval::exactly(2 * kDoorReach);
   Extent out = solidIn({edges[0] + reach, edges[1], edges[2] + reach});
-  out.repeat({0, kMostBoxes});
+  out.repeat({0, kMaxBoxes});
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = context.program.ast.parts[s.parts.first + i];
     const StmtId child = context.program.idAt(s.children, i);
@@ -98,7 +98,7 @@ Extent boundTreemap(const StmtNode& s, RangeFrame& frame, ReachContext& context)
         break;
     }
     one.certain = false;
-    one.repeat({0, part.floor == FloorPart::room ? 1 : kMostBoxes});
+    one.repeat({0, part.floor == FloorPart::room ? 1 : kMaxBoxes});
     out.join(one);
   }
   return out;

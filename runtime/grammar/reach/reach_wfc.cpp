@@ -81,7 +81,7 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
       addAlternative(one, e);
     }
     one->certain = false;
-    one->repeat({0, std::min(places, kMostPlaces)});
+    one->repeat({0, std::min(places, kMaxPlaces)});
     out.join(*one);
   }
   return out;

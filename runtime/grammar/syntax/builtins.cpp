@@ -50,11 +50,11 @@ constexpr std::array kBranch = {number("n", kRatio), named(number("step", kLengt
 // Lengths below a millionth of a millimetre would round to 0 units. The range of `turn` has a tolerance, since 90deg
 // may be rounded upwards.
 constexpr std::array<ValueRange, 4> kBranchRanges = {
-    {{0, kMostSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
+    {{0, kMaxSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
      {1e-9, 1e9, "the `step` of a branch is a length above 0", "such as step 6m"},
      {0, kPi / 2 * (1 + 1e-12), "the `turn` of a branch is 0deg to 90deg", "such as turn 25deg"},
      {0, 1, "the `fork` of a branch is 0% to 100%", "such as fork 20%"}}};
-static_assert(kMostSegments == 4096);
+static_assert(kMaxSegments == 4096);
 
 constexpr std::array<BuiltinInfo, 26> kBuiltins = {{{"min", Builtin::min, kMin},
                                                     {"max", Builtin::max, kMin},

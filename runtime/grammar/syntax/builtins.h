@@ -63,7 +63,7 @@ enum class Builtin : uint8_t {
 };
 
 /// The maximum number of segments of one branch(); further side branches are left out.
-inline constexpr uint32_t kMostSegments = 4096;
+inline constexpr uint32_t kMaxSegments = 4096;
 
 /// Leaf shapes. Centred on the scope's origin, with axis y, unless specified otherwise.
 enum class Primitive : uint8_t {
@@ -92,12 +92,12 @@ enum class Primitive : uint8_t {
 /// at the cell's face. The field's absolute value is at most 7/8 of a voxel, so a larger displacement makes everything
 /// solid or void. Levels whose cell edge exceeds `coarsest_voxels` voxels omit the shape.
 struct AutomatonLimits {
-  static constexpr int32_t least_edge = 16;   ///< minimum edge of a voxel, units
-  static constexpr int32_t most_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
-  static constexpr int32_t most_rounds = 16;  ///< the minimum is 0
-  static constexpr int32_t most_radius = 4;   ///< the minimum is 1
+  static constexpr int32_t least_edge = 16;  ///< minimum edge of a voxel, units
+  static constexpr int32_t max_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
+  static constexpr int32_t max_rounds = 16;  ///< the minimum is 0
+  static constexpr int32_t max_radius = 4;   ///< the minimum is 1
   /// maximum of rounds times radius: how far a voxel influences others, in voxels
-  static constexpr int32_t most_halo = 16;
+  static constexpr int32_t max_halo = 16;
   static constexpr int32_t coarsest_voxels = 4;
 
   /// The largest cell edge of a level that shows voxels with this edge; both in units.

@@ -19,7 +19,7 @@ inline constexpr ValueRange kSnapReachRange{0, 1e5, "the snap reach of a split i
 /// join.
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 
-inline constexpr size_t kMostRooms = 32;
+inline constexpr size_t kMaxRooms = 32;
 inline constexpr ValueRange kRoomAreaRange{1e-6, 1e6, "the area of a room is a millionth to a million",
                                            "such as `living 28`"};
 inline constexpr ValueRange kWallRange{0.01, 5, "the walls of a treemap are 1cm to 5m thick", "such as wall 0.2m"};
@@ -27,10 +27,10 @@ inline constexpr ValueRange kDoorRange{0.1, 100, "a door is 0.1m to 100m wide", 
 inline constexpr ValueRange kDoorHeightRange{0.1, 100, "a door is 0.1m to 100m high", "such as height 2.1m"};
 inline constexpr ValueRange kCorridorRange{0.1, 100, "a corridor is 0.1m to 100m wide", "such as corridor 1.2m"};
 
-inline constexpr size_t kMostTiles = 64;
-inline constexpr size_t kMostLabels = 63;
-inline constexpr size_t kMostSideKinds = 64;
-inline constexpr double kMostPlaces = 32768;
+inline constexpr size_t kMaxTiles = 64;
+inline constexpr size_t kMaxLabels = 63;
+inline constexpr size_t kMaxSideKinds = 64;
+inline constexpr double kMaxPlaces = 32768;
 inline constexpr ValueRange kTileRange{0.01, 1e5, "a tile is 1cm or more along each axis", "such as wfc 2m"};
 inline constexpr ValueRange kTileWeightRange{0, 1e6, "the weight of a tile is 0 to a million", "such as `wall 3`"};
 

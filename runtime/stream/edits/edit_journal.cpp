@@ -24,10 +24,10 @@ constexpr uint64_t kJournalMagic = 0x53544944454D4753;  // "SGMEDITS"
 constexpr uint32_t kJournalVersion = 1;
 constexpr size_t kHeadBytes = 40;
 constexpr size_t kRecordHead = 12;  // length of the content (u32), checksum of the content (u64)
-constexpr size_t kMostRecordBytes = kRecordHead + kMostEditBytes;
-constexpr uint64_t kMostJournalBytes = uint64_t{1} << 30;
+constexpr size_t kMaxRecordBytes = kRecordHead + kMaxEditBytes;
+constexpr uint64_t kMaxJournalBytes = uint64_t{1} << 30;
 constexpr size_t kLeastCompacted = 256;  // operations: a file with fewer is not rewritten
-constexpr int kMostTries = 100;
+constexpr int kMaxTries = 100;
 
 using Bytes = std::vector<std::byte>;
 
@@ -99,7 +99,7 @@ std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::b
 /// Opens and locks the file. Repeats until the locked file still has this name: another process may be about to replace
 /// it.
 Result<File> openLocked(const fs::path& path) {
-  for (int i = 0; i < kMostTries; ++i) {
+  for (int i = 0; i < kMaxTries; ++i) {
     File file(platform::openFile(path, platform::kRead | platform::kWrite | platform::kCreate));
     platform::FileStatus ours, there;
     if (!file || platform::statusOf(file.number(), ours) != 0) return ioError(path, errno);
@@ -116,7 +116,7 @@ Result<File> openLocked(const fs::path& path) {
 Result<Bytes> readAll(const fs::path& path, int file) {
   platform::FileStatus there;
   if (platform::statusOf(file, there) != 0) return ioError(path, errno);
-  if (there.bytes > kMostJournalBytes) return journalError(Code::limit, path, "it is larger than a gigabyte");
+  if (there.bytes > kMaxJournalBytes) return journalError(Code::limit, path, "it is larger than a gigabyte");
   Bytes bytes(static_cast<size_t>(there.bytes));
   for (size_t at = 0; at < bytes.size();) {
     const ptrdiff_t got = platform::readAt(file, bytes.data() + at, bytes.size() - at, at);
@@ -173,7 +173,7 @@ Result<void> writeWhole(const fs::path& path, std::span<const std::byte> bytes) 
 
 /// Copies a damaged file to a new name. Precondition: this process holds the journal's lock.
 Result<fs::path> setAside(const fs::path& path, std::span<const std::byte> bytes) {
-  for (int i = 1; i <= kMostTries; ++i) {
+  for (int i = 1; i <= kMaxTries; ++i) {
     fs::path aside = path;
     aside += ".damaged-" + std::to_string(i);
     std::error_code why;
@@ -183,7 +183,7 @@ Result<fs::path> setAside(const fs::path& path, std::span<const std::byte> bytes
   }
   return journalError(
       Code::limit, path,
-      "it is damaged, and " + std::to_string(kMostTries) + " damaged copies are already beside it: remove them");
+      "it is damaged, and " + std::to_string(kMaxTries) + " damaged copies are already beside it: remove them");
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
     whole += record->second;
   }
   const size_t rest = all.size() - whole;
-  const bool damaged = rest > kMostRecordBytes;  // more bytes than one incompletely written operation has
+  const bool damaged = rest > kMaxRecordBytes;  // more bytes than one incompletely written operation has
   if (damaged) {
     Result<fs::path> aside = setAside(path, all);
     if (!aside) return aside.error();

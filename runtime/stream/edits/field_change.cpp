@@ -10,7 +10,7 @@ namespace sgm {
 namespace {
 
 /// The maximum number of changed groups stored per cell; if there are more, one box around all of them is stored.
-constexpr size_t kMostChangesOfCell = 64;
+constexpr size_t kMaxChangesOfCell = 64;
 
 bool sameDomain(const Program& a, const Program& b) {
   return a.domain.solid == b.domain.solid && a.domain.material == b.domain.material &&
@@ -137,7 +137,7 @@ std::shared_ptr<const FieldChange::Changes> FieldChange::changesIn(uint32_t pair
   }
   // If two threads compare the same cell concurrently, both get the same result.
   Changes changes = compare(layers_[pair], cell);
-  if (changes.size() > kMostChangesOfCell) changes.assign(1, joined(changes));
+  if (changes.size() > kMaxChangesOfCell) changes.assign(1, joined(changes));
   auto found = std::make_shared<const Changes>(std::move(changes));
   const std::lock_guard lock(mutex_);
   return known_.try_emplace(at, std::move(found)).first->second;

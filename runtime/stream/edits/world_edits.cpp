@@ -7,7 +7,7 @@ namespace sgm {
 namespace {
 
 /// Above this number, changes that were not read are merged: a world without viewers may be edited without end.
-constexpr size_t kMostChanges = 4096;
+constexpr size_t kMaxChanges = 4096;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Result<std::string> WorldEdits::open(const std::filesystem::path& path, const Wo
 
 // Reserves memory before an edit is made, so that reporting the edit cannot fail.
 void WorldEdits::makeRoom(size_t more) {
-  if (changes_.size() + more > kMostChanges) {
+  if (changes_.size() + more > kMaxChanges) {
     WorldChange all;
     for (const WorldChange& change : changes_) {
       if (change.field == nullptr) all = {change.number, all.box.joined(change.box), nullptr};
@@ -60,7 +60,7 @@ Result<void> WorldEdits::merge(const Merge& from) {
   try {
     const Result<std::vector<IntBox>> boxes = from();
     if (!boxes) return boxes.error();
-    if (boxes->size() > kMostChanges) {
+    if (boxes->size() > kMaxChanges) {
       IntBox all;
       for (const IntBox& box : *boxes) all = all.joined(box);
       changed({&all, 1});

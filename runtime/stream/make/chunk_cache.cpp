@@ -221,7 +221,7 @@ void complete(const ChunkMesher& mesher, InWork& work) {
 
 /// Uploads the parts that the device has not meshed itself: those from the disk, and those that the CPU has meshed for
 /// it. If that fails, the parts are not on the device, which is no error.
-void bring(Backend& backend, std::span<InWork> all) {
+void download(Backend& backend, std::span<InWork> all) {
   std::vector<const MeshPart*> parts;
   std::vector<std::shared_ptr<const DevicePart>*> places;
   for (InWork& work : all) {
@@ -296,7 +296,7 @@ std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const MeshOrder> or
   }
   meshRest(*this, edits, to_mesh, progress, work);
   forEach(jobs, work, [&](size_t i) { complete(*this, work[i]); });
-  if (resident) bring(backend, work);
+  if (resident) download(backend, work);
   std::vector<std::optional<MeshedChunk>> finished(work.size());
   forEach(jobs, work, [&](size_t i) { finished[i] = surfaced(*this, work[i]); });
   std::vector<Result<MeshedChunk>> results;

@@ -39,7 +39,7 @@ Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& setting
                   const ChunkSet* finest = nullptr);
 
 /// The maximum number of chunks in a plan; each costs about a microsecond per plan, and half a kilobyte.
-inline constexpr double kMostExpectedLeaves = 131072;
+inline constexpr double kMaxExpectedLeaves = 131072;
 
 /// Estimates the number of chunks of lodTarget(); the estimate tends to be too high. Fast.
 double expectedLeaves(std::span<const LodViewer> viewers, const LodSettings& settings);

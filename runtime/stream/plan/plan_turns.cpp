@@ -84,7 +84,7 @@ void PlanTurns::setMeshJobs(Member& member, size_t count) noexcept {
 
 void PlanTurns::earn(double seconds) noexcept {
   const std::lock_guard lock(mutex_);
-  credit_ = std::max(credit_, std::min(kMostCredit, credit_ + kShare * seconds));
+  credit_ = std::max(credit_, std::min(kMaxCredit, credit_ + kShare * seconds));
 }
 
 double PlanTurns::credit() const {

@@ -25,7 +25,7 @@ class PlanTurns {
   /// The share of elapsed time that is credited, but only to reduce debts.
   static constexpr double kTrickle = 0.05;
   /// The maximum credit in seconds.
-  static constexpr double kMostCredit = 0.01;
+  static constexpr double kMaxCredit = 0.01;
 
   /// A world's membership in the turns. The world owns it.
   class Member {

@@ -190,7 +190,7 @@ void Planner::retarget(std::span<const Viewer> viewers) {
   LodSettings lod = settings_.lod;
   lod.finest_distance *= stats_.detail;
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
-  for (double reach = 1; expectedLeaves(wanting, lod) > kMostExpectedLeaves && reach > kLeastReach;) {
+  for (double reach = 1; expectedLeaves(wanting, lod) > kMaxExpectedLeaves && reach > kLeastReach;) {
     reach *= kLessDetail;
     for (LodViewer& viewer : wanting) viewer.reach *= kLessDetail;
   }

@@ -10,8 +10,8 @@ namespace sgm {
 
 namespace {
 
-constexpr uint32_t kMostInLeaf = 4;
-/// Maximum depth of the hierarchy; halving kMostViewers viewers needs less.
+constexpr uint32_t kMaxInLeaf = 4;
+/// Maximum depth of the hierarchy; halving kMaxViewers viewers needs less.
 constexpr size_t kDeepest = 32;
 
 double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>& high, const ChunkKey& key,
@@ -50,7 +50,7 @@ uint32_t ViewerIndex::build(uint32_t first, uint32_t count) {
     node.reach = std::max(node.reach, seen.reach);
   }
   nodes_.push_back(node);
-  if (count <= kMostInLeaf) return at;
+  if (count <= kMaxInLeaf) return at;
   size_t longest = 0;
   for (size_t axis = 1; axis < 3; ++axis) {
     if (node.high[axis] - node.low[axis] > node.high[longest] - node.low[longest]) longest = axis;

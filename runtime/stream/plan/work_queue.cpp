@@ -8,15 +8,15 @@ namespace sgm {
 bool WorkQueue::isReady(size_t at, Clock::time_point now) const {
   const WorkItem& item = items_[at];
   // Edited chunks are not prefetched, because they must be drawn as soon as possible.
-  if (lookers_ == 0 || item.rank == WorkItem::Rank::edited) return true;
+  if (prefetchers_ == 0 || item.rank == WorkItem::Rank::edited) return true;
   if (item.look != nullptr && item.look->has_ended) return true;
   if (item.look == nullptr && isStalled(now)) return true;
   return at >= items_.size() - sight() && now - item.in_sight_since >= kPatience;
 }
 
-void WorkQueue::replace(std::vector<WorkItem>& items, bool may_look, Clock::time_point now) noexcept {
+void WorkQueue::replace(std::vector<WorkItem>& items, bool may_prefetch, Clock::time_point now) noexcept {
   items_.swap(items);
-  if (lookers_ == 0) return;
+  if (prefetchers_ == 0) return;
   const auto inSight = [](std::vector<WorkItem>& of) { return std::span(of).last(std::min(kSight, of.size())); };
   std::array<WorkItem*, kSight> before{};
   const std::span<WorkItem> seen = inSight(items);
@@ -28,12 +28,12 @@ void WorkQueue::replace(std::vector<WorkItem>& items, bool may_look, Clock::time
     const auto at = std::ranges::lower_bound(before.begin(), end, item.request.key, {}, keyOf);
     const bool is_known = at != end && (*at)->request.key == item.request.key;
     if (is_known && (*at)->request == item.request) item.look = (*at)->look;
-    item.in_sight_since = is_known && (may_look || item.look != nullptr) ? (*at)->in_sight_since : now;
+    item.in_sight_since = is_known && (may_prefetch || item.look != nullptr) ? (*at)->in_sight_since : now;
   }
 }
 
 std::optional<size_t> WorkQueue::nextReady(size_t below, Clock::time_point now) const {
-  if (lookers_ == 0) return below > 0 ? std::optional(below - 1) : std::nullopt;
+  if (prefetchers_ == 0) return below > 0 ? std::optional(below - 1) : std::nullopt;
   const size_t first = isStalled(now) ? 0 : items_.size() - sight();
   for (size_t at = below; at > first; --at) {
     if (isReady(at - 1, now)) return at - 1;
@@ -43,7 +43,7 @@ std::optional<size_t> WorkQueue::nextReady(size_t below, Clock::time_point now) 
 
 size_t WorkQueue::countReady(Clock::time_point now) const {
   const size_t first = items_.size() - sight();
-  size_t count = lookers_ == 0 || isStalled(now) ? first : 0;
+  size_t count = prefetchers_ == 0 || isStalled(now) ? first : 0;
   for (size_t at = first; at < items_.size(); ++at) count += isReady(at, now);
   return count;
 }
@@ -58,16 +58,16 @@ WorkItem WorkQueue::remove(size_t at, Clock::time_point now) {
   return item;
 }
 
-bool WorkQueue::mayLook() const {
+bool WorkQueue::mayPrefetch() const {
   const auto isFound = [](const WorkItem& item) { return item.look != nullptr && item.look->has_ended; };
   const auto first = items_.end() - static_cast<ptrdiff_t>(sight());
-  return static_cast<size_t>(std::count_if(first, items_.end(), isFound)) < kMostFound;
+  return static_cast<size_t>(std::count_if(first, items_.end(), isFound)) < kMaxFound;
 }
 
 std::optional<ChunkRequest> WorkQueue::beginLook(const std::shared_ptr<Look>& look, Clock::time_point now) {
   const auto end = items_.rbegin() + static_cast<ptrdiff_t>(sight());
   const auto next = std::find_if(items_.rbegin(), end, isToLook);
-  if (next == end || !mayLook()) return std::nullopt;
+  if (next == end || !mayPrefetch()) return std::nullopt;
   next->look = look;
   ++looking_;
   progress_ = now;
@@ -83,7 +83,7 @@ void WorkQueue::endLook(Look& look, std::optional<FoundParts>&& found, double se
 }
 
 size_t WorkQueue::countToLook() const {
-  if (!mayLook()) return 0;
+  if (!mayPrefetch()) return 0;
   return static_cast<size_t>(std::count_if(items_.end() - static_cast<ptrdiff_t>(sight()), items_.end(), isToLook));
 }
 

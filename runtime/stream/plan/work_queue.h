@@ -34,10 +34,10 @@ class WorkQueue {
   static constexpr size_t kSight = 256;
   /// No new prefetch begins while jobs have not taken this many results, because the memory of results is not counted
   /// elsewhere.
-  static constexpr size_t kMostFound = 64;
+  static constexpr size_t kMaxFound = 64;
 
   /// lookers: number of threads that prefetch; 0: no prefetch, and every request may be meshed at once.
-  explicit WorkQueue(size_t lookers) : lookers_(lookers) {}
+  explicit WorkQueue(size_t prefetchers) : prefetchers_(prefetchers) {}
 
   bool empty() const { return items_.empty(); }
   size_t size() const { return items_.size(); }
@@ -46,8 +46,9 @@ class WorkQueue {
   const WorkItem& mostUrgent() const { return items_.back(); }
 
   /// Replaces all requests by those of a plan, most urgent last; swaps the old ones into `items`. Unchanged requests
-  /// keep their prefetches. If may_look (prefetching is allowed), all requests of a chunk also keep its waiting time.
-  void replace(std::vector<WorkItem>& items, bool may_look, Clock::time_point now) noexcept;
+  /// keep their prefetches. If may_prefetch (prefetching is allowed), all requests of a chunk also keep its waiting
+  /// time.
+  void replace(std::vector<WorkItem>& items, bool may_prefetch, Clock::time_point now) noexcept;
 
   /// Returns the index of the most urgent request before `below` that may be meshed; nullopt if all of them wait.
   std::optional<size_t> nextReady(size_t below, Clock::time_point now) const;
@@ -66,14 +67,14 @@ class WorkQueue {
   size_t countLooking() const { return looking_; }
 
  private:
-  size_t sight() const { return lookers_ != 0 ? std::min(kSight, items_.size()) : 0; }
+  size_t sight() const { return prefetchers_ != 0 ? std::min(kSight, items_.size()) : 0; }
   /// True if all lookers are at work, and none of them has begun or ended a prefetch for kPatience.
-  bool isStalled(Clock::time_point now) const { return looking_ >= lookers_ && now - progress_ >= kPatience; }
+  bool isStalled(Clock::time_point now) const { return looking_ >= prefetchers_ && now - progress_ >= kPatience; }
   bool isReady(size_t at, Clock::time_point now) const;
-  bool mayLook() const;
+  bool mayPrefetch() const;
   static bool isToLook(const WorkItem& item) { return item.look == nullptr && item.rank != WorkItem::Rank::edited; }
 
-  const size_t lookers_;
+  const size_t prefetchers_;
   std::vector<WorkItem> items_;
   size_t looking_ = 0;
   Clock::time_point progress_;

@@ -23,10 +23,10 @@ using measure::MasterLimits;
 
 constexpr int64_t kApplication = 0x53474D4D;  // "SGMM"
 constexpr int64_t kSchemaVersion = 1;
-constexpr int64_t kMostMasters = 100'000;
+constexpr int64_t kMaxMasters = 100'000;
 /// Maximum number of bytes of a value or SQL statement: enough for valid databases, and small enough that a crafted
 /// file cannot make SQLite allocate gigabytes.
-constexpr int kMostBytes = 1 << 20;
+constexpr int kMaxBytes = 1 << 20;
 
 // A table is recognized by the exact text of its CREATE statement, which SQLite stores.
 constexpr const char* kKeysTable =
@@ -100,7 +100,7 @@ Database openFile(const std::string& name, int flags, int& code) {
   code = sqlite3_open_v2(name.c_str(), &raw, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, nullptr);
   Database database(raw);
   if (code != SQLITE_OK) return nullptr;
-  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMostBytes);
+  sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, kMaxBytes);
   sqlite3_busy_timeout(raw, 5000);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
@@ -190,7 +190,7 @@ ReadBase readRows(const Database& database) {
     sum += row;
     ids.push_back(keys.whole(0));
     set.limits.push_back(limits);
-    if (++rows > kMostMasters) return damaged("it has too many keys");
+    if (++rows > kMaxMasters) return damaged("it has too many keys");
   }
   if (keys.code() != SQLITE_OK) return failed(database);
   Statement masters(database, "SELECT key, class, name, models, shares, checksum FROM masters ORDER BY id");
@@ -209,7 +209,7 @@ ReadBase readRows(const Database& database) {
     }
     sum += row;
     set.masters.push_back(std::move(master));
-    if (++rows > kMostMasters) return damaged("it has too many reference histograms");
+    if (++rows > kMaxMasters) return damaged("it has too many reference histograms");
   }
   if (masters.code() != SQLITE_OK) return failed(database);
   Statement seal(database, "SELECT rows, checksum FROM seal");

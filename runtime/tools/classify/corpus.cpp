@@ -16,7 +16,7 @@
 namespace sgm::masters {
 namespace {
 
-constexpr uint64_t kMostChunks = 8192;
+constexpr uint64_t kMaxChunks = 8192;
 constexpr size_t kCellBytes = size_t{256} << 20;
 /// Number of grid cells along the edge of the part of the world that is searched for a surface.
 constexpr int64_t kSearchCells = 64;
@@ -267,17 +267,17 @@ Result<ModelMesh> ModelMaker::draw(uint64_t seed, uint64_t attempt, Backend& bac
   const Result<IntBox> block = domain.infinite ? blockRegion(*program_, 1) : Result<IntBox>(domain.box);
   if (!block) return block.error();
   if (family_->edge == 0) {
-    const Result<RegionMesh> whole = meshRegion(world, backend, jobs, *block, 0, kMostChunks, false);
+    const Result<RegionMesh> whole = meshRegion(world, backend, jobs, *block, 0, kMaxChunks, false);
     if (!whole) return whole.error();
     return modelOf(whole->mesh);
   }
   const IntBox searched = family_->middle > 0 ? middleOf(*block, family_->middle) : *block;
   const int level = searchLevel(searched, world.settings().finest_cell);
-  const Result<RegionMesh> coarse = meshRegion(world, backend, jobs, searched, level, kMostChunks, false);
+  const Result<RegionMesh> coarse = meshRegion(world, backend, jobs, searched, level, kMaxChunks, false);
   if (!coarse) return coarse.error();
   if (coarse->mesh.indices.empty()) return ModelMesh{};
   const IntBox cube = cubeAround(placeOn(modelOf(coarse->mesh), searched, key.unit(0)), family_->edge);
-  const Result<RegionMesh> part = meshRegion(world, backend, jobs, cube, 0, kMostChunks, false);
+  const Result<RegionMesh> part = meshRegion(world, backend, jobs, cube, 0, kMaxChunks, false);
   if (!part) return part.error();
   return modelOf(part->mesh);
 }

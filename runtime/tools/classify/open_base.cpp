@@ -13,7 +13,7 @@
 namespace sgm::masters {
 namespace {
 
-constexpr int kMostDamaged = 10'000;
+constexpr int kMaxDamaged = 10'000;
 
 bool isThere(const std::string& file) {
   struct stat about {};
@@ -23,7 +23,7 @@ bool isThere(const std::string& file) {
 /// Renames a damaged file. Returns the new name, or an empty text with errno if it fails. Moves SQLite's log first:
 /// otherwise SQLite would replay that log into the next database.
 std::string moveAside(const std::string& file) {
-  for (int i = 1; i <= kMostDamaged; ++i) {
+  for (int i = 1; i <= kMaxDamaged; ++i) {
     const std::string aside = file + ".damaged-" + std::to_string(i);
     if (isThere(aside) || isThere(aside + "-wal") || isThere(aside + "-shm")) continue;
     for (const char* part : {"-wal", "-shm", ""}) {

@@ -22,7 +22,7 @@ using measure::MasterKey;
 using measure::MasterLimits;
 
 constexpr size_t kLongestClass = 64, kLongestName = 256;
-constexpr double kMostLength = 1e9;
+constexpr double kMaxLength = 1e9;
 
 /// Reads a set until the first problem; further problems are not reported.
 class SetReader {
@@ -30,8 +30,8 @@ class SetReader {
   ReadSet run(const JsonValue& json) {
     MasterSet set;
     members(json, "", {"masters", "limits"}, {"from", "writable"});
-    for (const JsonValue& of : array(json, "limits", 1, kMostSetKeys)) limits(of, set);
-    for (const JsonValue& of : array(json, "masters", 1, kMostSetMasters)) master(of, set);
+    for (const JsonValue& of : array(json, "limits", 1, kMaxSetKeys)) limits(of, set);
+    for (const JsonValue& of : array(json, "masters", 1, kMaxSetMasters)) master(of, set);
     if (!wrong_) everyKeyHasMasters(set);
     ReadSet read;
     if (wrong_) {
@@ -126,8 +126,8 @@ class SetReader {
     key.mode = mode.value_or(key.mode);
     key.bins = whole(of, "bins", at, 1, 4096);
     const bool curvature = key.mode == HistogramMode::curvature;
-    key.length = number(of, "length", at, curvature ? 1 / kMostLength : 0, curvature ? kMostLength : 0);
-    key.density = number(of, "density", at, 0, curvature ? 0 : kMostLength);
+    key.length = number(of, "length", at, curvature ? 1 / kMaxLength : 0, curvature ? kMaxLength : 0);
+    key.density = number(of, "density", at, 0, curvature ? 0 : kMaxLength);
     key.version = whole(of, "version", at, measure::kMasterVersion, measure::kMasterVersion);
     return key;
   }
@@ -137,8 +137,8 @@ class SetReader {
     members(json, at, {"key", "mse", "emd"});
     MasterLimits limits;
     limits.key = key(json, at);
-    limits.mse = number(json, "mse", at, 0, kMostLength);
-    limits.emd = number(json, "emd", at, 0, kMostLength);
+    limits.mse = number(json, "mse", at, 0, kMaxLength);
+    limits.emd = number(json, "emd", at, 0, kMaxLength);
     if (set.limitsOf(limits.key) != nullptr) fail("this key already has limits", at + "/key");
     set.limits.push_back(limits);
   }
@@ -202,8 +202,8 @@ class SetReader {
 
 ReadSet readSet(std::string_view json) {
   ReadSet read;
-  if (json.size() > kMostSetBytes) {
-    read.what = "reference histograms may have at most " + std::to_string(kMostSetBytes >> 20) + " MB of JSON";
+  if (json.size() > kMaxSetBytes) {
+    read.what = "reference histograms may have at most " + std::to_string(kMaxSetBytes >> 20) + " MB of JSON";
     return read;
   }
   const Result<JsonValue> value = readJson(json);

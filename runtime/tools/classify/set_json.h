@@ -11,7 +11,7 @@ namespace sgm::masters {
 
 /// Limits of the text's bytes, the keys, and the histograms. Each key also has the limits of binsOf() and
 /// checkHistogram().
-inline constexpr size_t kMostSetBytes = size_t{4} << 20, kMostSetKeys = 256, kMostSetMasters = 10'000;
+inline constexpr size_t kMaxSetBytes = size_t{4} << 20, kMaxSetKeys = 256, kMaxSetMasters = 10'000;
 
 struct ReadSet {
   std::optional<MasterSet> set;  ///< set if there is no problem

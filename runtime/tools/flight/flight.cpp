@@ -241,7 +241,7 @@ class Flight {
     }
     // After a teleport, no surface can be drawn yet: these frames do not count.
     if (teleport_frame_ && frame < *teleport_frame_ + static_cast<uint64_t>(kFramesASecond)) return {};
-    const Result<Sight> sight = see(settings_.finest_distance, kRaysAFrame);
+    const Result<Observation> sight = see(settings_.finest_distance, kRaysAFrame);
     if (!sight) return sight.error();
     report_.seen += sight->seen;
     report_.seen_finest += sight->finest;
@@ -266,11 +266,11 @@ class Flight {
     return seen;
   }
 
-  struct Sight {
+  struct Observation {
     uint64_t seen = 0, finest = 0;
   };
-  Result<Sight> see(double distance, int rays) {
-    Sight sight;
+  Result<Observation> see(double distance, int rays) {
+    Observation sight;
     for (int i = 0; i < rays; ++i) {
       const Result<Surface> surface = surfaceAlong(rays_++, distance);
       if (!surface) return surface.error();

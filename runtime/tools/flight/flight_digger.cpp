@@ -135,7 +135,7 @@ void FlightDigger::look(const sgm_world_stats& stats) {
   dug_.reset();
   commits_ += stats.frame != frame_;
   frame_ = stats.frame;
-  if (report_.digs() > 0) report_.most_queued = std::max(report_.most_queued, stats.queued);
+  if (report_.digs() > 0) report_.max_queued = std::max(report_.max_queued, stats.queued);
   for (; !waiting_.empty() && waiting_.front().state <= stats.edits_drawn; waiting_.pop_front()) {
     frames_.push_back(static_cast<double>(commits_ - waiting_.front().commits));
     milliseconds_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - waiting_.front().since).count());

@@ -22,9 +22,9 @@ Spread spreadOf(std::vector<double> values);
 
 struct DigReport {
   uint64_t cuts = 0, adds = 0, undos = 0;
-  Spread frames;             ///< number of changed pictures (commits) from a dig until the picture that shows it
-  Spread milliseconds;       ///< wall time from a dig until it is drawn
-  uint64_t most_queued = 0;  ///< maximum number of chunks that waited for meshing after a frame, since the first dig
+  Spread frames;            ///< number of changed pictures (commits) from a dig until the picture that shows it
+  Spread milliseconds;      ///< wall time from a dig until it is drawn
+  uint64_t max_queued = 0;  ///< maximum number of chunks that waited for meshing after a frame, since the first dig
 
   uint64_t digs() const { return cuts + adds + undos; }
 };

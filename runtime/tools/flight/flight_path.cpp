@@ -10,10 +10,10 @@
 namespace sgm::cli {
 namespace {
 
-constexpr double kFarthest = 2e6;        // metres, maximum distance from the world's origin on each axis
-constexpr double kFinest = 0.25;         // metres between the places of a curve
-constexpr double kMostPlaces = 1 << 20;  // maximum number of places of a path from a file
-constexpr size_t kMostPathBytes = size_t{64} << 20;
+constexpr double kFarthest = 2e6;       // metres, maximum distance from the world's origin on each axis
+constexpr double kFinest = 0.25;        // metres between the places of a curve
+constexpr double kMaxPlaces = 1 << 20;  // maximum number of places of a path from a file
+constexpr size_t kMaxPathBytes = size_t{64} << 20;
 
 Error wrong(const std::string& what) { return {Code::invalid_argument, what}; }
 
@@ -69,7 +69,7 @@ Result<PathPoints> readPathPoints(std::string_view text) {
 }
 
 Result<FlightPath> FlightPath::ofFile(const std::string& file) {
-  const Result<std::string> read = readFile(file, kMostPathBytes, Readable::all_but_folders);
+  const Result<std::string> read = readFile(file, kMaxPathBytes, Readable::all_but_folders);
   if (!read && read.error().code == Code::limit)
     return Error{Code::limit, file + ": the file is larger than 64 MiB, the limit of a path"};
   if (!read) return read.error();
@@ -89,7 +89,7 @@ FlightPath FlightPath::through(const PathPoints& path) {
     for (size_t i = 1; i < points.size(); ++i) length += glm::length(points[i] - points[i - 1]);
     return length;
   };
-  const double finest = std::max(kFinest, lengthAlong(path.points) / kMostPlaces);
+  const double finest = std::max(kFinest, lengthAlong(path.points) / kMaxPlaces);
   const std::vector<Metres3> points = splinePoints(path.points, finest / 2, path.loop);
   // A whole number of spacings, minus a rounding margin, so that the last place is not lost and a loop closes.
   const double length = (1 - 1e-9) * lengthAlong(points);

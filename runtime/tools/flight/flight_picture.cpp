@@ -69,33 +69,33 @@ struct PictureMesh {
 }  // namespace
 
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
-                         const PictureWish& wish) {
+                         const PictureRequest& request) {
   RenderScene scene;
   // The scene's origin is near the camera, so that single precision suffices anywhere in the world.
   for (int axis = 0; axis < 3; ++axis)
-    scene.origin[axis] = saturate(std::llround(wish.camera.position[axis]) * kUnitsPerMetre);
+    scene.origin[axis] = saturate(std::llround(request.camera.position[axis]) * kUnitsPerMetre);
   PictureMesh mesh;
   for (const PicturedChunk& chunk : chunks) {
-    mesh.add(chunk.mesh, chunk.mesh.body, scene.origin, wish.levels);
+    mesh.add(chunk.mesh, chunk.mesh.body, scene.origin, request.levels);
     for (uint32_t face = 0; face < SGM_FACE_COUNT; ++face)
-      if ((chunk.seams >> face & 1) != 0) mesh.add(chunk.mesh, chunk.mesh.seams[face], scene.origin, wish.levels);
+      if ((chunk.seams >> face & 1) != 0) mesh.add(chunk.mesh, chunk.mesh.seams[face], scene.origin, request.levels);
   }
   RenderCamera camera;
   for (int axis = 0; axis < 3; ++axis)
-    camera.position[axis] = static_cast<float>(wish.camera.position[axis] - metres(scene.origin[axis]));
-  camera.target = camera.position + glm::vec3(wish.camera.direction);
-  camera.fov_degrees = static_cast<float>(wish.fov_degrees);
-  camera.width = wish.width;
-  camera.height = wish.height;
-  const std::vector<RenderMaterial> materials = picturedMaterials(grammar, wish.levels);
+    camera.position[axis] = static_cast<float>(request.camera.position[axis] - metres(scene.origin[axis]));
+  camera.target = camera.position + glm::vec3(request.camera.direction);
+  camera.fov_degrees = static_cast<float>(request.fov_degrees);
+  camera.width = request.width;
+  camera.height = request.height;
+  const std::vector<RenderMaterial> materials = picturedMaterials(grammar, request.levels);
   scene.vertices = mesh.vertices;
   scene.indices = mesh.indices;
   scene.materials = materials;
   View view;
   view.camera = camera;
-  view.depth = static_cast<float>(wish.depth);
-  lightScene(view, wish.levels ? Light::lamp : wish.light, scene);
-  if (wish.levels) {
+  view.depth = static_cast<float>(request.depth);
+  lightScene(view, request.levels ? Light::lamp : request.light, scene);
+  if (request.levels) {
     // Even light and no haze, so that the colours of far levels are visible.
     scene.ambient = 0.2f;
     scene.exposure = 1.6f;

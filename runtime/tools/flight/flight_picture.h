@@ -18,7 +18,7 @@ struct PicturedChunk {
   uint32_t seams = 0;
 };
 
-struct PictureWish {
+struct PictureRequest {
   FlightPlace camera;
   double fov_degrees = 68;  ///< across the picture's height
   int width = 640, height = 360;
@@ -32,7 +32,7 @@ struct PictureWish {
 /// Draws the chunks as the camera sees them. Under Light::lamp the camera's own lamp is the only one, since other lamps
 /// would change their places from picture to picture. Errors: those of Renderer::render.
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
-                         const PictureWish& wish);
+                         const PictureRequest& request);
 
 /// All images on one sheet, row by row, with margins; each place has the size of the largest image. Empty if there are
 /// no images. Precondition: columns > 0.

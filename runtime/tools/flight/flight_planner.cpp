@@ -16,11 +16,11 @@ namespace {
 constexpr int64_t kFirstLook = 1'000;  // limit of the path cost in the first search for a new place
 // Limit of the path cost in the last search, after which visited places are accepted.
 constexpr int64_t kFarthestLook = 81'000;
-constexpr size_t kMostNodes = 1'000'000;  // maximum number of visited nodes in a search
-constexpr int64_t kShortest = 240;        // minimum cost of a useful path
-constexpr size_t kWorthIt = 500;          // minimum number of nodes that must be reachable from the start
-constexpr int kRegion = 16;               // steps; places nearer to each other than this count as the same region
-constexpr int kTries = 40;                // maximum number of attempts to find a far place or a waypoint
+constexpr size_t kMaxNodes = 1'000'000;  // maximum number of visited nodes in a search
+constexpr int64_t kShortest = 240;       // minimum cost of a useful path
+constexpr size_t kWorthIt = 500;         // minimum number of nodes that must be reachable from the start
+constexpr int kRegion = 16;              // steps; places nearer to each other than this count as the same region
+constexpr int kTries = 40;               // maximum number of attempts to find a far place or a waypoint
 constexpr int kGoals = 24;
 constexpr int kWays = 8;  // number of paths that are tried to each goal
 
@@ -112,7 +112,7 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
 
 /// The 16 places in the void nearest to `near`, at most `half` units away on each axis.
 Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
-  constexpr size_t kMostPlaces = 16;
+  constexpr size_t kMaxPlaces = 16;
   std::vector<Int3> lattice;
   for (int i = 0; i < 24 * 24 * 24; ++i) {
     const std::array<int, 3> at{i % 24, i / 24 % 24, i / 576};
@@ -126,11 +126,11 @@ Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
   std::vector<Int3> places;
   // The places are sampled in batches: the first batch usually suffices, and needs the derivation of few cells.
   constexpr size_t kAtOnce = 512;
-  for (size_t first = 0; first < lattice.size() && places.size() < kMostPlaces; first += kAtOnce) {
+  for (size_t first = 0; first < lattice.size() && places.size() < kMaxPlaces; first += kAtOnce) {
     const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));
     const Result<std::vector<bool>> solid = solidAt(field_, asked);
     if (!solid) return solid.error();
-    for (size_t i = 0; i < asked.size() && places.size() < kMostPlaces; ++i)
+    for (size_t i = 0; i < asked.size() && places.size() < kMaxPlaces; ++i)
       if (!(*solid)[i]) places.push_back(asked[i]);
   }
   return places;
@@ -228,7 +228,7 @@ Result<std::vector<Int3>> FlightPlanner::wayToNew() {
     // Far nodes are preferred; the seed varies the order.
     std::optional<Int3> best;
     double most = 0;
-    const VoidSearch search(*grid_, node_, kMostNodes, {}, [&](Int3 node, int64_t cost) {
+    const VoidSearch search(*grid_, node_, kMaxNodes, {}, [&](Int3 node, int64_t cost) {
       if (cost > look) return false;
       if (cost < kShortest || been_.count(regionOf(node)) != 0) return true;
       const PathKey key{hashCombine(hashCombine(settings_.seed, pieces_), PlaceHash{}(regionOf(node)))};

@@ -11,7 +11,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr int32_t kWorldEnd = 2'000'000 * kUnitsPerMetre;
-constexpr size_t kMostBlocks = size_t{1} << 16;  // half a kilobyte for each block
+constexpr size_t kMaxBlocks = size_t{1} << 16;  // half a kilobyte for each block
 
 constexpr int32_t floorDivide(int32_t a, int32_t b) { return static_cast<int32_t>(floorDiv(a, b)); }
 
@@ -70,7 +70,7 @@ const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
   latest_at_ = at;
   const auto known = blocks_.find(at);
   if (known != blocks_.end()) return *(latest_ = &known->second);
-  if (blocks_.size() >= kMostBlocks) blocks_.clear();
+  if (blocks_.size() >= kMaxBlocks) blocks_.clear();
   constexpr int kSide = kBlock + 2;
   std::vector<Int3> points;
   points.reserve(kSide * kSide * kSide);

@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostSpots = 40;  // maximum number of points on a target's surface that are tested for visibility
+constexpr size_t kMaxSpots = 40;  // maximum number of points on a target's surface that are tested for visibility
 constexpr int kHeadings = 20;
 // Directions to the camera, in degrees above the target.
 constexpr std::array kPitches{-20.0f, 3.0f, 14.0f, 30.0f, 55.0f};
@@ -27,7 +27,7 @@ struct Spot {
 /// The centres of an evenly distributed selection of the target's triangles.
 std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
   std::vector<Spot> spots;
-  const size_t count = target.triangles.size(), taken = std::min(count, kMostSpots);
+  const size_t count = target.triangles.size(), taken = std::min(count, kMaxSpots);
   for (size_t i = 0; i < taken; ++i) {
     const uint32_t triangle = target.triangles[i * count / taken];
     const glm::vec3 facing = mesh.facing(triangle);
@@ -39,10 +39,10 @@ std::vector<Spot> spotsOf(const RayCaster& mesh, const FrameTarget& target) {
 }
 
 /// The distance from the box's centre, in the direction `away`, at which the box fills the share `fill` of the picture.
-float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera& wish, float fill) {
+float distanceFor(const FrameTarget& target, glm::vec3 away, const RenderCamera& request, float fill) {
   const glm::vec3 right = glm::normalize(glm::cross(-away, glm::vec3(0, 1, 0))), up = glm::cross(right, -away);
-  const float high = fill * std::tan(glm::radians(wish.fov_degrees) / 2);
-  const float wide = high * static_cast<float>(wish.width) / static_cast<float>(wish.height);
+  const float high = fill * std::tan(glm::radians(request.fov_degrees) / 2);
+  const float wide = high * static_cast<float>(request.width) / static_cast<float>(request.height);
   const glm::vec3 half = 0.5f * (target.hi - target.lo);
   float distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -61,7 +61,7 @@ struct Candidate {
 
 class Framer {
  public:
-  Framer(const RayCaster& mesh, const RenderCamera& wish) : mesh_(mesh), wish_(wish) {}
+  Framer(const RayCaster& mesh, const RenderCamera& request) : mesh_(mesh), request_(request) {}
 
   void tryAll(const FrameTarget& target, size_t index) {
     const std::vector<Spot> spots = spotsOf(mesh_, target);
@@ -71,11 +71,11 @@ class Framer {
       for (int heading = 0; heading < kHeadings; ++heading) {
         const float turn = 6.2831853f * (static_cast<float>(heading) + 0.5f) / kHeadings, rise = glm::radians(pitch);
         const glm::vec3 away{std::cos(rise) * std::cos(turn), std::sin(rise), std::cos(rise) * std::sin(turn)};
-        const float distance = distanceFor(target, away, wish_, kFrameFill);
+        const float distance = distanceFor(target, away, request_, kFrameFill);
         for (const float nearer : kNearer) {
           const glm::vec3 from = middle + away * (nearer * distance);
           Candidate candidate;
-          candidate.view = {wish_, index, 0, std::min(1.0f, kFrameFill / nearer)};
+          candidate.view = {request_, index, 0, std::min(1.0f, kFrameFill / nearer)};
           candidate.view.camera.position = from;
           candidate.view.camera.target = middle;
           if (!judge(spots, from, nearer * distance, candidate)) continue;
@@ -111,20 +111,21 @@ class Framer {
   }
 
   const RayCaster& mesh_;
-  const RenderCamera& wish_;
+  const RenderCamera& request_;
 };
 
 }  // namespace
 
 Result<std::optional<FramedView>> frameTargets(std::span<const RenderVertex> vertices,
                                                std::span<const uint32_t> indices, std::span<const FrameTarget> targets,
-                                               const RenderCamera& wish, const std::function<bool(glm::vec3)>& isOpen) {
+                                               const RenderCamera& request,
+                                               const std::function<bool(glm::vec3)>& isOpen) {
   const Result<RayCaster> caster = RayCaster::over(vertices, indices);
   if (!caster) return caster.error();
   const RayCaster& mesh = *caster;
   const glm::vec3 centre = 0.5f * (mesh.lo() + mesh.hi());
   const float size = std::max(glm::distance(mesh.lo(), mesh.hi()), 1e-3f);
-  Framer framer(mesh, wish);
+  Framer framer(mesh, request);
   for (size_t index = 0; index < targets.size(); ++index) {
     const size_t first = framer.candidates.size();
     framer.tryAll(targets[index], index);

@@ -31,6 +31,7 @@ inline constexpr float kFrameFill = 0.67f;
 /// isOpen's answers. Returns nullopt if no target is visible from anywhere. Error: out_of_memory.
 Result<std::optional<FramedView>> frameTargets(std::span<const RenderVertex> vertices,
                                                std::span<const uint32_t> indices, std::span<const FrameTarget> targets,
-                                               const RenderCamera& wish, const std::function<bool(glm::vec3)>& isOpen);
+                                               const RenderCamera& request,
+                                               const std::function<bool(glm::vec3)>& isOpen);
 
 }  // namespace sgm::cli

@@ -12,7 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostUses = 50'000;
+constexpr size_t kMaxUses = 50'000;
 constexpr int32_t kSmallestCell = 16, kLargestCell = kUnitsPerMetre / 2;  // limits of the grid's cell edge, in units
 constexpr int32_t kCellsAcross = 12;   // minimum number of grid cells across a use, unless the cells would be too small
 constexpr int64_t kRegionCells = 352;  // number of grid cells along the region's longest edge
@@ -148,7 +148,7 @@ bool matchesPath(std::string_view wanted, std::string_view path) {
 Result<std::vector<RuleUse>> usesIn(const WorldField& world, const FramedRule& wanted, const IntBox& box) {
   std::vector<RuleUse> uses;
   for (const uint32_t rule : wanted.rules) {
-    Result<std::vector<RuleInstance>> instances = world.instances(rule, box, kMostUses);
+    Result<std::vector<RuleInstance>> instances = world.instances(rule, box, kMaxUses);
     if (!instances) return instances.error();
     for (RuleInstance& instance : *instances) {
       if (!instance.bounded || (wanted.by_path && !matchesPath(wanted.text, instance.path))) continue;

@@ -291,7 +291,7 @@ std::optional<std::string> LanguageServer::textOf(const std::string& uri) const 
 
 std::optional<LanguageServer::Source> LanguageServer::imported(const std::string& from_uri,
                                                                const std::string& path) const {
-  if (!importPathComplaint(path).empty() || isAssetPath(path)) return std::nullopt;
+  if (!importPathProblem(path).empty() || isAssetPath(path)) return std::nullopt;
   std::string uri;
   if (from_uri.starts_with(kStandardUri))
     uri = std::string(kStandardUri) + path;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "tools/paper/backend_runs.h"
 #include "tools/paper/bench_report.h"
 #include "tools/paper/commands.h"
-#include "tools/paper/contenders.h"
 #include "tools/support/console.h"
 #include "tools/support/options.h"
 
@@ -20,12 +20,15 @@ Result<int32_t> cellOf(const BenchOptions& options, const StageModel& model) {
 }
 
 Result<StageResult> measure(const BenchOptions& options, const StageModel& model, int32_t cell,
-                            std::span<const Contender> contenders) {
-  const auto measured = static_cast<uint64_t>(std::count_if(
-      contenders.begin(), contenders.end(), [](const Contender& contender) { return contender.backend != nullptr; }));
+                            std::span<const BackendRun> backend_runs) {
+  const auto measured =
+      static_cast<uint64_t>(std::count_if(backend_runs.begin(), backend_runs.end(), [](const BackendRun& backend_run) {
+        return backend_run.backend != nullptr;
+      }));
   ProgressBar bar(fmt::format("measuring the {}", model.name));
   uint64_t done = 0;
-  return measureStage(model, cell, options.runs, contenders, [&] { bar.show(++done, measured * (options.runs + 1)); });
+  return measureStage(model, cell, options.runs, backend_runs,
+                      [&] { bar.show(++done, measured * (options.runs + 1)); });
 }
 
 }  // namespace
@@ -34,13 +37,13 @@ Exit benchPaper(const BenchOptions& options) {
   std::vector<StageResult> results;
   for (const StageModel& model : stageModels()) {
     const Result<int32_t> cell = cellOf(options, model);
-    if (!cell) return complain(cell.error());
+    if (!cell) return reportError(cell.error());
     // Each stage gets newly opened devices, as in a process that generates only this stage: software devices specialize
     // their code for all kinds of instructions seen so far, and each kind costs time even in stages that do not use it.
-    const Result<std::vector<Contender>> contenders = makeContenders(options.backends, options.threads);
-    if (!contenders) return complain(contenders.error());
-    Result<StageResult> result = measure(options, model, *cell, *contenders);
-    if (!result) return complain(result.error());
+    const Result<std::vector<BackendRun>> backend_runs = makeBackendRuns(options.backends, options.threads);
+    if (!backend_runs) return reportError(backend_runs.error());
+    Result<StageResult> result = measure(options, model, *cell, *backend_runs);
+    if (!result) return reportError(result.error());
     results.push_back(std::move(*result));
   }
   if (options.json) {
@@ -52,7 +55,7 @@ Exit benchPaper(const BenchOptions& options) {
   Exit status = Exit::done;
   for (const StageRow& row : results.back().rows) {
     if (!row.measured() && !options.backends.empty())
-      status = complain(Exit::backend, fmt::format("{}: {}", row.name, row.reason));
+      status = reportError(Exit::backend, fmt::format("{}: {}", row.name, row.reason));
   }
   return status;
 }

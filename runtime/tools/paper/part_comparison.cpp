@@ -10,8 +10,8 @@
 #include "tools/cli/measure/commands.h"
 #include "tools/paper/command_line.h"
 #include "tools/paper/parts.h"
+#include "tools/paper/report_context.h"
 #include "tools/paper/table4.h"
-#include "tools/paper/workshop.h"
 #include "tools/support/measured_mesh.h"
 #include "tools/support/render_options.h"
 
@@ -32,20 +32,21 @@ Finding finding(bool holds, std::string what, std::string command) {
 
 bool saysYes(const char* printed) { return std::string_view(printed).starts_with("YES"); }
 
-WorldOptions optionsFor(const Workshop& workshop, const ComparedSystem& system) {
-  WorldOptions options = workshop.on(system.grammar);
+WorldOptions optionsFor(const ReportContext& report_context, const ComparedSystem& system) {
+  WorldOptions options = report_context.on(system.grammar);
   options.region = system.region;
-  options.cell = workshop.pick(system.cell, system.quick_cell);
+  options.cell = report_context.pick(system.cell, system.quick_cell);
   return options;
 }
 
 size_t trianglesOf(const WorldMesh& mesh) { return mesh.indices.size() / 3; }
 
 /// Measures how another value of a parameter changes the mesh. set: assignment NAME=VALUE.
-Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options, const Region& base, const char* set) {
+Result<Finding> changedBy(const ReportContext& report_context, const WorldOptions& options, const Region& base,
+                          const char* set) {
   WorldOptions changed = options;
   changed.sets.emplace_back(set);
-  const Result<Region> region = workshop.mesh(changed);
+  const Result<Region> region = report_context.mesh(changed);
   if (!region) return region.error();
   const bool another = region->meshed.hash != base.meshed.hash;
   return finding(another,
@@ -54,12 +55,12 @@ Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options,
                  commandOf("mesh", changed));
 }
 
-Result<Finding> classified(const Workshop& workshop, const asset::TriangleMesh& mesh, const WorldOptions& options,
-                           const char* expected) {
+Result<Finding> classified(const ReportContext& report_context, const asset::TriangleMesh& mesh,
+                           const WorldOptions& options, const char* expected) {
   const measure::MasterKey key = masters::defaultKey();
   const masters::MasterSet set = masters::builtInMasters();
   const Result<measure::Histogram> histogram =
-      measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), workshop.jobs());
+      measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), report_context.jobs());
   if (!histogram) return histogram.error();
   const Result<measure::Classification> said =
       measure::classify(histogram->shares, key, set.of(key), *set.limitsOf(key));
@@ -68,17 +69,17 @@ Result<Finding> classified(const Workshop& workshop, const asset::TriangleMesh& 
                  commandOf("classify", options));
 }
 
-Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& system) {
+Result<Findings> findingsOf(const ReportContext& report_context, const ComparedSystem& system) {
   Findings found;
-  const WorldOptions options = optionsFor(workshop, system);
-  const Result<Region> region = workshop.mesh(options, true);
+  const WorldOptions options = optionsFor(report_context, system);
+  const Result<Region> region = report_context.mesh(options, true);
   if (!region) return region.error();
   const WorldMesh& mesh = region->meshed.mesh;
   const asset::TriangleMesh triangles = cli::trianglesOf(*region);
   measure::MeshSettings settings;
   settings.self_intersections = false;
   const Result<measure::MeshMeasures> measured =
-      measure::measureMesh({triangles.points, triangles.triangles}, settings, workshop.jobs());
+      measure::measureMesh({triangles.points, triangles.triangles}, settings, report_context.jobs());
   if (!measured) return measured.error();
 
   constexpr std::array<const char*, 3> kClasses = {"cloud", "building", "cave"};
@@ -92,28 +93,28 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
     if (const Excerpt& of = system.excerpts[kind]; of.region != nullptr) {
       looked_at.region = of.region;
       looked_at.cell = of.cell;
-      Result<Region> meshed = workshop.mesh(looked_at);
+      Result<Region> meshed = report_context.mesh(looked_at);
       if (!meshed) return meshed.error();
       excerpt = std::move(*meshed);
     }
     Result<Finding> verdict =
-        classified(workshop, excerpt ? cli::trianglesOf(*excerpt) : triangles, looked_at, kClasses[kind]);
+        classified(report_context, excerpt ? cli::trianglesOf(*excerpt) : triangles, looked_at, kClasses[kind]);
     if (!verdict) return verdict.error();
     found[kind] = std::move(*verdict);
   }
   WorldOptions coarse = options;
   coarse.level = 1;
-  const Result<Region> far = workshop.mesh(coarse);
+  const Result<Region> far = report_context.mesh(coarse);
   if (!far) return far.error();
   found[kDetail] =
       finding(trianglesOf(far->meshed.mesh) < trianglesOf(mesh),
               fmt::format("level 0: {} triangles, level 1: {}", trianglesOf(mesh), trianglesOf(far->meshed.mesh)),
               commandOf("mesh", coarse));
-  Result<Finding> control = changedBy(workshop, options, *region, system.control);
+  Result<Finding> control = changedBy(report_context, options, *region, system.control);
   if (!control) return control.error();
   found[kControl] = std::move(*control);
   if (system.morph != nullptr) {
-    Result<Finding> morph = changedBy(workshop, options, *region, system.morph);
+    Result<Finding> morph = changedBy(report_context, options, *region, system.morph);
     if (!morph) return morph.error();
     found[kMorphing] = std::move(*morph);
   } else {
@@ -125,7 +126,7 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
   found[kTexture] = finding(density >= 0.5 && density <= 2,
                             fmt::format("coordinates in tiles of 1 m, scaled by {:.2f} at the median", density),
                             commandOf("mesh", unwrapped));
-  MeasureOptions judged = workshop.on<MeasureOptions>(system.grammar);
+  MeasureOptions judged = report_context.on<MeasureOptions>(system.grammar);
   static_cast<WorldOptions&>(judged) = options;
   judged.no_self_intersections = true;
   judged.json = true;
@@ -171,21 +172,21 @@ Markup cardOf(const ComparedSystem& system, const Findings& found, const Markup&
          Markup{"\n"};
 }
 
-Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
-  RenderOptions options = workshop.on<RenderOptions>(system.grammar);
+Result<Markup> pictureOf(ReportContext& report_context, const ComparedSystem& system) {
+  RenderOptions options = report_context.on<RenderOptions>(system.grammar);
   options.region = system.view_region;
   options.camera = system.camera;
-  options.cell = workshop.pick(system.view_cell, system.quick_view_cell);
+  options.cell = report_context.pick(system.view_cell, system.quick_view_cell);
   options.seed = system.view_seed;
   if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
   options.sharp = system.sharp;
   // Inside a cave, a wider angle shows more.
   options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
-  options.size = workshop.pick("720x440", "400x250");
-  const std::string file = Workshop::grammarOf(options);
+  options.size = report_context.pick("720x440", "400x250");
+  const std::string file = ReportContext::grammarOf(options);
   const std::string stem = file.substr(file.find('/') + 1, file.rfind('.') - file.find('/') - 1);
   std::vector<std::string> command;
-  Result<Markup> picture = workshop.picture(options, "table4-" + stem, system.alt, system.alt, command);
+  Result<Markup> picture = report_context.picture(options, "table4-" + stem, system.alt, system.alt, command);
   if (!picture) return picture.error();
   for (const std::string& line : command)
     *picture +=
@@ -195,11 +196,11 @@ Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
 
 }  // namespace
 
-Exhibits comparisonPart(Workshop& workshop) {
-  Exhibit exhibit;
-  exhibit.id = "table-4";
-  exhibit.title = "Table 4. Comparison of methods";
-  exhibit.printed = {
+ReportItems comparisonPart(ReportContext& report_context) {
+  ReportItem report_item;
+  report_item.id = "table-4";
+  report_item.title = "Table 4. Comparison of methods";
+  report_item.printed = {
       "“Table 4. Comparison of methods”: for ten methods, which geometry they make, how they are steered, and how "
       "correct "
       "their meshes are. “LOD: mesh (M), noise (SZ), Simple shapes (P)”.",
@@ -209,9 +210,9 @@ Exhibits comparisonPart(Workshop& workshop) {
   Markup cards;
   Json systems = Json::array();
   for (const ComparedSystem& system : comparedSystems()) {
-    const Result<Findings> found = findingsOf(workshop, system);
+    const Result<Findings> found = findingsOf(report_context, system);
     if (!found) return found.error();
-    const Result<Markup> picture = pictureOf(workshop, system);
+    const Result<Markup> picture = pictureOf(report_context, system);
     if (!picture) return picture.error();
     cards += cardOf(system, *found, *picture);
     std::vector<std::string>& row = summary.emplace_back(std::vector<std::string>{system.name});
@@ -226,8 +227,8 @@ Exhibits comparisonPart(Workshop& workshop) {
     }
     systems.push_back(std::move(json));
   }
-  exhibit.ours = table("What the paper says, and the measurements of our grammar of that kind", summary) + cards;
-  exhibit.measured =
+  report_item.ours = table("What the paper says, and the measurements of our grammar of that kind", summary) + cards;
+  report_item.measured =
       "Each system has its own grammar, modelled on the work that it represents. Detail is measured by meshing level "
       "1, whose cells have twice the edge; control and morphing by another value of a parameter; texture by the "
       "density of the coordinates, whose median must be half to twice the nominal one; surfaces, vertices and holes by "
@@ -235,9 +236,9 @@ Exhibits comparisonPart(Workshop& workshop) {
       "cuts an endless world is not a hole. A dash means that nothing was measured, or that there is nothing to "
       "measure. The class of a mesh depends on its cells: if they are finer than those of the built-in reference "
       "histograms, a cave may be unknown, and a house a cloud.";
-  exhibit.commands = {commandOfPart(workshop.options(), "comparison")};
-  exhibit.numbers = {{"systems", std::move(systems)}};
-  return std::vector<Exhibit>{std::move(exhibit)};
+  report_item.commands = {commandOfPart(report_context.options(), "comparison")};
+  report_item.numbers = {{"systems", std::move(systems)}};
+  return std::vector<ReportItem>{std::move(report_item)};
 }
 
 }  // namespace sgm::cli

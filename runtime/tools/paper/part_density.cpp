@@ -11,7 +11,7 @@
 #include "tools/paper/chart.h"
 #include "tools/paper/command_line.h"
 #include "tools/paper/parts.h"
-#include "tools/paper/workshop.h"
+#include "tools/paper/report_context.h"
 #include "tools/support/measured_mesh.h"
 
 namespace sgm::cli {
@@ -35,15 +35,16 @@ struct Sampled {
   std::vector<Sample> samples;  ///< one for each density, the coarsest first; the cell size is halved each time
 };
 
-Result<Sampled> sample(Workshop& workshop, const Model& model, int steps, std::vector<std::string>& commands) {
+Result<Sampled> sample(ReportContext& report_context, const Model& model, int steps,
+                       std::vector<std::string>& commands) {
   Sampled sampled{&model, {}};
   for (int i = 0; i < steps; ++i) {
-    WorldOptions options = workshop.on(model.grammar);
+    WorldOptions options = report_context.on(model.grammar);
     options.seed = model.seed;
     options.region = model.region;
     options.sets = model.sets;
     options.cell = model.coarsest / (1 << i);
-    const Result<Region> region = workshop.mesh(options);
+    const Result<Region> region = report_context.mesh(options);
     if (!region) return region.error();
     sampled.samples.push_back(
         {*options.cell, measuresOf(region->meshed.mesh).area, cubeVolume(region->meshed.solid_samples, region->cell)});
@@ -77,7 +78,7 @@ std::vector<double> valuesOf(const Sampled& sampled, double Sample::*of) {
 
 /// Adds chart, table and numbers of one measure, for all models, to the exhibit. of: the member with the measure.
 void compare(const std::vector<Sampled>& all, double Sample::*of, const std::string& what, const std::string& unit,
-             Exhibit& exhibit) {
+             ReportItem& report_item) {
   LineChart chart;
   chart.title = fmt::format("{} against the density of the mesh, as a share of the value at the finest", what);
   chart.x = {"LD, as a multiple of the coarsest", true, false, {}, {}};
@@ -110,11 +111,12 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
                       {"values", values},
                       {"order", orNull(order)}});
   }
-  exhibit.ours += drawn(chart) + table(
-                                     "Each column halves the edge of the cells. A logarithm would have equal changes "
-                                     "(order 0); a limit approached with the square of the cell's edge has order 2",
-                                     rows);
-  exhibit.numbers["models"] = std::move(models);
+  report_item.ours +=
+      drawn(chart) + table(
+                         "Each column halves the edge of the cells. A logarithm would have equal changes "
+                         "(order 0); a limit approached with the square of the cell's edge has order 2",
+                         rows);
+  report_item.numbers["models"] = std::move(models);
 }
 
 /// Errors for a ball with a radius of 5 m, whose area and volume are known.
@@ -122,16 +124,16 @@ struct BallErrors {
   double cell = 0, area = 0, volume = 0, all = 0, any = 0, centre = 0;  ///< cell: metres; the others: relative errors
 };
 
-Result<std::vector<BallErrors>> ballErrors(Workshop& workshop, std::vector<std::string>& commands) {
+Result<std::vector<BallErrors>> ballErrors(ReportContext& report_context, std::vector<std::string>& commands) {
   constexpr double kArea = 4 * std::numbers::pi * 25, kVolume = kArea * 5 / 3;
   std::vector<BallErrors> errors;
-  const int steps = workshop.pick(5, 4);
+  const int steps = report_context.pick(5, 4);
   for (int i = 0; i < steps; ++i) {
-    MeasureOptions options = workshop.on<MeasureOptions>("sphere.sgm");
+    MeasureOptions options = report_context.on<MeasureOptions>("sphere.sgm");
     options.cell = 1.0 / (1 << i);
     options.cubes = options.cell;
     options.no_self_intersections = true;
-    const Result<measure::MeshMeasures> m = workshop.measure(options);
+    const Result<measure::MeshMeasures> m = report_context.measure(options);
     if (!m) return m.error();
     const measure::CubeVolumes& cubes = *m->cubes;
     errors.push_back({*options.cell, m->sums.area / kArea - 1, m->sums.volume / kVolume - 1,
@@ -182,26 +184,27 @@ Markup ballTable(const std::vector<BallErrors>& errors, std::span<const Measured
   return table("A ball of 5 m, whose area and volume are known", rows);
 }
 
-Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sampled>& roughness,
+ReportItem areaItem(const std::vector<Sampled>& models, const std::vector<Sampled>& roughness,
                     const std::vector<BallErrors>& ball) {
-  Exhibit exhibit;
-  exhibit.id = "figure-10";
-  exhibit.title = "Figure 10. Area against the density of the mesh";
-  exhibit.printed = {
+  ReportItem report_item;
+  report_item.id = "figure-10";
+  report_item.title = "Figure 10. Area against the density of the mesh";
+  report_item.printed = {
       "“Comparison of surface vs. mesh density examples: top - cave, middle - cloud, bottom - building (LD, "
       "represented "
       "by sampling density).”",
       "“The relationship between the parameters of sampling density and the surface of the resulting structures "
       "possesses logarithmic characteristics (Fig 22).”"};
-  compare(models, &Sample::area, "Area", "m²", exhibit);
+  compare(models, &Sample::area, "Area", "m²", report_item);
   constexpr Measured kArea[] = {{"area (equation 7)", &BallErrors::area}};
-  exhibit.ours += element("p",
-                          "Over a few densities the growth may look like a logarithm (an order near 0), while finer "
-                          "cells still find windows, ledges or noise. Once these are resolved, the growth ends.");
-  exhibit.ours += element("h3", "A smooth surface has a limit") +
-                  ballChart(ball, kArea, "Error of the area of a ball over the density: it falls with its square") +
-                  ballTable(ball, kArea);
-  exhibit.ours += element("h3", "The effect of roughness");
+  report_item.ours +=
+      element("p",
+              "Over a few densities the growth may look like a logarithm (an order near 0), while finer "
+              "cells still find windows, ledges or noise. Once these are resolved, the growth ends.");
+  report_item.ours += element("h3", "A smooth surface has a limit") +
+                      ballChart(ball, kArea, "Error of the area of a ball over the density: it falls with its square") +
+                      ballTable(ball, kArea);
+  report_item.ours += element("h3", "The effect of roughness");
   LineChart chart;
   chart.title = "Area of two tunnels through rock over the density, smooth and rough";
   chart.x = {"LD, cells per metre", true, false, {}, {}};
@@ -217,55 +220,55 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
   }
   const double smooth = roughness[0].samples.back().area / roughness[0].samples.front().area - 1;
   const double rugged = roughness[1].samples.back().area / roughness[1].samples.front().area - 1;
-  exhibit.ours +=
+  report_item.ours +=
       drawn(chart) +
       element("p", fmt::format("Two tunnels of tunnels.sgm. From the coarsest to the finest cells, the area of smooth "
                                "walls changes by {:+.1f} %, that of walls with fractal noise by {:+.1f} %: finer grids "
                                "find more of the noise, until its smallest octave is resolved.",
                                100 * smooth, 100 * rugged));
-  exhibit.measured =
+  report_item.measured =
       "Equation 7 is taken as S = Σ ½|(V2 − V1) × (V3 − V1)|, since the printed form is a vector; it is summed in "
       "double precision and in a fixed order. The areas of the cave and of the cloud are those inside a region that is "
       "a multiple of the largest chunk, without the faces where the region cuts them.";
-  exhibit.numbers["ball_order"] = lastOrder(ball, &BallErrors::area);
-  exhibit.numbers["roughness"] = std::move(rough);
-  return exhibit;
+  report_item.numbers["ball_order"] = lastOrder(ball, &BallErrors::area);
+  report_item.numbers["roughness"] = std::move(rough);
+  return report_item;
 }
 
-Exhibit volumeExhibit(const std::vector<Sampled>& models, const std::vector<BallErrors>& ball) {
-  Exhibit exhibit;
-  exhibit.id = "figure-11";
-  exhibit.title = "Figure 11. Volume against the density of the mesh";
-  exhibit.printed = {
+ReportItem volumeItem(const std::vector<Sampled>& models, const std::vector<BallErrors>& ball) {
+  ReportItem report_item;
+  report_item.id = "figure-11";
+  report_item.title = "Figure 11. Volume against the density of the mesh";
+  report_item.printed = {
       "“Comparison of volume vs mesh density examples: top - cave, middle - cloud, bottom - building (LD, represented "
       "by "
       "the sampling density).”",
       "“V_M = N_C · (C_E)³ (8) … C_E – the cube edge (C_E = 1/grid density), N_C – numbers of cubes inside.”"};
-  compare(models, &Sample::volume, "Volume", "m³", exhibit);
+  compare(models, &Sample::volume, "Volume", "m³", report_item);
   constexpr Measured kVolumes[] = {{"divergence theorem", &BallErrors::volume},
                                    {"cubes with all corners inside", &BallErrors::all},
                                    {"cubes with any corner inside", &BallErrors::any},
                                    {"cubes with their centre inside", &BallErrors::centre}};
-  exhibit.ours +=
+  report_item.ours +=
       element("h3", "What “inside” means") +
       ballChart(ball, kVolumes, "Error of the volume of a ball over the density, by four rules") +
       ballTable(ball, kVolumes) +
       element("p",
               "Equation 8 does not say which cubes are inside. By corners, its error falls with the edge of the cells; "
               "by centres, it falls faster but irregularly. The divergence theorem over the mesh has order 2.");
-  exhibit.measured =
+  report_item.measured =
       "Equation 8 uses a cube around each sample, which is inside if the sample is. The volume of the ball is also "
       "measured on its mesh, by cubes of the cell's edge under three rules, and by the divergence theorem. The volume "
       "of the cave is that of its rock.";
-  exhibit.numbers["ball_order"] = lastOrder(ball, &BallErrors::volume);
-  exhibit.numbers["ball_order_all_corners"] = lastOrder(ball, &BallErrors::all);
-  exhibit.numbers["ball_order_any_corner"] = lastOrder(ball, &BallErrors::any);
-  return exhibit;
+  report_item.numbers["ball_order"] = lastOrder(ball, &BallErrors::volume);
+  report_item.numbers["ball_order_all_corners"] = lastOrder(ball, &BallErrors::all);
+  report_item.numbers["ball_order_any_corner"] = lastOrder(ball, &BallErrors::any);
+  return report_item;
 }
 
 }  // namespace
 
-Exhibits densityPart(Workshop& workshop) {
+ReportItems densityPart(ReportContext& report_context) {
   const std::vector<Model> models{{"cave", "cave.sgm", 7, "64,64,64:192,192,192", 2},
                                   {"cloud", "cloud.sgm", 3, "0,768,0:768,1536,768", 24},
                                   {"building", "storeys.sgm", 0, "", 1}};
@@ -278,22 +281,22 @@ Exhibits densityPart(Workshop& workshop) {
   const auto sampleAll = [&](const std::vector<Model>& of, int steps) -> Result<std::vector<Sampled>> {
     std::vector<Sampled> all;
     for (const Model& model : of) {
-      Result<Sampled> sampled = sample(workshop, model, steps, commands);
+      Result<Sampled> sampled = sample(report_context, model, steps, commands);
       if (!sampled) return sampled.error();
       all.push_back(std::move(*sampled));
     }
     return all;
   };
-  const Result<std::vector<Sampled>> sampled = sampleAll(models, workshop.pick(4, 3));
+  const Result<std::vector<Sampled>> sampled = sampleAll(models, report_context.pick(4, 3));
   if (!sampled) return sampled.error();
-  const Result<std::vector<Sampled>> rough = sampleAll(tunnels, workshop.pick(5, 4));
+  const Result<std::vector<Sampled>> rough = sampleAll(tunnels, report_context.pick(5, 4));
   if (!rough) return rough.error();
-  const Result<std::vector<BallErrors>> ball = ballErrors(workshop, commands);
+  const Result<std::vector<BallErrors>> ball = ballErrors(report_context, commands);
   if (!ball) return ball.error();
-  Exhibit area = areaExhibit(*sampled, *rough, *ball), volume = volumeExhibit(*sampled, *ball);
-  commands.push_back(commandOfPart(workshop.options(), "density"));
+  ReportItem area = areaItem(*sampled, *rough, *ball), volume = volumeItem(*sampled, *ball);
+  commands.push_back(commandOfPart(report_context.options(), "density"));
   area.commands = volume.commands = commands;
-  return std::vector<Exhibit>{std::move(area), std::move(volume)};
+  return std::vector<ReportItem>{std::move(area), std::move(volume)};
 }
 
 }  // namespace sgm::cli

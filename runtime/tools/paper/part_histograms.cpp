@@ -13,7 +13,7 @@
 #include "tools/paper/chart.h"
 #include "tools/paper/command_line.h"
 #include "tools/paper/parts.h"
-#include "tools/paper/workshop.h"
+#include "tools/paper/report_context.h"
 #include "tools/support/measured_mesh.h"
 #include "tools/support/render_options.h"
 
@@ -75,14 +75,14 @@ Result<std::string> verdictOf(const asset::TriangleMesh& mesh, const masters::Ma
   return said->verdict;
 }
 
-Result<std::vector<Density>> measureDensities(Workshop& workshop, std::vector<std::string>& commands) {
+Result<std::vector<Density>> measureDensities(ReportContext& report_context, std::vector<std::string>& commands) {
   const masters::MasterSet set = masters::builtInMasters();
   std::vector<Density> densities;
   for (const double ld : {2.0, 5.0, 10.0}) {
-    WorldOptions options = workshop.on(kHouse);
+    WorldOptions options = report_context.on(kHouse);
     options.sets = kHouseSets;
     options.density = ld;
-    const Result<Region> region = workshop.mesh(options);
+    const Result<Region> region = report_context.mesh(options);
     if (!region) return region.error();
     const asset::TriangleMesh mesh = trianglesOf(*region);
     Density& density = densities.emplace_back();
@@ -91,14 +91,15 @@ Result<std::vector<Density>> measureDensities(Workshop& workshop, std::vector<st
     for (const HistogramMode mode : kModes) {
       measure::HistogramSettings settings;
       settings.mode = mode;
-      Result<Histogram> histogram = measure::innerHistogram({mesh.points, mesh.triangles}, settings, workshop.jobs());
+      Result<Histogram> histogram =
+          measure::innerHistogram({mesh.points, mesh.triangles}, settings, report_context.jobs());
       if (!histogram) return histogram.error();
       density.by_mode.push_back(std::move(*histogram));
     }
-    Result<std::string> verdict = verdictOf(mesh, set, workshop.jobs());
+    Result<std::string> verdict = verdictOf(mesh, set, report_context.jobs());
     if (!verdict) return verdict.error();
     density.verdict = std::move(*verdict);
-    MeasureOptions measured = workshop.on<MeasureOptions>(kHouse);
+    MeasureOptions measured = report_context.on<MeasureOptions>(kHouse);
     measured.sets = kHouseSets;
     measured.density = ld;
     measured.no_self_intersections = true;
@@ -114,31 +115,31 @@ Result<std::vector<Density>> measureDensities(Workshop& workshop, std::vector<st
 
 double largestShare(const Histogram& histogram) { return *std::ranges::max_element(histogram.shares); }
 
-Result<Exhibit> densityExhibit(Workshop& workshop) {
-  Exhibit exhibit;
-  exhibit.id = "figure-14";
-  exhibit.title = "Figure 14. Levels of detail 2, 5 and 10";
-  exhibit.printed = {
+Result<ReportItem> densityItem(ReportContext& report_context) {
+  ReportItem report_item;
+  report_item.id = "figure-14";
+  report_item.title = "Figure 14. Levels of detail 2, 5 and 10";
+  report_item.printed = {
       "“Level of detail (LD), from left LD=2, LD=5, LD=10.”",
       "“The verification of the correctness of the model depends on the density of the grid. The best "
       "results are obtained for LD = 10 (Fig. 14).”",
       "“When density is large, the histogram is reduced to a single bar, the most common value of angle.”"};
   Markup row;
   for (const int ld : {2, 5, 10}) {
-    RenderOptions options = workshop.on<RenderOptions>(kHouse);
+    RenderOptions options = report_context.on<RenderOptions>(kHouse);
     options.sets = kHouseSets;
     options.density = ld;
     options.wires = true;
     options.camera = "10.6,6.6,11.4:6.3,4.9,6.8";
     options.fov = 40;
-    options.size = workshop.pick("560x560", "360x360");
-    const Result<Markup> picture = workshop.picture(options, fmt::format("detail-{}", ld),
-                                                    fmt::format("A house's corner as a mesh with LD = {}", ld),
-                                                    fmt::format("LD = {}", ld), exhibit.commands);
+    options.size = report_context.pick("560x560", "360x360");
+    const Result<Markup> picture = report_context.picture(options, fmt::format("detail-{}", ld),
+                                                          fmt::format("A house's corner as a mesh with LD = {}", ld),
+                                                          fmt::format("LD = {}", ld), report_item.commands);
     if (!picture) return picture.error();
     row += *picture;
   }
-  const Result<std::vector<Density>> densities = measureDensities(workshop, exhibit.commands);
+  const Result<std::vector<Density>> densities = measureDensities(report_context, report_item.commands);
   if (!densities) return densities.error();
   Markup charts;
   std::vector<std::vector<std::string>> rows{{"Largest bar"}};
@@ -169,8 +170,8 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
     numbers.push_back(std::move(of));
   }
   rows.insert(rows.end(), {below, triangles, verdicts});
-  exhibit.ours =
-      Workshop::row(row) + Workshop::row(charts) + table("One house at three densities", rows) +
+  report_item.ours =
+      ReportContext::row(row) + ReportContext::row(charts) + table("One house at three densities", rows) +
       element("p",
               "By angle, printed or corrected, the bars move together as the mesh becomes finer, since an edge half as "
               "long turns by half the angle, as the paper itself remarks. Curvature, the angle over the length of the "
@@ -178,12 +179,12 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
               "and its corners have an ever smaller share of the edges. As printed, equation 13 gives v from −0.38 to "
               "0.38, never the 0.5 of a flat edge, and equation 14 gives indices of bins down to −12, before the start "
               "of the array that the paper describes.");
-  exhibit.measured =
+  report_item.measured =
       "storeys.sgm with three convex storeys. R = 33 bins, an odd number, so that flat edges lie inside one bin; "
       "smooth normals that point outward; every edge counts once per triangle. The classification uses curvature and "
       "the built-in reference histograms.";
-  exhibit.numbers = {{"densities", std::move(numbers)}};
-  return exhibit;
+  report_item.numbers = {{"densities", std::move(numbers)}};
+  return report_item;
 }
 
 // Figure 15.
@@ -191,24 +192,25 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
 /// First seed of test models. The built-in reference histograms were made with other seeds.
 constexpr uint64_t kHeldOut = uint64_t{1} << 32;
 
-std::vector<masters::Family> familiesFor(const Workshop& workshop) {
+std::vector<masters::Family> familiesFor(const ReportContext& report_context) {
   std::vector<masters::Family> families;
   for (const masters::Family& family : masters::families()) {
     const bool quick = family.cell == 1 || family.class_name == measure::kNoise;
-    if (quick || !workshop.options().quick) families.push_back(family);
+    if (quick || !report_context.options().quick) families.push_back(family);
   }
   return families;
 }
 
 /// Makes the models of the families. families: must outlive the result.
-Result<std::vector<masters::Specimen>> specimens(Workshop& workshop, std::span<const masters::Family> families) {
+Result<std::vector<masters::Specimen>> specimens(ReportContext& report_context,
+                                                 std::span<const masters::Family> families) {
   WorldOptions options;
-  options.backend = workshop.options().backend;
-  const Result<std::unique_ptr<Backend>> backend = backendOf(options, workshop.jobs());
+  options.backend = report_context.options().backend;
+  const Result<std::unique_ptr<Backend>> backend = backendOf(options, report_context.jobs());
   if (!backend) return backend.error();
-  ProgressBar bar(workshop.doing());
-  return masters::specimensOf(families, workshop.pick<uint64_t>(4, 1), kHeldOut + workshop.options().seed, **backend,
-                              workshop.jobs(), [&bar](uint64_t done, uint64_t total) {
+  ProgressBar bar(report_context.doing());
+  return masters::specimensOf(families, report_context.pick<uint64_t>(4, 1), kHeldOut + report_context.options().seed,
+                              **backend, report_context.jobs(), [&bar](uint64_t done, uint64_t total) {
                                 bar.show(done, total);
                                 return true;
                               });
@@ -289,16 +291,16 @@ Markup errorTable(const Judged& judged) {
       rows);
 }
 
-Result<Exhibit> classesExhibit(Workshop& workshop) {
-  Exhibit exhibit;
-  exhibit.id = "figure-15";
-  exhibit.title = "Figure 15. Histograms of the main classes";
-  exhibit.printed = {
+Result<ReportItem> classesItem(ReportContext& report_context) {
+  ReportItem report_item;
+  report_item.id = "figure-15";
+  report_item.title = "Figure 15. Histograms of the main classes";
+  report_item.printed = {
       "“Histograms for the main classes of results.”",
       "“The classification is based on the generation of a class histogram for new objects and its "
       "comparison to the master-histogram from the base, for which the mean square error is the smallest.”"};
-  const std::vector<masters::Family> families = familiesFor(workshop);
-  const Result<std::vector<masters::Specimen>> models = specimens(workshop, families);
+  const std::vector<masters::Family> families = familiesFor(report_context);
+  const Result<std::vector<masters::Specimen>> models = specimens(report_context, families);
   if (!models) return models.error();
   const masters::MasterSet set = masters::builtInMasters();
   const std::vector<measure::MasterKey> keys = masters::masterKeys();
@@ -327,10 +329,10 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
     judgements.push_back(
         {{"key", toJson(*key)}, {"right", judged->right}, {"models", judged->all}, {"mean", std::move(mean)}});
   }
-  exhibit.ours = Workshop::row(charts) + element("h3", "Classification") + tables;
+  report_item.ours = ReportContext::row(charts) + element("h3", "Classification") + tables;
   const auto noise = std::ranges::count_if(
       *models, [](const masters::Specimen& s) { return s.family->class_name == measure::kNoise; });
-  exhibit.measured = fmt::format(
+  report_item.measured = fmt::format(
       "{} models, {} of them noise, the others of the classes {}, from {} pairs of a grammar and a density. Their "
       "parameters are drawn from the whole ranges, and the built-in reference histograms were made with other seeds. "
       "Reference histograms are means of clusters, at most {} per grammar, since caves of halls and caves of dripstone "
@@ -339,20 +341,20 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
       "paper always answers.",
       models->size(), noise, fmt::join(masters::classNames(), ", "), families.size(),
       masters::mastersAGrammar(HistogramMode::curvature));
-  exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",
-                      "sgm classify grammars/table4/muller.sgm"};
-  exhibit.numbers = {{"models", models->size()}, {"modes", std::move(judgements)}};
-  return exhibit;
+  report_item.commands = {commandOfPart(report_context.options(), "histograms"), "sgm masters list --json",
+                          "sgm classify grammars/table4/muller.sgm"};
+  report_item.numbers = {{"models", models->size()}, {"modes", std::move(judgements)}};
+  return report_item;
 }
 
 }  // namespace
 
-Exhibits histogramsPart(Workshop& workshop) {
-  Result<Exhibit> density = densityExhibit(workshop);
+ReportItems histogramsPart(ReportContext& report_context) {
+  Result<ReportItem> density = densityItem(report_context);
   if (!density) return density.error();
-  Result<Exhibit> classes = classesExhibit(workshop);
+  Result<ReportItem> classes = classesItem(report_context);
   if (!classes) return classes.error();
-  return std::vector<Exhibit>{std::move(*density), std::move(*classes)};
+  return std::vector<ReportItem>{std::move(*density), std::move(*classes)};
 }
 
 }  // namespace sgm::cli

@@ -4,14 +4,14 @@
 
 #include <array>
 
+#include "tools/paper/backend_runs.h"
 #include "tools/paper/bench_report.h"
 #include "tools/paper/bundle.h"
 #include "tools/paper/chart.h"
 #include "tools/paper/commands.h"
-#include "tools/paper/contenders.h"
 #include "tools/paper/parts.h"
 #include "tools/paper/printed.h"
-#include "tools/paper/workshop.h"
+#include "tools/paper/report_context.h"
 #include "world/world_field.h"
 
 namespace sgm::cli {
@@ -58,16 +58,17 @@ Result<void> countNodes(PointsRun& run, bool hybrid) {
   return {};
 }
 
-Result<std::vector<PointsRun>> measurePoints(Workshop& workshop, bool hybrid) {
-  const Result<std::vector<Contender>> contenders = makeContenders(
-      workshop.options().backend == "auto" ? std::vector<std::string>{"cpu"} : backendsOf(workshop.options()),
-      workshop.options().threads);
-  if (!contenders) return contenders.error();
+Result<std::vector<PointsRun>> measurePoints(ReportContext& report_context, bool hybrid) {
+  const Result<std::vector<BackendRun>> backend_runs =
+      makeBackendRuns(report_context.options().backend == "auto" ? std::vector<std::string>{"cpu"}
+                                                                 : backendsOf(report_context.options()),
+                      report_context.options().threads);
+  if (!backend_runs) return backend_runs.error();
   const std::vector<int> counts =
-      workshop.pick(std::vector{5, 25, 50, 100, 200, 300, 400, 500, 600, 700}, std::vector{5, 50, 200, 450, 700});
-  const auto runs = workshop.pick<uint64_t>(7, 3);
+      report_context.pick(std::vector{5, 25, 50, 100, 200, 300, 400, 500, 600, 700}, std::vector{5, 50, 200, 450, 700});
+  const auto runs = report_context.pick<uint64_t>(7, 3);
   std::vector<PointsRun> all;
-  ProgressBar bar(workshop.doing());
+  ProgressBar bar(report_context.doing());
   uint64_t done = 0;
   for (const int points : counts) {
     PointsRun run;
@@ -75,8 +76,8 @@ Result<std::vector<PointsRun>> measurePoints(Workshop& workshop, bool hybrid) {
     const std::pair<std::string_view, double> parameters[] = {{"points", points}, {"hybrid", hybrid ? 1 : 0}};
     const StageModel model{"points", "paper/points.sgm", 0, {-32, -32, -32}, 64, parameters};
     Result<StageResult> result =
-        measureStage(model, static_cast<int32_t>(kCell * kUnitsPerMetre), runs, *contenders,
-                     [&] { bar.show(++done, counts.size() * contenders->size() * (runs + 1)); });
+        measureStage(model, static_cast<int32_t>(kCell * kUnitsPerMetre), runs, *backend_runs,
+                     [&] { bar.show(++done, counts.size() * backend_runs->size() * (runs + 1)); });
     if (!result) return result.error();
     run.result = std::move(*result);
     if (const Result<void> counted = countNodes(run, hybrid); !counted) return counted.error();
@@ -90,11 +91,12 @@ double slope(const std::vector<PointsRun>& runs, size_t PointsRun::*of) {
   return static_cast<double>(runs.back().*of - runs.front().*of) / (runs.back().points - runs.front().points);
 }
 
-Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsRun>& runs) {
-  Exhibit exhibit;
-  exhibit.id = hybrid ? "figure-2" : "figure-1";
-  exhibit.title = hybrid ? "Figure 2. Speedup of the hybrid system" : "Figure 1. Speedup of the shape morphing system";
-  exhibit.printed = {
+ReportItem pointsItem(ReportContext& report_context, bool hybrid, const std::vector<PointsRun>& runs) {
+  ReportItem report_item;
+  report_item.id = hybrid ? "figure-2" : "figure-1";
+  report_item.title =
+      hybrid ? "Figure 2. Speedup of the hybrid system" : "Figure 1. Speedup of the shape morphing system";
+  report_item.printed = {
       hybrid
           ? "“… in Figure 2 shape hybrid system speedup as a function of the number of measurements of α (α is set of "
             "the position points).”"
@@ -143,20 +145,21 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
       row.push_back(fmt::format("{:.2f}", figures.speedup));
     }
   }
-  exhibit.ours = Workshop::row(drawn(speedups) + drawn(times)) + table("By the number of position points", rows);
-  exhibit.measured = fmt::format(
+  report_item.ours =
+      ReportContext::row(drawn(speedups) + drawn(times)) + table("By the number of position points", rows);
+  report_item.measured = fmt::format(
       "At each point, a ball that morphs into a cube, {}. Medians of {} warm runs from derived cells to packed meshes, "
       "64 m in cells of {} m; every run on every backend made meshes of the same hash.",
       hybrid ? "both collapsed into one shape by a morphic rule" : "both of them sampled and then blended",
       runs.front().result.rows[0].seconds.size(), kCell);
-  exhibit.commands = {commandOfPart(workshop.options(), "speedup"),
-                      fmt::format("sgm mesh grammars/paper/points.sgm --set points=700 --set hybrid={} --cell {}",
-                                  hybrid ? 1 : 0, kCell)};
-  exhibit.numbers = {{"cell", kCell},
-                     {"nodes_a_point", slope(runs, &PointsRun::nodes)},
-                     {"instructions_a_point", slope(runs, &PointsRun::instructions)},
-                     {"points", std::move(points)}};
-  return exhibit;
+  report_item.commands = {commandOfPart(report_context.options(), "speedup"),
+                          fmt::format("sgm mesh grammars/paper/points.sgm --set points=700 --set hybrid={} --cell {}",
+                                      hybrid ? 1 : 0, kCell)};
+  report_item.numbers = {{"cell", kCell},
+                         {"nodes_a_point", slope(runs, &PointsRun::nodes)},
+                         {"instructions_a_point", slope(runs, &PointsRun::instructions)},
+                         {"points", std::move(points)}};
+  return report_item;
 }
 
 /// Our equivalent of the paper's comparison of 14 with 41 nodes.
@@ -181,16 +184,16 @@ Markup nodesCompared(const std::vector<PointsRun>& morphing, const std::vector<P
 
 // Tables 1 to 3.
 
-Result<std::vector<StageResult>> measureStages(Workshop& workshop, const BenchOptions& options) {
+Result<std::vector<StageResult>> measureStages(ReportContext& report_context, const BenchOptions& options) {
   std::vector<StageResult> results;
-  ProgressBar bar(workshop.doing());
+  ProgressBar bar(report_context.doing());
   uint64_t done = 0;
   for (const StageModel& model : stageModels()) {
-    const Result<std::vector<Contender>> contenders = makeContenders(options.backends, options.threads);
-    if (!contenders) return contenders.error();
+    const Result<std::vector<BackendRun>> backend_runs = makeBackendRuns(options.backends, options.threads);
+    if (!backend_runs) return backend_runs.error();
     const auto cell = static_cast<int32_t>(model.edge * kUnitsPerMetre / static_cast<int32_t>(options.cells));
-    Result<StageResult> result = measureStage(model, cell, options.runs, *contenders, [&] {
-      bar.show(++done, stageModels().size() * contenders->size() * (options.runs + 1));
+    Result<StageResult> result = measureStage(model, cell, options.runs, *backend_runs, [&] {
+      bar.show(++done, stageModels().size() * backend_runs->size() * (options.runs + 1));
     });
     if (!result) return result.error();
     results.push_back(std::move(*result));
@@ -221,20 +224,20 @@ std::vector<std::string> paperRow(const std::string& name, Value value) {
   return row;
 }
 
-Exhibit speedupTable(const std::vector<StageResult>& results) {
-  Exhibit exhibit;
-  exhibit.id = "table-1";
-  exhibit.title = "Table 1. Speedup";
-  exhibit.printed = {"“Table 1. Evaluation of the parallel algorithm - speedup for m = 255”",
-                     "Parallel: A 0.096 s, B 0.125 s, C 0.069 s. Sequential: A 0.81 s, B 0.62 s, C 0.54 s."};
-  exhibit.ours =
+ReportItem speedupTable(const std::vector<StageResult>& results) {
+  ReportItem report_item;
+  report_item.id = "table-1";
+  report_item.title = "Table 1. Speedup";
+  report_item.printed = {"“Table 1. Evaluation of the parallel algorithm - speedup for m = 255”",
+                         "Parallel: A 0.096 s, B 0.125 s, C 0.069 s. Sequential: A 0.81 s, B 0.62 s, C 0.54 s."};
+  report_item.ours =
       stageTable(results, "Seconds",
                  {paperRow("paper, sequential", [](const PaperStage& s) { return fmt::format("{}", s.sequential); }),
                   paperRow("paper, parallel", [](const PaperStage& s) { return fmt::format("{}", s.parallel); })},
                  [](const StageResult& result, const StageRow& row) {
                    return fmt::format("{:.4f}", figuresOf(result, row).seconds);
                  });
-  exhibit.ours += stageTable(
+  report_item.ours += stageTable(
       results, "Speedup (equation 2)",
       {paperRow("paper, by its times", [](const PaperStage& s) { return fmt::format("{:.2f}", s.speedup()); })},
       [](const StageResult& result, const StageRow& row) {
@@ -253,17 +256,17 @@ Exhibit speedupTable(const std::vector<StageResult>& results) {
     for (const StageResult& result : results) bars.values.push_back(figuresOf(result, result.rows[r]).speedup);
     chart.series.push_back(std::move(bars));
   }
-  exhibit.ours += drawn(chart);
-  return exhibit;
+  report_item.ours += drawn(chart);
+  return report_item;
 }
 
-Exhibit efficiencyTable(const std::vector<StageResult>& results) {
-  Exhibit exhibit;
-  exhibit.id = "table-2";
-  exhibit.title = "Table 2. Efficiency";
-  exhibit.printed = {
+ReportItem efficiencyTable(const std::vector<StageResult>& results) {
+  ReportItem report_item;
+  report_item.id = "table-2";
+  report_item.title = "Table 2. Efficiency";
+  report_item.printed = {
       "“Table 2. Evaluation of the parallel algorithm – efficiency for m = 255”: A 0.028, B 0.015, C 0.027."};
-  exhibit.ours = stageTable(
+  report_item.ours = stageTable(
       results, "Efficiency (equation 3): speedup over workers",
       {paperRow("paper, printed", [](const PaperStage& s) { return fmt::format("{}", s.efficiency); }),
        paperRow("paper, by its times",
@@ -272,46 +275,48 @@ Exhibit efficiencyTable(const std::vector<StageResult>& results) {
         const StageFigures figures = figuresOf(result, row);
         return figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : std::string("workers unknown");
       });
-  return exhibit;
+  return report_item;
 }
 
-Exhibit throughputTable(const std::vector<StageResult>& results) {
-  Exhibit exhibit;
-  exhibit.id = "table-3";
-  exhibit.title = "Table 3. Throughput";
-  exhibit.printed = {
+ReportItem throughputTable(const std::vector<StageResult>& results) {
+  ReportItem report_item;
+  report_item.id = "table-3";
+  report_item.title = "Table 3. Throughput";
+  report_item.printed = {
       "“Table 3. Evaluation of the parallel algorithm – throughput for m = 255”: sequential 0.8 Gflop/s, parallel "
       "20.61 "
       "Gflop/s, for all stages."};
-  exhibit.ours = stageTable(
+  report_item.ours = stageTable(
       results, "Throughput (equation 4): 10⁹ field operations per second; the paper counts Gflop/s",
       {paperRow("paper, sequential", [](const PaperStage&) { return fmt::format("{}", kPaperSequentialThroughput); }),
        paperRow("paper, parallel", [](const PaperStage&) { return fmt::format("{}", kPaperParallelThroughput); })},
       [](const StageResult& result, const StageRow& row) {
         return fmt::format("{:.3f}", figuresOf(result, row).throughput / 1e9);
       });
-  exhibit.ours += element("p",
-                          "A field operation is one instruction of a pruned field program, at one sample: a distance, "
-                          "a minimum or an octave of noise. Each is many flop.");
-  return exhibit;
+  report_item.ours +=
+      element("p",
+              "A field operation is one instruction of a pruned field program, at one sample: a distance, "
+              "a minimum or an octave of noise. Each is many flop.");
+  return report_item;
 }
 
 }  // namespace
 
-Exhibits speedupPart(Workshop& workshop) {
-  const Result<std::vector<PointsRun>> morphing = measurePoints(workshop, false);
+ReportItems speedupPart(ReportContext& report_context) {
+  const Result<std::vector<PointsRun>> morphing = measurePoints(report_context, false);
   if (!morphing) return morphing.error();
-  const Result<std::vector<PointsRun>> hybrid = measurePoints(workshop, true);
+  const Result<std::vector<PointsRun>> hybrid = measurePoints(report_context, true);
   if (!hybrid) return hybrid.error();
-  std::vector<Exhibit> exhibits{pointsExhibit(workshop, false, *morphing), pointsExhibit(workshop, true, *hybrid)};
-  exhibits[1].ours += nodesCompared(*morphing, *hybrid);
+  std::vector<ReportItem> report_items{pointsItem(report_context, false, *morphing),
+                                       pointsItem(report_context, true, *hybrid)};
+  report_items[1].ours += nodesCompared(*morphing, *hybrid);
 
   BenchOptions options;
-  options.runs = workshop.pick<uint64_t>(10, 3);
-  options.cells = workshop.pick<uint64_t>(256, 64);
-  options.backends = backendsOf(workshop.options());
-  options.threads = workshop.options().threads;
-  const Result<std::vector<StageResult>> results = measureStages(workshop, options);
+  options.runs = report_context.pick<uint64_t>(10, 3);
+  options.cells = report_context.pick<uint64_t>(256, 64);
+  options.backends = backendsOf(report_context.options());
+  options.threads = report_context.options().threads;
+  const Result<std::vector<StageResult>> results = measureStages(report_context, options);
   if (!results) return results.error();
   std::string measured =
       fmt::format("Medians of {} warm runs of each stage from derived cells to packed meshes:", options.runs);
@@ -327,15 +332,15 @@ Exhibits speedupPart(Workshop& workshop) {
   std::string command = fmt::format("sgm bench paper --size {} --runs {}", options.cells, options.runs);
   for (const std::string& backend : options.backends) command += " --backend " + backend;
   if (options.threads != 0) command += fmt::format(" --threads {}", options.threads);
-  exhibits.push_back(speedupTable(*results));
-  exhibits.push_back(efficiencyTable(*results));
-  exhibits.push_back(throughputTable(*results));
-  for (size_t i = 2; i < exhibits.size(); ++i) {
-    exhibits[i].measured = measured;
-    exhibits[i].commands = {command};
-    exhibits[i].numbers = toJson(options, *results);
+  report_items.push_back(speedupTable(*results));
+  report_items.push_back(efficiencyTable(*results));
+  report_items.push_back(throughputTable(*results));
+  for (size_t i = 2; i < report_items.size(); ++i) {
+    report_items[i].measured = measured;
+    report_items[i].commands = {command};
+    report_items[i].numbers = toJson(options, *results);
   }
-  return exhibits;
+  return report_items;
 }
 
 }  // namespace sgm::cli

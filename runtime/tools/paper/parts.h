@@ -4,27 +4,27 @@
 #include <vector>
 
 #include "base/result.h"
-#include "tools/paper/exhibit.h"
+#include "tools/paper/report_item.h"
 
 namespace sgm::cli {
 
-class Workshop;
+class ReportContext;
 
-using Exhibits = Result<std::vector<Exhibit>>;
+using ReportItems = Result<std::vector<ReportItem>>;
 
-Exhibits speedupPart(Workshop& workshop);       ///< figures 1 and 2, tables 1 to 3
-Exhibits cloudPart(Workshop& workshop);         ///< figure 7
-Exhibits cavePart(Workshop& workshop);          ///< figure 8
-Exhibits architecturePart(Workshop& workshop);  ///< figure 9
-Exhibits densityPart(Workshop& workshop);       ///< figures 10 and 11
-Exhibits objectsPart(Workshop& workshop);       ///< figure 12
-Exhibits histogramsPart(Workshop& workshop);    ///< figures 14 and 15
-Exhibits timePart(Workshop& workshop);          ///< figure 16
-Exhibits comparisonPart(Workshop& workshop);    ///< table 4
+ReportItems speedupPart(ReportContext& report_context);       ///< figures 1 and 2, tables 1 to 3
+ReportItems cloudPart(ReportContext& report_context);         ///< figure 7
+ReportItems cavePart(ReportContext& report_context);          ///< figure 8
+ReportItems architecturePart(ReportContext& report_context);  ///< figure 9
+ReportItems densityPart(ReportContext& report_context);       ///< figures 10 and 11
+ReportItems objectsPart(ReportContext& report_context);       ///< figure 12
+ReportItems histogramsPart(ReportContext& report_context);    ///< figures 14 and 15
+ReportItems timePart(ReportContext& report_context);          ///< figure 16
+ReportItems comparisonPart(ReportContext& report_context);    ///< table 4
 
 struct Part {
   const char* name;
-  Exhibits (*make)(Workshop& workshop);
+  ReportItems (*make)(ReportContext& report_context);
 };
 inline constexpr Part kParts[] = {
     {"speedup", speedupPart},           {"cloud", cloudPart},     {"cave", cavePart},

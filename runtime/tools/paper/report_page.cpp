@@ -38,32 +38,32 @@ Markup commandsOf(const std::vector<std::string>& commands) {
          Markup{"\n"};
 }
 
-Markup sectionOf(const Exhibit& exhibit) {
+Markup sectionOf(const ReportItem& report_item) {
   Markup printed;
-  for (const std::string& quote : exhibit.printed) printed += paragraph(quote);
-  Markup content = element("h2", exhibit.title) + Markup{"\n"};
+  for (const std::string& quote : report_item.printed) printed += paragraph(quote);
+  Markup content = element("h2", report_item.title) + Markup{"\n"};
   content += element("h3", "The paper") + Markup{"\n"} + element("blockquote", printed) + Markup{"\n"};
   const std::vector<Contradiction> all = contradictions();
   for (size_t i = 0; i < all.size(); ++i) {
-    if (!isAt(all[i], exhibit.id)) continue;
+    if (!isAt(all[i], report_item.id)) continue;
     const Markup number = link(numberId(i + 1), fmt::format("Contradiction {}", i + 1));
     content +=
         element("div", {{"class", "contradiction"}}, element("p", number + text(". " + all[i].text))) + Markup{"\n"};
   }
-  content += element("h3", "Ours") + Markup{"\n"} + exhibit.ours;
-  content += element("h3", "How it was measured") + Markup{"\n"} + paragraph(exhibit.measured);
-  content += commandsOf(exhibit.commands);
-  return element("section", {{"id", exhibit.id}}, content) + Markup{"\n"};
+  content += element("h3", "Ours") + Markup{"\n"} + report_item.ours;
+  content += element("h3", "How it was measured") + Markup{"\n"} + paragraph(report_item.measured);
+  content += commandsOf(report_item.commands);
+  return element("section", {{"id", report_item.id}}, content) + Markup{"\n"};
 }
 
-Markup contradictionList(std::span<const Exhibit> exhibits) {
+Markup contradictionList(std::span<const ReportItem> report_items) {
   const std::vector<Contradiction> all = contradictions();
   Markup items;
   for (size_t i = 0; i < all.size(); ++i) {
     Markup places;
     for (const std::string place : all[i].places) {
       if (!places.html.empty()) places += text(", ");
-      const bool shown = std::ranges::any_of(exhibits, [&](const Exhibit& e) { return e.id == place; });
+      const bool shown = std::ranges::any_of(report_items, [&](const ReportItem& e) { return e.id == place; });
       places += shown ? link(place, placeName(place)) : text(placeName(place));
     }
     items += element("li", {{"id", numberId(i + 1)}}, text(all[i].text + " (") + places + text(")")) + Markup{"\n"};
@@ -73,16 +73,17 @@ Markup contradictionList(std::span<const Exhibit> exhibits) {
          Markup{"\n"};
 }
 
-Markup contents(std::span<const Exhibit> exhibits) {
+Markup contents(std::span<const ReportItem> report_items) {
   Markup items;
-  for (const Exhibit& exhibit : exhibits) items += element("li", link(exhibit.id, exhibit.title)) + Markup{"\n"};
+  for (const ReportItem& report_item : report_items)
+    items += element("li", link(report_item.id, report_item.title)) + Markup{"\n"};
   items += element("li", link("contradictions", "Where the paper contradicts itself"));
   return element("nav", {{"aria-label", "Contents"}}, element("ul", items)) + Markup{"\n"};
 }
 
 }  // namespace
 
-std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibits) {
+std::string reportPage(const ReportFacts& facts, std::span<const ReportItem> report_items) {
   Markup head = emptyElement("meta", {{"charset", "utf-8"}});
   head += emptyElement("meta", {{"name", "generator"}, {"content", "sgm paper"}});
   head += emptyElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
@@ -107,9 +108,9 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
   body += element("p", text("Run the commands in the folder of this page. Its folder ") + element("code", "grammars") +
                            text(" has their input; their output goes beside this folder. Everything is reproducible, "
                                 "except times and values that depend on them."));
-  body += contents(exhibits);
-  for (const Exhibit& exhibit : exhibits) body += sectionOf(exhibit);
-  body += contradictionList(exhibits);
+  body += contents(report_items);
+  for (const ReportItem& report_item : report_items) body += sectionOf(report_item);
+  body += contradictionList(report_items);
   return "<!DOCTYPE html>\n" +
          element("html", {{"lang", "en"}}, Markup{"\n"} + element("head", head) + Markup{"\n"} + element("body", body))
              .html +

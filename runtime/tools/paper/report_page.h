@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/paper/exhibit.h"
+#include "tools/paper/report_item.h"
 
 namespace sgm::cli {
 
@@ -17,6 +17,6 @@ struct ReportFacts {
   bool whole = true;  ///< the report includes all parts
 };
 
-std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibits);
+std::string reportPage(const ReportFacts& facts, std::span<const ReportItem> report_items);
 
 }  // namespace sgm::cli

@@ -9,8 +9,8 @@
 #include "tools/paper/commands.h"
 #include "tools/paper/folder.h"
 #include "tools/paper/parts.h"
+#include "tools/paper/report_context.h"
 #include "tools/paper/report_page.h"
-#include "tools/paper/workshop.h"
 #include "tools/support/console.h"
 #include "tools/support/ending_signals.h"
 #include "tools/support/options.h"
@@ -19,8 +19,8 @@ namespace sgm::cli {
 namespace {
 
 /// The position of an exhibit in the report: figures by number, then tables by number.
-std::pair<bool, int> orderOf(const Exhibit& exhibit) {
-  return {exhibit.id.starts_with("table"), std::stoi(exhibit.id.substr(exhibit.id.find('-') + 1))};
+std::pair<bool, int> orderOf(const ReportItem& report_item) {
+  return {report_item.id.starts_with("table"), std::stoi(report_item.id.substr(report_item.id.find('-') + 1))};
 }
 
 std::vector<Part> wantedParts(const PaperOptions& options) {
@@ -30,12 +30,12 @@ std::vector<Part> wantedParts(const PaperOptions& options) {
   return parts;
 }
 
-Result<std::vector<Exhibit>> makeExhibits(const PaperOptions& options, Workshop& workshop) {
-  std::vector<Exhibit> all;
+Result<std::vector<ReportItem>> makeReportItems(const PaperOptions& options, ReportContext& report_context) {
+  std::vector<ReportItem> all;
   const std::vector<Part> parts = wantedParts(options);
   for (size_t i = 0; i < parts.size(); ++i) {
-    workshop.begin(fmt::format("[{}/{}] {}", i + 1, parts.size(), parts[i].name));
-    Result<std::vector<Exhibit>> made = parts[i].make(workshop);
+    report_context.begin(fmt::format("[{}/{}] {}", i + 1, parts.size(), parts[i].name));
+    Result<std::vector<ReportItem>> made = parts[i].make(report_context);
     if (!made) return made.error();
     std::ranges::move(*made, std::back_inserter(all));
   }
@@ -53,10 +53,10 @@ Result<std::string> meshingDevice(const PaperOptions& options, JobSystem& jobs) 
   return fmt::format("{} on {}", backendName(capabilities.kind), capabilities.device);
 }
 
-Json numbersOf(const ReportFacts& facts, const std::vector<Exhibit>& exhibits) {
+Json numbersOf(const ReportFacts& facts, const std::vector<ReportItem>& report_items) {
   Json json{{"quick", facts.quick}};
   for (const auto& [name, what] : facts.machine) json["machine"][name] = what;
-  for (const Exhibit& exhibit : exhibits) json["exhibits"][exhibit.id] = exhibit.numbers;
+  for (const ReportItem& report_item : report_items) json["exhibits"][report_item.id] = report_item.numbers;
   return json;
 }
 
@@ -72,24 +72,24 @@ Exit reproducePaper(const PaperOptions& options) {
   const Stopwatch watch;
   // Report errors of the output folder before minutes of work.
   if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
-    return complain(writable.error());
+    return reportError(writable.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return reportError(jobs.error());
   const Result<std::string> device = meshingDevice(options, **jobs);
-  if (!device) return complain(device.error());
+  if (!device) return reportError(device.error());
   std::optional<Renderer> renderer;
   if (!options.no_pictures) {
     Result<Renderer> made = Renderer::create();
     if (!made) {
-      return complain(exitOf(made.error().code),
-                      fmt::format("{}; or use --no-pictures for a report without pictures", made.error().message));
+      return reportError(exitOf(made.error().code),
+                         fmt::format("{}; or use --no-pictures for a report without pictures", made.error().message));
     }
     renderer.emplace(std::move(*made));
   }
 
-  Workshop workshop(options, **jobs, renderer ? &*renderer : nullptr);
-  const Result<std::vector<Exhibit>> exhibits = makeExhibits(options, workshop);
-  if (!exhibits) return complain(exhibits.error());
+  ReportContext report_context(options, **jobs, renderer ? &*renderer : nullptr);
+  const Result<std::vector<ReportItem>> report_items = makeReportItems(options, report_context);
+  if (!report_items) return reportError(report_items.error());
 
   ReportFacts facts;
   facts.quick = options.quick;
@@ -100,18 +100,18 @@ Exit reproducePaper(const PaperOptions& options) {
                    {"Threads", fmt::format("{}", (*jobs)->concurrency())},
                    {"Drawn by", renderer ? renderer->info().name : "nothing"},
                    {"Seed", fmt::format("{}", options.seed)}};
-  std::vector<FolderFile> files = workshop.pictures();
+  std::vector<FolderFile> files = report_context.pictures();
   for (const BundledFile& file : bundledFiles())
     files.push_back({fmt::format("grammars/{}", file.path), std::string(file.bytes)});
-  files.push_back({kReportPage, reportPage(facts, *exhibits)});
+  files.push_back({kReportPage, reportPage(facts, *report_items)});
   if (const Result<void> written = writeReportFolder(options.out, std::move(files), &ending_signals); !written)
-    return complain(written.error());
+    return reportError(written.error());
   if (options.json) {
-    fmt::print("{}\n", numbersOf(facts, *exhibits).text());
+    fmt::print("{}\n", numbersOf(facts, *report_items).text());
   } else {
     fmt::print("{}: {} figures and tables, {} pictures, {:.0f} s\n",
-               (std::filesystem::path(options.out) / kReportPage).string(), exhibits->size(),
-               workshop.pictures().size(), watch.seconds());
+               (std::filesystem::path(options.out) / kReportPage).string(), report_items->size(),
+               report_context.pictures().size(), watch.seconds());
   }
   return Exit::done;
 }

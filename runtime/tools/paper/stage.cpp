@@ -17,7 +17,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kMostChunks = 65536;
+constexpr uint64_t kMaxChunks = 65536;
 constexpr size_t kDerivedBytes = size_t{512} << 20;  // large enough for the derived cells of any stage
 
 /// The world settings and the cube of a stage, from which it can be generated any number of times.
@@ -26,7 +26,7 @@ struct StageScene {
   IntBox cube;
 
   Result<std::pmr::vector<ChunkKey>> keys(const WorldField& world) const {
-    return chunksOfRegion(world, cube, 0, kMostChunks);
+    return chunksOfRegion(world, cube, 0, kMaxChunks);
   }
 };
 
@@ -57,13 +57,14 @@ Result<StageScene> makeStage(const StageModel& model, int32_t cell) {
   return scene;
 }
 
-Result<StageRun> generate(const StageScene& scene, const WorldField& world, const Contender& contender) {
+Result<StageRun> generate(const StageScene& scene, const WorldField& world, const BackendRun& backend_run) {
   const Stopwatch watch;
   const Result<std::pmr::vector<ChunkKey>> keys = scene.keys(world);
   if (!keys) return keys.error();
   std::vector<ChunkRequest> requests;
   for (const ChunkKey& key : *keys) requests.push_back({key, 0, Neighbourhood{}});
-  const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, *contender.backend, *contender.jobs, requests);
+  const Result<std::pmr::vector<PlacedChunk>> chunks =
+      meshChunks(world, *backend_run.backend, *backend_run.jobs, requests);
   if (!chunks) return chunks.error();
   StageRun run;
   run.seconds = watch.seconds();
@@ -102,8 +103,8 @@ Result<uint64_t> countOperations(const StageScene& scene, const WorldField& worl
   return operations.load();
 }
 
-std::string outcomeOf(const Contender& contender, const StageRun& run) {
-  return fmt::format("{} ({}) makes {} triangles with the hash {:016x}", contender.name, contender.device,
+std::string outcomeOf(const BackendRun& backend_run, const StageRun& run) {
+  return fmt::format("{} ({}) makes {} triangles with the hash {:016x}", backend_run.name, backend_run.device,
                      run.triangles, run.hash.value());
 }
 
@@ -133,32 +134,33 @@ StageFigures figuresOf(const StageResult& result, const StageRow& row) {
 }
 
 Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t runs,
-                                 std::span<const Contender> contenders, const std::function<void()>& step) {
+                                 std::span<const BackendRun> backend_runs, const std::function<void()>& step) {
   const Result<StageScene> scene = makeStage(model, cell);
   if (!scene) return scene.error();
   StageResult result;
   result.model = &model;
   result.cell = cell;
-  for (const Contender& contender : contenders) {
+  for (const BackendRun& backend_run : backend_runs) {
     StageRow& row = result.rows.emplace_back();
-    row.name = contender.name;
-    row.device = contender.device;
-    row.reason = contender.reason;
-    row.workers = contender.workers;
+    row.name = backend_run.name;
+    row.device = backend_run.device;
+    row.reason = backend_run.reason;
+    row.workers = backend_run.workers;
   }
   // Each contender has its own world, and derives its cells in its first run.
   std::deque<WorldField> worlds;
-  for (size_t i = 0; i < contenders.size(); ++i) worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());
+  for (size_t i = 0; i < backend_runs.size(); ++i)
+    worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());
   std::optional<size_t> first, last;
   StageRun expected;
   for (uint64_t run = 0; run <= runs; ++run) {
-    for (size_t i = 0; i < contenders.size(); ++i) {
-      const Contender& contender = contenders[i];
-      if (!contender.backend) continue;
-      const uint64_t on_cpu = contender.backend->counters().on_cpu;
-      const Result<StageRun> made = generate(*scene, worlds[i], contender);
+    for (size_t i = 0; i < backend_runs.size(); ++i) {
+      const BackendRun& backend_run = backend_runs[i];
+      if (!backend_run.backend) continue;
+      const uint64_t on_cpu = backend_run.backend->counters().on_cpu;
+      const Result<StageRun> made = generate(*scene, worlds[i], backend_run);
       if (!made) {
-        return Error{made.error().code, fmt::format("{}: {}: {}", model.name, contender.name, made.error().message)};
+        return Error{made.error().code, fmt::format("{}: {}: {}", model.name, backend_run.name, made.error().message)};
       }
       if (!first) {
         first = i;
@@ -166,10 +168,10 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
       } else if (made->hash != expected.hash || made->triangles != expected.triangles) {
         return Error{Code::bad_input,
                      fmt::format("{}: the meshes differ: {}, and {}", model.name,
-                                 outcomeOf(contenders[*first], expected), outcomeOf(contender, *made))};
+                                 outcomeOf(backend_runs[*first], expected), outcomeOf(backend_run, *made))};
       }
       last = i;
-      result.rows[i].on_cpu += contender.backend->counters().on_cpu - on_cpu;
+      result.rows[i].on_cpu += backend_run.backend->counters().on_cpu - on_cpu;
       if (run == 0) {
         result.rows[i].first = made->seconds;
       } else {
@@ -179,7 +181,7 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
     }
   }
   if (!last) return Error{Code::invalid_argument, "none of the backends can be measured"};
-  const Result<uint64_t> operations = countOperations(*scene, worlds[*last], *contenders[*last].jobs);
+  const Result<uint64_t> operations = countOperations(*scene, worlds[*last], *backend_runs[*last].jobs);
   if (!operations) return operations.error();
   result.operations = *operations;
   result.chunks = expected.chunks;

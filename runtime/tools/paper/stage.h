@@ -30,7 +30,7 @@ struct StageModel {
 std::span<const StageModel> stageModels();
 
 /// A backend that is measured, or the reason why it cannot be measured.
-struct Contender {
+struct BackendRun {
   std::string name;
   std::string device;
   unsigned workers = 0;              ///< number of concurrent workers; 0: unknown
@@ -78,6 +78,6 @@ StageFigures figuresOf(const StageResult& result, const StageRow& row);
 /// derived cells and ends with packed meshes, and each contender has its own world. `step` is called after every run.
 /// Errors: those of meshing; bad_input if the meshes of two contenders differ; the message names both.
 Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t runs,
-                                 std::span<const Contender> contenders, const std::function<void()>& step);
+                                 std::span<const BackendRun> backend_runs, const std::function<void()>& step);
 
 }  // namespace sgm::cli

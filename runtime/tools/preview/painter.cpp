@@ -97,12 +97,12 @@ struct Painter::Worker {
   Worker(Painter& owner, Renderer drawer, std::unique_ptr<JobSystem> threads)
       : painter(owner), renderer(std::move(drawer)), jobs(std::move(threads)) {}
 
-  void paint(const Wish& wish, uint64_t number);
+  void paint(const DrawRequest& request, uint64_t number);
 
  private:
   /// A request in progress.
   struct Task {
-    const Wish& wish;
+    const DrawRequest& request;
     uint64_t number;
     RenderOptions options;
     int draft_level = 0;
@@ -110,7 +110,7 @@ struct Painter::Worker {
     cli::Stopwatch watch;
   };
 
-  void read(const Wish& wish);
+  void read(const DrawRequest& request);
   Result<void> settle(Task& task);
   Result<std::shared_ptr<const Region>> meshed(const Task& task, int level, bool draft_only);
   Result<void> paintDraft(Task& task);
@@ -118,17 +118,17 @@ struct Painter::Worker {
   Painted result(const Task& task);
 };
 
-void Painter::Worker::read(const Wish& wish) {
-  edition = wish.edition;
-  const Result<CompileResult> compiled = cli::compileFile(wish.options.file);
+void Painter::Worker::read(const DrawRequest& request) {
+  edition = request.edition;
+  const Result<CompileResult> compiled = cli::compileFile(request.options.file);
   if (!compiled) {
     compile_messages = compiled.error().message + "\n";
-    files = {wish.options.file};
+    files = {request.options.file};
     program = nullptr;
     return;
   }
   compile_messages = renderDiagnostics(*compiled);
-  files = filesOf(wish.options.file, *compiled);
+  files = filesOf(request.options.file, *compiled);
   program = compiled->program;
 }
 
@@ -195,7 +195,7 @@ Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, 
 
 Painted Painter::Worker::result(const Task& task) {
   Painted painted;
-  painted.wish = task.number;
+  painted.request = task.number;
   painted.program = program;
   painted.text_is_wrong = program == nullptr;
   painted.files = std::exchange(files, {});
@@ -251,7 +251,7 @@ Result<void> Painter::Worker::paintFine(Task& task) {
 
   if (!fine->notes.empty()) {
     const DeriveNote& note = fine->notes.front();
-    task.messages += fmt::format("{}:{}:{}: warning: {} ({} notes, this one first in {})\n", task.wish.options.file,
+    task.messages += fmt::format("{}:{}:{}: warning: {} ({} notes, this one first in {})\n", task.request.options.file,
                                  note.line, note.column, note.message, fine->notes.size(), note.path);
   }
   Painted painted = result(task);
@@ -263,10 +263,10 @@ Result<void> Painter::Worker::paintFine(Task& task) {
   return {};
 }
 
-void Painter::Worker::paint(const Wish& wish, uint64_t number) {
-  Task task{wish, number, wish.options, 0, {}, {}};
+void Painter::Worker::paint(const DrawRequest& request, uint64_t number) {
+  Task task{request, number, request.options, 0, {}, {}};
   const auto work = [&]() -> Result<void> {
-    if (edition != wish.edition) read(wish);
+    if (edition != request.edition) read(request);
     if (program == nullptr) return {};
     if (const Result<void> settled = settle(task); !settled) return settled.error();
     if (const Result<void> drawn = paintDraft(task); !drawn) return drawn.error();
@@ -308,12 +308,12 @@ Painter::~Painter() {
   if (thread_.joinable()) thread_.join();
 }
 
-uint64_t Painter::wish(Wish wish) {
+uint64_t Painter::request(DrawRequest request) {
   uint64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
-    wish_ = std::move(wish);
-    number = ++wished_;
+    request_ = std::move(request);
+    number = ++requested_;
   }
   changed_.notify_all();
   return number;
@@ -334,15 +334,15 @@ void Painter::publish(Painted painted) {
 void Painter::run() {
   uint64_t begun = 0;
   for (;;) {
-    Wish wish;
+    DrawRequest request;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return ending_ || wished_ != begun; });
+      changed_.wait(lock, [&] { return ending_ || requested_ != begun; });
       if (ending_) return;
-      begun = wished_;
-      wish = wish_;
+      begun = requested_;
+      request = request_;
     }
-    worker_->paint(wish, begun);
+    worker_->paint(request, begun);
   }
 }
 

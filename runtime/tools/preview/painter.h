@@ -18,7 +18,7 @@
 namespace sgm::preview {
 
 /// A request for a picture. The grammar file is read again if `edition` differs from the previous request's.
-struct Wish {
+struct DrawRequest {
   /// If the camera is empty, the painter chooses one; `out`, `frame`, `seeds`, `volume` are ignored.
   cli::RenderOptions options;
   uint64_t edition = 0;
@@ -26,7 +26,7 @@ struct Wish {
 
 /// The current result of a request.
 struct Painted {
-  uint64_t wish = 0;  ///< the request's number, as Painter::wish() returned it
+  uint64_t request = 0;  ///< the request's number, as Painter::wish() returned it
   /// The compiled grammar; while the text has errors, the last correct program.
   std::shared_ptr<const Program> program;
   std::vector<std::filesystem::path> files;  ///< files that the grammar consists of; empty if they were not read again
@@ -52,7 +52,7 @@ class Painter {
   ~Painter();
 
   /// Requests a picture. Returns the request's number, counted from 1.
-  uint64_t wish(Wish wish);
+  uint64_t request(DrawRequest request);
   /// Returns the newest result that no call has returned yet; nullopt if there is none.
   std::optional<Painted> take();
 
@@ -62,14 +62,14 @@ class Painter {
   Painter() = default;
   void run();
   void publish(Painted painted);
-  bool isNewest(uint64_t number) const { return wished_ == number && !ending_; }
+  bool isNewest(uint64_t number) const { return requested_ == number && !ending_; }
 
   std::unique_ptr<Worker> worker_;  ///< state that only the painting thread uses
-  std::mutex mutex_;                ///< protects wish_ and result_
+  std::mutex mutex_;                ///< protects request_ and result_
   std::condition_variable changed_;
-  Wish wish_;
+  DrawRequest request_;
   std::optional<Painted> result_;
-  std::atomic<uint64_t> wished_ = 0;
+  std::atomic<uint64_t> requested_ = 0;
   std::atomic<bool> ending_ = false;
   std::thread thread_;
 };

@@ -10,19 +10,19 @@ namespace sgm::cli {
 
 Exit showPreview(const RenderOptions& options) {
   // A wrong command line is reported at once; errors in the grammar's text appear in the window.
-  if (const Result<std::string> text = readGrammarText(options.file); !text) return complain(text.error());
+  if (const Result<std::string> text = readGrammarText(options.file); !text) return reportError(text.error());
   if (!options.region.empty()) {
-    if (const Result<IntBox> box = parseRegion(options.region); !box) return complain(box.error());
+    if (const Result<IntBox> box = parseRegion(options.region); !box) return reportError(box.error());
   }
-  if (const Result<int32_t> cell = cellUnits(options); !cell) return complain(cell.error());
+  if (const Result<int32_t> cell = cellUnits(options); !cell) return reportError(cell.error());
   const PictureSize size = *readSize(options.size);
   const Result<std::unique_ptr<preview::Window>> window =
       preview::Window::open(options.file + " - sgm preview", size.width, size.height);
-  if (!window) return complain(window.error());
+  if (!window) return reportError(window.error());
   const Result<std::unique_ptr<preview::Painter>> painter = preview::Painter::create();
-  if (!painter) return complain(painter.error());
+  if (!painter) return reportError(painter.error());
   preview::Session session(options, **painter, **window);
-  if (const Result<void> done = session.run(); !done) return complain(done.error());
+  if (const Result<void> done = session.run(); !done) return reportError(done.error());
   return Exit::done;
 }
 

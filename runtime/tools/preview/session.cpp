@@ -55,7 +55,7 @@ Session::Session(const cli::RenderOptions& options, Painter& painter, Window& wi
   files_.watch({options.file});
 }
 
-cli::RenderOptions Session::wishedOptions() const {
+cli::RenderOptions Session::requestedOptions() const {
   cli::RenderOptions options = options_;
   options.seed = controls_.seed();
   options.light = controls_.light();
@@ -67,7 +67,7 @@ cli::RenderOptions Session::wishedOptions() const {
 }
 
 void Session::ask() {
-  wished_ = painter_.wish({wishedOptions(), edition_});
+  requested_ = painter_.request({requestedOptions(), edition_});
   at_work_ = true;
   place_is_known_ = false;
   window_.refresh();
@@ -96,7 +96,7 @@ Result<void> Session::takeResult() {
   if (!painted) return {};
   if (!painted->files.empty()) files_.watch(painted->files);
   controls_.adopt(painted->program);
-  if (painted->wish == wished_ && !painted->draft) at_work_ = false;
+  if (painted->request == requested_ && !painted->draft) at_work_ = false;
   sayPicture(*painted);
   if (!painted->region) {
     // The last picture stays visible beside the error messages.
@@ -199,7 +199,7 @@ void Session::say(const PointedPlace& place) const {
 }
 
 void Session::sayCommand() const {
-  const cli::RenderOptions options = wishedOptions();
+  const cli::RenderOptions options = requestedOptions();
   std::string line = "sgm render " + quoted(options.file) + " --out picture.png --size " + options.size;
   line += fmt::format(" --seed {}", options.seed);
   for (const std::string& set : options.sets) line += " --set " + quoted(set);

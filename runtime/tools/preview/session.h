@@ -28,7 +28,7 @@ class Session {
   using Clock = std::chrono::steady_clock;
   using Pointed = Result<std::optional<PointedPlace>>;
 
-  cli::RenderOptions wishedOptions() const;
+  cli::RenderOptions requestedOptions() const;
   void ask();
   Result<void> takeResult();
   void steer();
@@ -44,7 +44,7 @@ class Session {
   Controls controls_;
   FileWatch files_;
   uint64_t edition_ = 1;
-  uint64_t wished_ = 0;
+  uint64_t requested_ = 0;
   std::optional<FreeCamera> camera_;  ///< nullopt: the picture shows the initial view
   Painted last_;                      ///< the result whose picture the window shows
   bool at_work_ = false;

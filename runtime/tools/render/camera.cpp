@@ -103,12 +103,13 @@ struct Fan {
   float score = 0;
 };
 
-Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const CameraWish& wish, Grid grid, float far) {
+Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const CameraRequest& request, Grid grid,
+              float far) {
   const glm::vec3 level = glm::cross(forward, glm::vec3(0, 1, 0));
   const glm::vec3 right = glm::dot(level, level) > 1e-6f ? glm::normalize(level) : glm::vec3(1, 0, 0);
   const glm::vec3 up = glm::cross(right, forward);
-  const float half_height = std::tan(glm::radians(wish.fov_degrees) / 2);
-  const float half_width = half_height * static_cast<float>(wish.width) / static_cast<float>(wish.height);
+  const float half_height = std::tan(glm::radians(request.fov_degrees) / 2);
+  const float half_width = half_height * static_cast<float>(request.width) / static_cast<float>(request.height);
   Fan fan;
   float sum = 0, squares = 0, escaped = 0;
   for (int y = 0; y < grid.rows; ++y) {
@@ -142,28 +143,28 @@ Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Ca
   return fan;
 }
 
-struct Sight {
+struct Observation {
   glm::vec3 position{0}, forward{0, 0, -1};
   Fan fan;
 };
 
 // The best of the horizontal views in all directions from a place.
-Sight glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
-  Sight best;
+Observation glanceAround(const RayCaster& mesh, glm::vec3 place, const CameraRequest& request, float far) {
+  Observation best;
   best.fan.score = -1e30f;
   constexpr int kHeadings = 12;
   for (int heading = 0; heading < kHeadings; ++heading) {
     const float a = 6.2831853f * static_cast<float>(heading) / kHeadings;
     const glm::vec3 forward{std::cos(a), 0, std::sin(a)};
-    Fan fan = lookAlong(mesh, place, forward, wish, kGlance, far);
+    Fan fan = lookAlong(mesh, place, forward, request, kGlance, far);
     if (fan.score > best.fan.score) best = {place, forward, std::move(fan)};
   }
   return best;
 }
 
 // The best view from a place. The camera steps back as far as the void allows.
-Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, float far) {
-  Sight best;
+Observation bestObservation(const RayCaster& mesh, glm::vec3 place, const CameraRequest& request, float far) {
+  Observation best;
   best.fan.score = -1e30f;
   constexpr int kHeadings = 24;
   for (int heading = 0; heading < kHeadings; ++heading) {
@@ -175,14 +176,14 @@ Sight bestSight(const RayCaster& mesh, glm::vec3 place, const CameraWish& wish, 
       for (const float back : {0.0f, 0.5f, 0.75f}) {
         if (back > 0 && room < 2.0f) break;
         const glm::vec3 from = place - forward * (back * room);
-        Fan fan = lookAlong(mesh, from, forward, wish, kGlance, far);
+        Fan fan = lookAlong(mesh, from, forward, request, kGlance, far);
         if (fan.score <= best.fan.score) continue;
         if (back > 0 && spaceAround(mesh, from, far).clearance < 0.6f) continue;
         best = {from, forward, std::move(fan)};
       }
     }
   }
-  best.fan = lookAlong(mesh, best.position, best.forward, wish, kStudy, far);
+  best.fan = lookAlong(mesh, best.position, best.forward, request, kStudy, far);
   return best;
 }
 
@@ -241,15 +242,15 @@ bool seenFromOutside(const RayCaster& mesh, glm::vec3 centre, float radius) {
 }
 
 // A view obliquely from above, or from below if the shape floats, near enough for the shape to fill the picture.
-View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const CameraWish& wish) {
+View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const CameraRequest& request) {
   View view;
-  view.camera.width = wish.width;
-  view.camera.height = wish.height;
-  view.camera.fov_degrees = std::min(wish.fov_degrees, 40.0f);
-  const glm::vec3 away = glm::normalize(glm::vec3(0.62f, wish.airborne ? -0.22f : 0.34f, 0.78f));
+  view.camera.width = request.width;
+  view.camera.height = request.height;
+  view.camera.fov_degrees = std::min(request.fov_degrees, 40.0f);
+  const glm::vec3 away = glm::normalize(glm::vec3(0.62f, request.airborne ? -0.22f : 0.34f, 0.78f));
   const glm::vec3 right = glm::normalize(glm::cross(-away, glm::vec3(0, 1, 0))), up = glm::cross(right, -away);
   const float half_height = std::tan(glm::radians(view.camera.fov_degrees) / 2);
-  const float half_width = half_height * static_cast<float>(wish.width) / static_cast<float>(wish.height);
+  const float half_width = half_height * static_cast<float>(request.width) / static_cast<float>(request.height);
   for (const RenderVertex& vertex : vertices) {
     const glm::vec3 p = vertex.position - centre;
     const float across = std::max(std::abs(glm::dot(p, right)) / half_width, std::abs(glm::dot(p, up)) / half_height);
@@ -260,10 +261,10 @@ View outsideView(std::span<const RenderVertex> vertices, glm::vec3 centre, const
   return view;
 }
 
-View insideView(const RayCaster& mesh, const Sight& sight, const CameraWish& wish, float far) {
+View insideView(const RayCaster& mesh, const Observation& sight, const CameraRequest& request, float far) {
   View view;
   view.enclosed = true;
-  view.camera = {sight.position, sight.position + sight.forward, wish.fov_degrees, wish.width, wish.height};
+  view.camera = {sight.position, sight.position + sight.forward, request.fov_degrees, request.width, request.height};
   view.depth = sight.fan.typical;
   view.lamps = lampsAlong(mesh, sight.position, sight.forward, sight.fan, far);
   return view;
@@ -272,7 +273,7 @@ View insideView(const RayCaster& mesh, const Sight& sight, const CameraWish& wis
 }  // namespace
 
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
-                          const CameraWish& wish) {
+                          const CameraRequest& request) {
   if (indices.empty()) return Error{Code::invalid_argument, "there is nothing to look at: the mesh has no triangles"};
   const Result<RayCaster> tree = RayCaster::over(vertices, indices);
   if (!tree) return tree.error();
@@ -280,29 +281,29 @@ Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<cons
   const glm::vec3 centre = 0.5f * (mesh.lo() + mesh.hi());
   const float radius = std::max(0.5f * glm::distance(mesh.lo(), mesh.hi()), 1e-3f), far = 2 * radius;
   std::vector<Place> places;
-  for (const glm::vec3 anchor : wish.anchors) {
+  for (const glm::vec3 anchor : request.anchors) {
     const glm::vec3 p = standing(mesh, anchor, far);
     if (inVoid(spaceAround(mesh, p, far))) places.push_back({p, 0});
     if (places.size() == kFinalists) break;
   }
   const bool at_anchor = !places.empty();
   if (places.empty()) {
-    if (seenFromOutside(mesh, centre, radius)) return outsideView(vertices, centre, wish);
+    if (seenFromOutside(mesh, centre, radius)) return outsideView(vertices, centre, request);
     places = placesInVoid(mesh, far);
   }
-  if (places.empty()) return outsideView(vertices, centre, wish);
-  std::vector<Sight> glances;
+  if (places.empty()) return outsideView(vertices, centre, request);
+  std::vector<Observation> glances;
   for (size_t i = 0; i < std::min(kFinalists, places.size()); ++i) {
-    glances.push_back(glanceAround(mesh, places[i].position, wish, far));
+    glances.push_back(glanceAround(mesh, places[i].position, request, far));
   }
-  std::ranges::stable_sort(glances, std::greater{}, [](const Sight& sight) { return sight.fan.score; });
-  Sight best;
+  std::ranges::stable_sort(glances, std::greater{}, [](const Observation& sight) { return sight.fan.score; });
+  Observation best;
   best.fan.score = -1e30f;
   for (size_t i = 0; i < std::min(kStudied, glances.size()); ++i) {
-    Sight sight = bestSight(mesh, glances[i].position, wish, far);
+    Observation sight = bestObservation(mesh, glances[i].position, request, far);
     if (sight.fan.score > best.fan.score) best = std::move(sight);
   }
-  View view = insideView(mesh, best, wish, far);
+  View view = insideView(mesh, best, request, far);
   view.at_anchor = at_anchor;
   return view;
 }
@@ -316,9 +317,9 @@ Result<View> viewFrom(std::span<const RenderVertex> vertices, std::span<const ui
   if (!tree) return tree.error();
   const RayCaster& mesh = *tree;
   const float far = glm::distance(mesh.lo(), mesh.hi()) + glm::distance(camera.position, mesh.lo());
-  const CameraWish wish{camera.width, camera.height, camera.fov_degrees, {}, false};
+  const CameraRequest request{camera.width, camera.height, camera.fov_degrees, {}, false};
   const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-  const Fan fan = lookAlong(mesh, camera.position, forward, wish, kStudy, far);
+  const Fan fan = lookAlong(mesh, camera.position, forward, request, kStudy, far);
   view.enclosed = spaceAround(mesh, camera.position, far).walls > 0.5f;
   view.depth = fan.typical;
   view.lamps = lampsAlong(mesh, camera.position, forward, fan, far);

@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-struct CameraWish {
+struct CameraRequest {
   int width = 1280;
   int height = 720;
   float fov_degrees = 68;
@@ -44,7 +44,7 @@ enum class Light : uint32_t {
 /// (from below if the shape floats). The same mesh and wish give the same view. Errors: invalid_argument if there is no
 /// triangle; out_of_memory.
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
-                          const CameraWish& wish);
+                          const CameraRequest& request);
 
 /// Determines the properties of a given camera's view: its depth, whether walls surround the camera, and places for
 /// lamps.

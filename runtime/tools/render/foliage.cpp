@@ -17,14 +17,14 @@ struct Kind {
 };
 constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy, 220};
 
-constexpr float kBladeWidth = 0.0052f;            ///< metres, width of a blade near the camera
-constexpr float kTallest = 0.23f;                 ///< metres, length of the tallest blades
-constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres by which leaves extend out of a crown's surface, and into
-                                                  ///< it
-constexpr float kLeafLength = 0.062f;             ///< length of a leaf in metres
-constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves if growthAt() is lower
-constexpr size_t kMostSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
-constexpr float kSteepest = 0.72f;                ///< minimum upward component of a lawn's normal
+constexpr float kBladeWidth = 0.0052f;           ///< metres, width of a blade near the camera
+constexpr float kTallest = 0.23f;                ///< metres, length of the tallest blades
+constexpr float kReach = 0.15f, kDepth = 0.14f;  ///< metres by which leaves extend out of a crown's surface, and into
+                                                 ///< it
+constexpr float kLeafLength = 0.062f;            ///< length of a leaf in metres
+constexpr float kLeastGrowth = -0.15f;           ///< crowns have no leaves if growthAt() is lower
+constexpr size_t kMaxSprouts = size_t{6} << 20;  ///< maximum number of sprouts in a picture
+constexpr float kSteepest = 0.72f;               ///< minimum upward component of a lawn's normal
 
 bool grows(const Kind& kind, const RenderMaterial& material) {
   return material.pattern == kind.pattern && material.relief > 0;
@@ -92,7 +92,7 @@ class Sower {
     Dice dice(a + vec3(frame_.pattern_offset));
     dice.lot();
     float count = area * most + dice.next();
-    for (; count >= 1 && sprouts.size() < kMostSprouts; count -= 1) {
+    for (; count >= 1 && sprouts.size() < kMaxSprouts; count -= 1) {
       float u = dice.next(), v = dice.next();
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const vec3 place = a + u * b + v * c;

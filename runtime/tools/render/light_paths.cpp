@@ -12,7 +12,7 @@ namespace {
 
 /// Rays to a light: the first ones suffice for places in full light or shade; the others resolve penumbras.
 constexpr int kFirstRays = 2, kAllRays = 8;
-constexpr int kMostPanes = 2;         // maximum number of panes that a ray passes before it must hit another surface
+constexpr int kMaxPanes = 2;          // maximum number of panes that a ray passes before it must hit another surface
 constexpr float kThroughPane = 0.8f;  // share of the light that a leaded pane transmits
 constexpr float kSunRadius = 0.012f;  // radius of the sun's disc at distance 1, slightly enlarged by haze
 constexpr float kLampRadius = 0.05f;  // radius of a lamp, as a fraction of its reach
@@ -114,7 +114,7 @@ vec3 LightPaths::radiance(vec3 from, vec3 direction, UnitPoints& turns, int boun
   vec3 sum(0), weight(1);
   for (int i = 0; i < bounces; ++i) {
     MetSurface place = scene_.meet(from, direction);
-    for (int panes = 0; panes < kMostPanes && place.isThere() && scene_.isPane(place.material); ++panes) {
+    for (int panes = 0; panes < kMaxPanes && place.isThere() && scene_.isPane(place.material); ++panes) {
       weight *= kThroughPane * scene_.colourOf(place.material);
       from = behind(place, direction);
       place = scene_.meet(from, direction);

@@ -32,12 +32,12 @@ vec3 TracedScene::directionAt(uint32_t x, uint32_t y, glm::vec2 off) const {
 }
 
 MetSurface TracedScene::seenAt(uint32_t x, uint32_t y) const {
-  constexpr int kMostGaps = 6;
+  constexpr int kMaxGaps = 6;
   constexpr float kBehind = 0.02f;  // metres
   const vec3 direction = directionAt(x, y);
   vec3 from(frame_.eye);
   MetSurface place = meet(from, direction);
-  for (int i = 0; i < kMostGaps && isGap(place, direction); ++i) {
+  for (int i = 0; i < kMaxGaps && isGap(place, direction); ++i) {
     from = place.position + kBehind * direction;
     place = meet(from, direction);
     if (place.isThere()) place.distance = glm::distance(place.position, vec3(frame_.eye));

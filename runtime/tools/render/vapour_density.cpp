@@ -12,7 +12,7 @@
 namespace sgm {
 namespace {
 
-constexpr double kMostPoints = double{1 << 25};
+constexpr double kMaxPoints = double{1 << 25};
 constexpr int kMargin = 6;                  // points around the mesh, which leave space for smoothing
 constexpr int kSubColumns = 2;              // columns of rays on each side of a cell's face
 constexpr std::array kSoftenings{1, 2, 3};  // cells, radii of successive smoothing passes
@@ -35,11 +35,11 @@ Lattice latticeOver(const RayCaster& outline) {
   const float mean = std::sqrt(2 * areaOf(outline) / static_cast<float>(outline.triangleCount()));
   const double volume = double{extent.x} * static_cast<double>(extent.y) * static_cast<double>(extent.z);
   Lattice lattice;
-  lattice.spacing = std::max({0.8f * mean, static_cast<float>(std::cbrt(volume / kMostPoints)),
+  lattice.spacing = std::max({0.8f * mean, static_cast<float>(std::cbrt(volume / kMaxPoints)),
                               std::max({extent.x, extent.y, extent.z}) / 2000, 1e-3f});
   const auto sizeAt = [&] { return glm::ivec3(glm::ceil(extent / lattice.spacing)) + 2 * kMargin + 1; };
   lattice.size = sizeAt();
-  while (static_cast<double>(lattice.count()) > 2 * kMostPoints) {
+  while (static_cast<double>(lattice.count()) > 2 * kMaxPoints) {
     lattice.spacing *= 1.1f;
     lattice.size = sizeAt();
   }

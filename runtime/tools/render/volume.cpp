@@ -15,8 +15,8 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMostVolumePoints = size_t{1} << 30;
-constexpr uint32_t kMostOctaves = 32;
+constexpr size_t kMaxVolumePoints = size_t{1} << 30;
+constexpr uint32_t kMaxOctaves = 32;
 
 Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limits) {
   if (auto camera = checkCamera(scene.camera); !camera) return camera.error();
@@ -26,8 +26,7 @@ Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limit
     return invalid("the extinction must be a number of at least 0");
   if (!(medium.albedo >= 0 && medium.albedo <= 1)) return invalid("the albedo must be 0 to 1");
   if (!(std::abs(medium.forward) < 1)) return invalid("the mean cosine must be above -1 and below 1");
-  if (medium.octaves < 1 || medium.octaves > kMostOctaves)
-    return invalid("there must be 1 to 32 octaves of scattering");
+  if (medium.octaves < 1 || medium.octaves > kMaxOctaves) return invalid("there must be 1 to 32 octaves of scattering");
   if (!(scene.spacing > 0 && std::isfinite(scene.spacing))) return invalid("the spacing must be a number above 0");
   const float sun = glm::dot(scene.sun_direction, scene.sun_direction);
   if (!isFinite(scene.corner)) return invalid("the volume's corner must be finite");
@@ -46,7 +45,7 @@ Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limit
                                   " points on an axis, not " + std::to_string(side) +
                                   ": choose a smaller region or larger cells"};
   const size_t points = size_t{scene.size.x} * scene.size.y * scene.size.z;
-  if (points > kMostVolumePoints)
+  if (points > kMaxVolumePoints)
     return Error{Code::limit, "the volume has more than 2^30 points: choose a smaller region or larger cells"};
   if (points != scene.density.size()) return invalid("a volume must have one density per point");
   return {};

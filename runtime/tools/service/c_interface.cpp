@@ -19,8 +19,8 @@ struct sgm_service {
 namespace sgm::service {
 namespace {
 
-constexpr uint64_t kMostUploadBytes = uint64_t{1} << 32;
-constexpr uint32_t kMostJobs = 64, kMostWaiting = 4096;
+constexpr uint64_t kMaxUploadBytes = uint64_t{1} << 32;
+constexpr uint32_t kMaxJobs = 64, kMaxWaiting = 4096;
 
 sgm_result resultOf(Code code) {
   switch (code) {
@@ -94,16 +94,16 @@ Result<ServiceSettings> settingsOf(const sgm_service_desc& desc) {
   if (desc.work_port != 0 && desc.work_port == desc.operations_port)
     return wrong("desc.work_port and desc.operations_port are equal: choose different ports");
   settings.work.upload_folder = textOr(desc.upload_folder, "");
-  if (desc.upload_bytes > kMostUploadBytes) return wrong("desc.upload_bytes is more than 2^32");
-  if (desc.upload_bytes > 0) settings.work.most_upload_bytes = desc.upload_bytes;
+  if (desc.upload_bytes > kMaxUploadBytes) return wrong("desc.upload_bytes is more than 2^32");
+  if (desc.upload_bytes > 0) settings.work.max_upload_bytes = desc.upload_bytes;
   InspectorSettings& inspector = settings.inspector;
   inspector.program = textOr(desc.inspector, "");
   inspector.masters = textOr(desc.masters, "");
   if (desc.inspector_memory > 0) inspector.memory = desc.inspector_memory;
   if (desc.inspector_seconds > 0) inspector.time = std::chrono::seconds(desc.inspector_seconds);
-  if (desc.inspector_jobs > kMostJobs) return wrong("desc.inspector_jobs is more than 64");
+  if (desc.inspector_jobs > kMaxJobs) return wrong("desc.inspector_jobs is more than 64");
   if (desc.inspector_jobs > 0) inspector.jobs = desc.inspector_jobs;
-  if (desc.inspector_waiting > kMostWaiting) return wrong("desc.inspector_waiting is more than 4,096");
+  if (desc.inspector_waiting > kMaxWaiting) return wrong("desc.inspector_waiting is more than 4,096");
   if (desc.inspector_waiting > 0) inspector.waiting = desc.inspector_waiting;
   return settings;
 }

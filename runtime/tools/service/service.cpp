@@ -76,8 +76,8 @@ struct Service::Parts {
     state.inspector = inspector->counts();
     const Result<void> takes = inspector->wouldTake();
     state.inspects = takes || takes.error().code != Code::unsupported;
-    state.most_waiting = settings.inspector.waiting;
-    state.most_upload_bytes = settings.work.most_upload_bytes;
+    state.max_waiting = settings.inspector.waiting;
+    state.max_upload_bytes = settings.work.max_upload_bytes;
     state.reports = reports.size();
     return state;
   }

@@ -41,13 +41,13 @@ int main(int argc, char** argv) {
   try {
     status = sgm::cli::runCommandLine(argc, argv);
   } catch (const std::bad_alloc&) {
-    sgm::cli::complain(Exit::input, "out of memory: choose a smaller region or a larger --cell");
+    sgm::cli::reportError(Exit::input, "out of memory: choose a smaller region or a larger --cell");
   } catch (const std::exception& e) {
-    sgm::cli::complain(Exit::input, e.what());
+    sgm::cli::reportError(Exit::input, e.what());
   }
   // Output may have been lost, for example on a full disk to which it is redirected.
   if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-    status = sgm::cli::complain(Exit::file, "cannot write to standard output");
+    status = sgm::cli::reportError(Exit::file, "cannot write to standard output");
   }
   return static_cast<int>(status);
 }

@@ -28,7 +28,7 @@ Exit exitOf(Code code) {
   return Exit::input;
 }
 
-Exit complain(Exit status, std::string_view message) {
+Exit reportError(Exit status, std::string_view message) {
   // The escape sequence erases an unfinished progress bar.
   const char* erase = isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
   fmt::print(stderr, "{}sgm: {}: {}\n", erase, status == Exit::usage ? "usage" : "error", message);

@@ -27,8 +27,8 @@ enum class Exit : int {
 Exit exitOf(Code code);
 
 /// Prints "sgm: error: message" ("sgm: usage: message" for a wrong command line) as one line on stderr. Returns status.
-Exit complain(Exit status, std::string_view message);
-inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
+Exit reportError(Exit status, std::string_view message);
+inline Exit reportError(const Error& error) { return reportError(exitOf(error.code), error.message); }
 
 /// Shows progress on stderr. On a terminal it is a bar, with an estimate of the remaining time for long work, which is
 /// erased at the end. Otherwise it is a line each minute, for logs. While the amount of work is unknown, the elapsed

@@ -17,7 +17,7 @@ namespace {
 
 // Cells, maximum distance of a triangle from the surface of the use to which it belongs.
 constexpr float kNearOwnSurface = 0.3f;
-constexpr size_t kMostTargets = 12;     // maximum number of uses that are examined
+constexpr size_t kMaxTargets = 12;      // maximum number of uses that are examined
 constexpr size_t kFewestTriangles = 6;  // minimum number of triangles with which a use is recognizable in a picture
 
 /// The drawn mesh of a region, and the conversion of its places to the world.
@@ -198,7 +198,7 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   const DrawnRegion drawn{region, vertices, indices};
   std::vector<ShownUse> shown;
   for (const RuleUse* use : inOrder(*uses, extent, region.cell)) {
-    if (shown.size() == kMostTargets) break;
+    if (shown.size() == kMaxTargets) break;
     Result<std::optional<ShownUse>> one = showUse(drawn, *use, region.level);
     if (!one) return one.error();
     if (*one) shown.push_back(std::move(**one));
@@ -207,24 +207,24 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   for (const ShownUse& one : shown) {
     if (!one.hollow) break;
     const glm::vec3 middle = 0.5f * (one.target.lo + one.target.hi);
-    CameraWish wish;
-    wish.width = size.width;
-    wish.height = size.height;
-    wish.fov_degrees = static_cast<float>(options.fov);
-    wish.anchors = {&middle, 1};
-    Result<View> view = chooseCamera(vertices, indices, wish);
+    CameraRequest request;
+    request.width = size.width;
+    request.height = size.height;
+    request.fov_degrees = static_cast<float>(options.fov);
+    request.anchors = {&middle, 1};
+    Result<View> view = chooseCamera(vertices, indices, request);
     if (!view || !view->at_anchor) continue;
     framed = FramedUse{one.use->path, one.use->bounds, true, 1, 1};
     return view;
   }
   std::vector<FrameTarget> targets;
   for (const ShownUse& one : shown) targets.push_back(one.target);
-  RenderCamera wish;
-  wish.width = size.width;
-  wish.height = size.height;
-  wish.fov_degrees = static_cast<float>(options.fov);
+  RenderCamera request;
+  request.width = size.width;
+  request.height = size.height;
+  request.fov_degrees = static_cast<float>(options.fov);
   // If the field cannot be evaluated at a place, the place counts as rock.
-  const Result<std::optional<FramedView>> framing = frameTargets(vertices, indices, targets, wish, [&](glm::vec3 p) {
+  const Result<std::optional<FramedView>> framing = frameTargets(vertices, indices, targets, request, [&](glm::vec3 p) {
     const Int3 at = drawn.units(p);
     const Result<std::vector<float>> value = survey::valuesAt(*region.world, region.level, {at, at}, {&at, 1});
     return value && (*value)[0] > 0;

@@ -117,8 +117,8 @@ Result<std::vector<uint64_t>> readSeeds(std::string_view text) {
     if (!first || !last)
       return wrong(fmt::format("'{}' is not seeds such as 1..9 or 3,7,11: whole numbers from 0", text));
     if (*first > *last) return wrong(fmt::format("'{}' runs backwards: write {}..{}", part, *last, *first));
-    if (*last - *first >= kMostSeeds - seeds.size())
-      return wrong(fmt::format("'{}' has more than {} seeds, the limit of a sheet", text, kMostSeeds));
+    if (*last - *first >= kMaxSeeds - seeds.size())
+      return wrong(fmt::format("'{}' has more than {} seeds, the limit of a sheet", text, kMaxSeeds));
     for (uint64_t seed = *first;; ++seed) {
       if (std::ranges::find(seeds, seed) != seeds.end())
         return wrong(fmt::format("'{}' has seed {} twice", text, seed));

@@ -50,7 +50,7 @@ std::optional<Gaze> readCamera(std::string_view text);
 /// A range of levels of detail, "0..4" or "2", the finest first; nullopt if the text is not such a range.
 std::optional<std::pair<int, int>> readLevels(std::string_view text);
 /// The maximal number of seeds of one contact sheet.
-inline constexpr size_t kMostSeeds = 256;
+inline constexpr size_t kMaxSeeds = 256;
 /// Seeds "1..9", "3,7,11" or "1..3,9": each seed once, in the given order. Error: invalid_argument; the message shows
 /// the expected form.
 Result<std::vector<uint64_t>> readSeeds(std::string_view text);

@@ -18,7 +18,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostNotes = 10;
+constexpr size_t kMaxNotes = 10;
 constexpr const char* kEndless = "the grammar's world is endless: choose a part with --region x0,y0,z0:x1,y1,z1";
 constexpr uint64_t kChosenChunks = 4096;  // maximum number of chunks of a region that the user has not chosen
 constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view may request, units
@@ -85,13 +85,13 @@ LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) 
   };
   if (!options.region.empty()) {
     const Result<IntBox> given = parseRegion(options.region);
-    if (!given) return refused(complain(given.error()));
+    if (!given) return refused(reportError(given.error()));
   }
   const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return refused(complain(cell.error()));
+  if (!cell) return refused(reportError(cell.error()));
   LoadedGrammar grammar = loadGrammar(options.file);
   if (grammar.program != nullptr && options.region.empty() && grammar.program->domain.infinite && !plan.choose)
-    return refused(complain(Exit::usage, kEndless));
+    return refused(reportError(Exit::usage, kEndless));
   return grammar;
 }
 
@@ -131,9 +131,8 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   size_t shown = 0;
   for (const auto& [place, found] : by_place) {
     const auto& [line, column, message] = place;
-    if (++shown > kMostNotes) {
-      fmt::print(stderr, "{}: warning: {} more places where shapes were left out\n", file,
-                 by_place.size() - kMostNotes);
+    if (++shown > kMaxNotes) {
+      fmt::print(stderr, "{}: warning: {} more places where shapes were left out\n", file, by_place.size() - kMaxNotes);
       return;
     }
     fmt::print(stderr, "{}:{}:{}: warning: {} ({} times, first in {})\n", file, line, column, message, found.first,
@@ -150,7 +149,7 @@ void noteRounded(const std::string& file, uint64_t rounded) {
 
 Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int32_t finest_cell) {
   const bool empty = region.lo.x >= region.hi.x || region.lo.y >= region.hi.y || region.lo.z >= region.hi.z;
-  const uint64_t most = std::min(options.max_chunks, kMostRegionChunks);
+  const uint64_t most = std::min(options.max_chunks, kMaxRegionChunks);
   const uint64_t count = empty ? 0 : countChunks(region, int64_t{finest_cell} << options.level);
   if (count <= most) return {};
   const std::optional<double> fitting = fittingCell({&region, 1}, options.level, finest_cell, most);
@@ -159,7 +158,7 @@ Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int3
       fmt::format(
           "the region has {} chunks with cells of {} m, more than {}: choose larger cells{} or a smaller --region{}",
           count, metres(finest_cell << options.level), most, fitting ? fmt::format(" (--cell {} fits)", *fitting) : "",
-          options.max_chunks < kMostRegionChunks ? ", or raise --max-chunks" : "")};
+          options.max_chunks < kMaxRegionChunks ? ", or raise --max-chunks" : "")};
 }
 
 bool isCut(const Region& region) {
@@ -319,7 +318,7 @@ OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan) {
   Result<ChosenWorld> chosen = chooseWorld(grammar.program, options, plan);
   const Result<void> settled = chosen ? settleRegion(*chosen, options, plan) : chosen.error();
   if (!settled) {
-    opened.status = complain(settled.error());
+    opened.status = reportError(settled.error());
     return opened;
   }
   opened.program = grammar.program;
@@ -332,7 +331,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   const LoadedGrammar grammar = loadForWorld(options, plan);
   if (grammar.program == nullptr) return failure(grammar.status);
   Result<Region> made = meshProgram(grammar.program, options, plan);
-  if (!made) return failure(complain(made.error()));
+  if (!made) return failure(reportError(made.error()));
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);

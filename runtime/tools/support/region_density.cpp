@@ -5,7 +5,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kMostPoints = uint64_t{1} << 30;
+constexpr uint64_t kMaxPoints = uint64_t{1} << 30;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Result<RegionDensity> sampleRegion(const WorldField& world, JobSystem& jobs, con
     const int64_t cells = (int64_t{extent.hi[axis]} - extent.lo[axis]) / region.cell;
     density.grid.size[static_cast<size_t>(axis)] = static_cast<uint32_t>(cells + 1);
     points *= static_cast<uint64_t>(cells + 1);
-    if (points > kMostPoints)
+    if (points > kMaxPoints)
       return Error{Code::limit,
                    "the region's cells have more than 2^30 corners: choose a smaller region or larger cells"};
   }

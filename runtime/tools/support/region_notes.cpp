@@ -54,15 +54,15 @@ Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
 }
 
 void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell) {
-  constexpr size_t kMostSaid = 10;
-  for (size_t i = 0; i < std::min(parts.size(), kMostSaid); ++i) {
+  constexpr size_t kMaxNotes = 10;
+  for (size_t i = 0; i < std::min(parts.size(), kMaxNotes); ++i) {
     const ThinPart& part = parts[i];
     fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may be invisible ({}{} {})\n", part.cut ? "a cut in " : "",
                part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick", lengthText(cell),
                part.is_about ? "about " : "", part.uses, part.uses == 1 ? "use" : "uses");
   }
-  if (parts.size() > kMostSaid)
-    fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMostSaid);
+  if (parts.size() > kMaxNotes)
+    fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMaxNotes);
 }
 
 void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell) {

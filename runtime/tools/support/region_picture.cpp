@@ -78,13 +78,13 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
     return viewFrom(drawn.vertices, drawn.indices, camera);
   }
   const std::vector<glm::vec3> anchors = anchorsAt(region, options.at);
-  CameraWish wish;
-  wish.width = size.width;
-  wish.height = size.height;
-  wish.fov_degrees = static_cast<float>(options.fov);
-  wish.anchors = anchors;
-  wish.airborne = region.program->domain.density;
-  return chooseCamera(drawn.vertices, drawn.indices, wish);
+  CameraRequest request;
+  request.width = size.width;
+  request.height = size.height;
+  request.fov_degrees = static_cast<float>(options.fov);
+  request.anchors = anchors;
+  request.airborne = region.program->domain.density;
+  return chooseCamera(drawn.vertices, drawn.indices, request);
 }
 
 /// Lamps at the region's anchors of kind `light` that light visible places, sorted by distance from the camera.

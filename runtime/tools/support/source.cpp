@@ -37,7 +37,7 @@ LoadedGrammar loadGrammar(const std::string& file) {
     const ProgressBar bar("compiling");
     return compileFile(file);
   }();
-  if (!compiled) return {nullptr, complain(compiled.error())};
+  if (!compiled) return {nullptr, reportError(compiled.error())};
   fmt::print(stderr, "{}", renderDiagnostics(*compiled));
   return {compiled->program, compiled->program ? Exit::done : Exit::input};
 }

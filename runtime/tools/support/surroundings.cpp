@@ -10,8 +10,8 @@ namespace sgm::cli {
 namespace {
 
 constexpr int64_t kAroundUnits = int64_t{48} * kUnitsPerMetre;
-constexpr int64_t kMostAcross = int64_t{1024} * kUnitsPerMetre;
-constexpr uint64_t kMostCells = 4096;  // maximum number of cells of a layer that are searched for shapes
+constexpr int64_t kMaxAcross = int64_t{1024} * kUnitsPerMetre;
+constexpr uint64_t kMaxCells = 4096;  // maximum number of cells of a layer that are searched for shapes
 
 IntBox around(const std::array<int64_t, 3>& centre, const std::array<int64_t, 3>& half) {
   IntBox box;
@@ -60,7 +60,7 @@ Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_v
 
 bool isLarge(const IntBox& box) {
   bool large = false;
-  for (int axis = 0; axis < 3; ++axis) large |= int64_t{box.hi[axis]} - box.lo[axis] > kMostAcross;
+  for (int axis = 0; axis < 3; ++axis) large |= int64_t{box.hi[axis]} - box.lo[axis] > kMaxAcross;
   return large;
 }
 
@@ -78,7 +78,7 @@ IntBox nearestShapes(const std::vector<IntBox>& shapes) {
   for (size_t a = 0; a < 3; ++a) {
     const int64_t lo = all.lo[static_cast<int>(a)], hi = all.hi[static_cast<int>(a)];
     middle[a] = (lo + hi) / 2;
-    half[a] = std::clamp((hi - lo + 1) / 2, kAroundUnits, kMostAcross / 2);
+    half[a] = std::clamp((hi - lo + 1) / 2, kAroundUnits, kMaxAcross / 2);
   }
   return around(middle, half);
 }
@@ -91,7 +91,7 @@ Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& box)
   for (uint32_t layer = 0; layer < program.layers.size(); ++layer) {
     uint64_t cells = 0;
     const Result<void> visited = world.cellsAround(layer, box, [&](Int3 at) -> Result<void> {
-      if (++cells > kMostCells) return {};
+      if (++cells > kMaxCells) return {};
       const Result<std::shared_ptr<const DerivedCell>> cell = world.cell(layer, at);
       if (!cell) return cell.error();
       for (const Group& group : (*cell)->chunk.groups) {

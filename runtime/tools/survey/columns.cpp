@@ -248,10 +248,10 @@ Result<Columns> sampleColumns(const WorldField& world, const IntBox& region, int
     lattice.size[static_cast<size_t>(axis)] = static_cast<int>(to - from + 1);
   }
   const int64_t columns_seen = int64_t{lattice.size[0]} * lattice.size[2];
-  if (columns_seen > kMostColumns || lattice.size[1] > kTallest)
+  if (columns_seen > kMaxColumns || lattice.size[1] > kTallest)
     return Error{Code::limit, fmt::format("a survey may have at most {} columns of {} samples, but this region has {} "
                                           "of {}: choose larger cells or a smaller --region",
-                                          kMostColumns, kTallest, columns_seen, lattice.size[1])};
+                                          kMaxColumns, kTallest, columns_seen, lattice.size[1])};
   const Subject subject = world.isSolidDomain() ? Subject::hollow : Subject::solid;
   const int across = (lattice.size[0] + kTile - 1) / kTile, along = (lattice.size[2] + kTile - 1) / kTile;
   std::vector<Column> columns(static_cast<size_t>(lattice.size[0]) * static_cast<size_t>(lattice.size[2]));

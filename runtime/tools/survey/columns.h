@@ -41,7 +41,7 @@ struct Columns {
 };
 
 /// The maximum number of columns of a region, and the maximum number of samples in a column.
-inline constexpr int64_t kMostColumns = int64_t{1} << 24;
+inline constexpr int64_t kMaxColumns = int64_t{1} << 24;
 inline constexpr int kTallest = 1 << 16;
 
 /// Samples `region`, enlarged to whole steps, at a level of detail. A column shows the uppermost stretch that is high

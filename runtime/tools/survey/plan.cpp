@@ -15,7 +15,7 @@ constexpr Ink kHidden{70, 70, 70};
 constexpr double kLetters = 8, kSmall = 7, kGap = 5;  // pixels: heights of letters, and space around them
 // pixels: minimum distance between any labels, and between labels of equal height
 constexpr double kBetweenLabels = 110, kBetweenLikeLabels = 240;
-constexpr size_t kMostLabels = 24;
+constexpr size_t kMaxLabels = 24;
 // metres: minimum length of the border that a passage must cross to count as continuing
 constexpr double kLeastLead = 1.5;
 
@@ -158,7 +158,7 @@ void drawHeights(const Columns& columns, const MaterialSigns& signs, const Place
   std::ranges::stable_sort(order, std::greater{}, [&](size_t i) { return distance.values[i]; });
   std::vector<std::pair<Point, std::string>> taken;
   for (const size_t i : order) {
-    if (taken.size() >= kMostLabels) return;
+    if (taken.size() >= kMaxLabels) return;
     const auto width = static_cast<size_t>(distance.width);
     const Point at = place.at(Point{static_cast<double>(i % width), static_cast<double>(i / width)});
     const Stretch& shown = *columns.shownAt(i);

@@ -13,7 +13,7 @@ namespace sgm::survey {
 namespace {
 
 constexpr Ink kContour{110, 110, 110}, kCeiling{60, 60, 60};
-constexpr double kMostLevels = 14;
+constexpr double kMaxLevels = 14;
 constexpr double kSteep = 0.75;       // slope from which floors get hachures (rise over run)
 constexpr double kCeilingStep = 1.6;  // slope from which ceilings count as steps (rise over run)
 constexpr double kFloorAbove = 1.8;   // metres that the floor must continue to rise uphill of a hachure
@@ -26,7 +26,7 @@ constexpr double kFlowstone = 6;       // m2; larger areas of flowstone are outl
 
 double niceInterval(double range) {
   for (const double interval : {0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0})
-    if (range / interval <= kMostLevels) return interval;
+    if (range / interval <= kMaxLevels) return interval;
   return 200;
 }
 

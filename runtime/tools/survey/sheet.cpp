@@ -47,8 +47,8 @@ struct Layout {
 };
 
 /// Arranges plan and section one below the other or side by side, whichever gives the larger scale.
-Layout arrange(const SheetWish& wish, const Extent* plan, const Extent* section) {
-  const double wide = wish.width - 2 * kMargin, high = wish.height - 2 * kMargin - kFooter - kCaption;
+Layout arrange(const SheetRequest& request, const Extent* plan, const Extent* section) {
+  const double wide = request.width - 2 * kMargin, high = request.height - 2 * kMargin - kFooter - kCaption;
   Layout layout;
   const double gutter = section != nullptr ? kHeights : 0;
   if (plan == nullptr || section == nullptr) {
@@ -171,22 +171,22 @@ std::vector<std::string> wrapped(const std::string& text, double height, double 
   return lines;
 }
 
-void drawFooter(const Columns& columns, const Layout& layout, const SheetWish& wish, bool section,
+void drawFooter(const Columns& columns, const Layout& layout, const SheetRequest& request, bool section,
                 const SheetFigures& figures, Drawing& drawing) {
-  const double top = wish.height - kMargin - kFooter + 38, right = wish.width - kMargin;
+  const double top = request.height - kMargin - kFooter + 38, right = request.width - kMargin;
   drawing.marks.push_back({"frame", {{{kMargin, top - 12}, {right, top - 12}}}, false, kBlack, 0.8, {}, {}});
   const bool hollow = columns.subject == Subject::hollow;
-  const char* what = !wish.plan ? "long section" : section ? "plan and long section" : "plan";
-  std::string heading = fmt::format("{} - {}", wish.title, what);
+  const char* what = !request.plan ? "long section" : section ? "plan and long section" : "plan";
+  std::string heading = fmt::format("{} - {}", request.title, what);
   double height = kTitle;
   while (height > 5 && letterWidth(heading, height) > right - kMargin - 280) --height;
   drawing.marks.push_back(lettering(heading, {kMargin, top + kTitle + 2}, height));
-  std::string facts = wish.subtitle;
-  if (wish.plan && !figures.plan.empty)
+  std::string facts = request.subtitle;
+  if (request.plan && !figures.plan.empty)
     facts += fmt::format("; {} {} to {} m, area {:.0f} sq m", hollow ? "floors from" : "tops from",
                          wholeMetres(figures.plan.lowest), wholeMetres(figures.plan.highest), figures.plan.area);
   double y = top + kTitle + 20;
-  const std::string words = legend(columns, figures, wish.plan, section);
+  const std::string words = legend(columns, figures, request.plan, section);
   for (const std::string* text : {static_cast<const std::string*>(&facts), &words}) {
     for (const std::string& line : wrapped(*text, kText - 1, right - kMargin - 300)) {
       if (line.empty()) continue;
@@ -200,32 +200,32 @@ void drawFooter(const Columns& columns, const Layout& layout, const SheetWish& w
 
 }  // namespace
 
-Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetWish& wish,
+Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetRequest& request,
                   SheetFigures& figures) {
-  Drawing drawing{wish.width, wish.height, {}};
+  Drawing drawing{request.width, request.height, {}};
   const Crop of_plan = planCrop(columns), of_section = slice != nullptr ? cropOf(*slice) : Crop{};
   const Extent plan = extentOf(of_plan, metres(columns.step)),
                section = slice != nullptr ? extentOf(of_section, slice->step) : Extent{};
-  const Layout layout = arrange(wish, wish.plan ? &plan : nullptr, slice != nullptr ? &section : nullptr);
+  const Layout layout = arrange(request, request.plan ? &plan : nullptr, slice != nullptr ? &section : nullptr);
   figures.scale = layout.scale;
   const auto placement = [&](Point corner, const Crop& crop, double step) {
     const double scale = layout.scale * step;
     return Placement{{corner.x - scale * crop.left, corner.y - scale * crop.top}, scale};
   };
-  if (wish.plan) {
+  if (request.plan) {
     const Placement place = placement(layout.plan, of_plan, metres(columns.step));
     figures.plan = drawPlan(columns, signs, place, drawing);
     if (slice != nullptr) drawCutLine(columns, *slice, of_section, place, drawing);
     drawing.marks.push_back(lettering("PLAN", {layout.plan.x, layout.plan.y - kAbove}, kText));
-    drawNorth({std::min(layout.plan.x + layout.scale * plan.wide + 24, wish.width - 24.0), kMargin + 16}, drawing);
+    drawNorth({std::min(layout.plan.x + layout.scale * plan.wide + 24, request.width - 24.0), kMargin + 16}, drawing);
   }
   if (slice != nullptr) {
     figures.section =
         drawSection(*slice, of_section, signs, placement(layout.section, of_section, slice->step), drawing);
-    drawing.marks.push_back(lettering(wish.plan ? "LONG SECTION  A - A'" : "LONG SECTION",
+    drawing.marks.push_back(lettering(request.plan ? "LONG SECTION  A - A'" : "LONG SECTION",
                                       {layout.section.x, layout.section.y - kAbove}, kText));
   }
-  drawFooter(columns, layout, wish, slice != nullptr, figures, drawing);
+  drawFooter(columns, layout, request, slice != nullptr, figures, drawing);
   return drawing;
 }
 

@@ -8,7 +8,7 @@
 
 namespace sgm::survey {
 
-struct SheetWish {
+struct SheetRequest {
   int width = 1600, height = 1200;  ///< size of the sheet in pixels
   bool plan = true;                 ///< draws a plan; if false, the section alone
   std::string title;                ///< text such as "cave.sgm"
@@ -26,7 +26,7 @@ inline constexpr int kLeastSheet = 320;
 
 /// Draws the sheet. slice: the section to draw; null: the plan alone. Contract: wish.plan is set or slice is not null,
 /// and each edge of the sheet has at least kLeastSheet pixels.
-Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetWish& wish,
+Drawing drawSheet(const Columns& columns, const Slice* slice, const MaterialSigns& signs, const SheetRequest& request,
                   SheetFigures& figures);
 
 }  // namespace sgm::survey

@@ -169,7 +169,7 @@ void budget(const Options& options) {
   }
   Engine engine(ground.field.get(), worldDesc());
   engine.setViewers({&viewer, 1});
-  uint64_t most_small = 0;
+  uint64_t peak_small = 0;
   size_t drawn_small = 0;
   double back = -1;
   paced(options.seconds, options.rate, [&](double seconds) {
@@ -178,7 +178,7 @@ void budget(const Options& options) {
     const size_t drawn = engine.countDrawn(0);
     if (is_small) {
       drawn_small = drawn;
-      most_small = engine.counts().most_bytes;
+      peak_small = engine.counts().peak_bytes;
     } else if (drawn >= wanted && back < 0) {
       back = seconds - kSmallSeconds;
     }
@@ -188,7 +188,7 @@ void budget(const Options& options) {
       "\"level_0_wanted\": %zu, \"level_0_while_small\": %zu, \"level_0\": %zu, \"level_0_back_s\": %.3f, "
       "\"failed\": %llu, \"most_bytes_while_small\": %llu",
       wanted, drawn_small, engine.countDrawn(0), back, static_cast<unsigned long long>(engine.counts().failed),
-      static_cast<unsigned long long>(most_small));
+      static_cast<unsigned long long>(peak_small));
 }
 
 void walk(const Options& options) {
@@ -216,7 +216,7 @@ void walk(const Options& options) {
       "\"longest_frame_ms\": %.3f, ",
       static_cast<unsigned long long>(digs), static_cast<unsigned long long>(engine.counts().colliders),
       static_cast<unsigned long long>(engine.counts().equal_colliders),
-      static_cast<unsigned long long>(engine.counts().most_colliders), 1000 * longest);
+      static_cast<unsigned long long>(engine.counts().max_colliders), 1000 * longest);
   Work work;
   work.add(engine);
   work.print(ground);
@@ -234,7 +234,7 @@ void far(const Options& options) {
   Engine engine(ground.field.get(), worldDesc());
   const Mover mover{placesInVoid(ground, 1, options.spread)[0], options.speed, 0.3};
   double settled = 0, most = 0, next_told = 0;
-  uint64_t most_counted = 0;
+  uint64_t max_counted = 0;
   paced(options.seconds, options.rate, [&](double seconds) {
     const sgm_viewer viewer = mover.viewer(seconds);
     engine.setViewers({&viewer, 1});
@@ -242,7 +242,7 @@ void far(const Options& options) {
     const double resident = residentMegabytes();
     (seconds < options.seconds / 6 ? settled : most) =
         std::max(seconds < options.seconds / 6 ? settled : most, resident);
-    most_counted = std::max(most_counted, ground.memory());
+    max_counted = std::max(max_counted, ground.memory());
     if (seconds >= next_told) {
       next_told += options.seconds / 60;
       const sgm_world_stats stats = engine.stats();
@@ -256,7 +256,7 @@ void far(const Options& options) {
   std::printf(
       "\"metres\": %.0f, \"resident_mb_first_sixth\": %.1f, \"resident_mb_later\": %.1f, \"counted_mb\": %.1f, "
       "\"kept\": %llu, ",
-      options.speed * options.seconds, settled, most, static_cast<double>(most_counted) / 1e6,
+      options.speed * options.seconds, settled, most, static_cast<double>(max_counted) / 1e6,
       static_cast<unsigned long long>(engine.stats().kept));
   Work work;
   work.add(engine);

@@ -73,8 +73,8 @@ void Engine::frame(uint64_t max_bytes) {
     must(sgm_world_poll(world(), events, 0, &count, &error), error);
     for (size_t i = 0; i < count; ++i) take(events[i]);
   }
-  counts_.most_bytes = std::max(counts_.most_bytes, bytes_);
-  counts_.most_colliders = std::max(counts_.most_colliders, frame_colliders_);
+  counts_.peak_bytes = std::max(counts_.peak_bytes, bytes_);
+  counts_.max_colliders = std::max(counts_.max_colliders, frame_colliders_);
 }
 
 void Engine::take(const sgm_world_event& event) {

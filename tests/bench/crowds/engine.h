@@ -56,10 +56,10 @@ class Engine {
 
   struct Counts {
     uint64_t failed = 0;
-    uint64_t most_bytes = 0;       ///< maximum number of bytes handed over in one frame
+    uint64_t peak_bytes = 0;       ///< maximum number of bytes handed over in one frame
     uint64_t colliders = 0;        ///< number of colliders handed over
     uint64_t equal_colliders = 0;  ///< number of colliders that replaced one with the same bytes
-    uint64_t most_colliders = 0;   ///< maximum number of colliders handed over in one frame
+    uint64_t max_colliders = 0;    ///< maximum number of colliders handed over in one frame
   };
   const Counts& counts() const { return counts_; }
 

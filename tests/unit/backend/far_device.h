@@ -19,9 +19,9 @@ namespace sgm::vulkan {
 class FarDevice {
  public:
   /// Requires that MemoryOptions::apart is set too.
-  static void wrap(BorrowedDevice& lent) {
-    state().resolver = lent.get_instance_proc_addr;
-    lent.get_instance_proc_addr = resolve;
+  static void wrap(BorrowedDevice& external) {
+    state().resolver = external.get_instance_proc_addr;
+    external.get_instance_proc_addr = resolve;
   }
   static void wrap(DeviceTable& table) {
     state().calls = table;

@@ -17,12 +17,12 @@ struct Faulty : vulkan::KeptEngine {
   Faulty() : KeptEngine(vulkan::Validation::core) {}  // synchronization errors: see VulkanMachine::silent
 
   vulkan::BorrowedDevice lend() {
-    vulkan::BorrowedDevice lent = engine.lend();
-    lent.replace_calls = [](vulkan::DeviceTable& table) {
+    vulkan::BorrowedDevice external = engine.lend();
+    external.replace_calls = [](vulkan::DeviceTable& table) {
       vulkan::KeptPipelines::wrap(table);
       vulkan::Faults::wrap(table);
     };
-    return lent;
+    return external;
   }
   VulkanMachine machine(VulkanBackendOptions options) {
     options.open = [this] { return vulkan::Device::borrow(lend()); };

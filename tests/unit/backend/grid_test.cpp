@@ -106,7 +106,7 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   job.positions = result.positions.data();
   job.normals = normals ? result.normals.data() : nullptr;
   job.indices = result.indices.data();
-  std::vector<uint32_t> numbers(2 * size_x * size_y), offsets(vertices.back() + kMostLanes);
+  std::vector<uint32_t> numbers(2 * size_x * size_y), offsets(vertices.back() + kMaxLanes);
   const size_t thick = (planes + slabs - 1) / slabs;
   for (size_t first = 0; first < planes; first += thick) {
     const size_t last = std::min(planes, first + thick), below = first > 0 ? first - 1 : 0;

@@ -23,14 +23,14 @@ VulkanMachine farMachine(Faulty& faulty, const BatchRoom& room = {}) {
   options.room = room;
   options.memory.apart = true;
   options.open = [&faulty] {
-    vulkan::BorrowedDevice lent = faulty.engine.lend();
-    FarDevice::wrap(lent);
-    lent.replace_calls = [](vulkan::DeviceTable& table) {
+    vulkan::BorrowedDevice external = faulty.engine.lend();
+    FarDevice::wrap(external);
+    external.replace_calls = [](vulkan::DeviceTable& table) {
       vulkan::KeptPipelines::wrap(table);
       FarDevice::wrap(table);
       vulkan::Faults::wrap(table);
     };
-    return vulkan::Device::borrow(lent);
+    return vulkan::Device::borrow(external);
   };
   return VulkanMachine(options);
 }

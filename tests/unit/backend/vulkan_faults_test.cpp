@@ -238,14 +238,14 @@ void keepPipelines(Faulty& faulty) {
 
 #ifdef SGM_SCARCE_THREADS
 /// If no thread can be started that compiles the shaders, the first batch must wait for them.
-void lackThreads(Faulty& faulty) {
+void failThreads(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(7, 3);
   for (ChunkJob& job : jobs) job.prompt = true;
   // A driver may fail to start its threads, too; on this device it has compiled the pipelines in earlier tests.
   const VulkanMachine machine = faulty.machine();
   REQUIRE(machine);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-  const ScarceThreads scarce(0);
+  const FailingThreads scarce(0);
   checkSame(expected, meshesOf(*machine.vulkan, jobs));
   CHECK(machine.vulkan->counters().on_cpu == 0);
 }
@@ -265,7 +265,7 @@ TEST_CASE("whatever the device refuses, the meshes are right, and the next batch
   checkMeshesThatStay(faulty);
   checkFarDevice(faulty);
 #ifdef SGM_SCARCE_THREADS
-  lackThreads(faulty);
+  failThreads(faulty);
 #endif
 }
 

@@ -24,13 +24,13 @@ class Gate {
 
   VulkanMachine machine(vulkan::Engine& engine) {
     return VulkanMachine({}, [&engine] {
-      vulkan::BorrowedDevice lent = engine.lend();
-      lent.replace_calls = [](vulkan::DeviceTable& table) {
+      vulkan::BorrowedDevice external = engine.lend();
+      external.replace_calls = [](vulkan::DeviceTable& table) {
         vulkan::KeptPipelines::wrap(table);
         state().create = table.vkCreateComputePipelines;
         table.vkCreateComputePipelines = create;
       };
-      return vulkan::Device::borrow(lent);
+      return vulkan::Device::borrow(external);
     });
   }
   void open() {

@@ -223,7 +223,7 @@ void strikeMeshesThatStay(Faulty& faulty) {
 void loseForGood(Faulty& faulty) {
   BackendRequest request;
   request.kind = BackendKind::vulkan;
-  request.lent = std::make_shared<const vulkan::BorrowedDevice>(faulty.lend());
+  request.external = std::make_shared<const vulkan::BorrowedDevice>(faulty.lend());
   const auto jobs = *makeThreadPool(2);
   const auto scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
   std::vector<ChunkJob> chunks = spheres(1, 5);

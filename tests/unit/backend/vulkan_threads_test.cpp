@@ -118,11 +118,11 @@ TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][t
   std::optional<vulkan::DeviceTable> replaced;
   VulkanBackendOptions options;
   options.open = [&] {
-    vulkan::BorrowedDevice lent = kept.engine.lend();
-    lent.lock = [](void* user) { static_cast<std::mutex*>(user)->lock(); };
-    lent.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
-    lent.user = &queue;
-    lent.replace_calls = [&](vulkan::DeviceTable& table) {
+    vulkan::BorrowedDevice external = kept.engine.lend();
+    external.lock = [](void* user) { static_cast<std::mutex*>(user)->lock(); };
+    external.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
+    external.user = &queue;
+    external.replace_calls = [&](vulkan::DeviceTable& table) {
       // Replaced only once: threads may be calling the replaced functions already.
       if (!replaced) {
         vulkan::KeptPipelines::wrap(table);
@@ -131,7 +131,7 @@ TEST_CASE("threads share what stays on a lent device, and its loss", "[vulkan][t
       }
       table = *replaced;
     };
-    return vulkan::Device::borrow(lent);
+    return vulkan::Device::borrow(external);
   };
   Exchanged exchanged;
   const VulkanMachine machine(options);

@@ -76,14 +76,14 @@ TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
 #if defined(SGM_SCARCE_THREADS)
 TEST_CASE("a pool is made of the threads that start, or is an error", "[threads]") {
   {
-    const ScarceThreads none(0);
+    const FailingThreads none(0);
     const auto jobs = makeThreadPool(1024);
     REQUIRE_FALSE(jobs);
     CHECK(jobs.error().code == Code::limit);
     CHECK(jobs.error().message.find("thread") != std::string::npos);
   }
   const auto few = [] {
-    const ScarceThreads three(3);
+    const FailingThreads three(3);
     return makeThreadPool(1024);
   }();
   REQUIRE(few);

@@ -85,12 +85,12 @@ TEST_CASE("a child that closes its streams is waited for, and not longer than ot
 
 TEST_CASE("a child that says too much is ended", "[base][process][threads]") {
   RunSettings run = within(std::chrono::minutes(1));
-  run.most_output = 100'000;
+  run.max_output = 100'000;
   const ProcessOutput endless = outputOf(isolatedShell("yes"), run);
   CHECK(endless.stop == Stop::output_limit);
   CHECK(endless.output.size() <= 100'001);
   for (const size_t most : {size_t{4}, size_t{5}, size_t{6}}) {
-    run.most_output = most;
+    run.max_output = most;
     CHECK((outputOf(isolatedShell("printf 12345"), run).stop == Stop::none) == (most >= 5));
   }
   // The beginning of its complaints is kept, and they have no limit.

@@ -77,7 +77,7 @@ TEST_CASE("morph offsets lead to the coarser surface, and neighbours agree") {
       if (i % 16 != 0) continue;
       std::array<double, 3> to;
       for (size_t axis = 0; axis < 3; ++axis) {
-        CHECK(std::abs(offset[axis]) <= kMostMorph);
+        CHECK(std::abs(offset[axis]) <= kMaxMorph);
         to[axis] = p[static_cast<int>(axis)] + offset[axis] * chunk.grid.cell / 256.0;
       }
       before += std::pow(

@@ -119,8 +119,8 @@ TEST_CASE("past either limit, and without an edge, it is unknown", "[classify]")
   const std::vector<double> off{0.7, 0.3, 0, 0, 0};
   const double mse = classError(HistogramMode::curvature, off, kThree[0].shares),
                emd = earthMoversDistance(off, kThree[0].shares);
-  const auto said = [&](double most_mse, double most_emd, const std::vector<double>& shares) {
-    return *classify(shares, smallKey(), kThree, {smallKey(), most_mse, most_emd});
+  const auto said = [&](double max_mse, double max_emd, const std::vector<double>& shares) {
+    return *classify(shares, smallKey(), kThree, {smallKey(), max_mse, max_emd});
   };
   CHECK(said(mse, emd, off).verdict == "cave");
   CHECK(said(mse * 0.99, emd, off).verdict == kUnknown);

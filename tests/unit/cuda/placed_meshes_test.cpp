@@ -41,10 +41,10 @@ class OneGpu {
   OneGpu() : engine_(vulkan::Validation::synchronization, true) {
     const vulkan::DeviceInfo info = vulkan::describe(engine_.instance->calls(), engine_.physical);
     driver.state().id = info.id;
-    vulkan::BorrowedDevice lent = engine_.lend();
-    lent.external_memory = true;
-    lent.replace_calls = [](vulkan::DeviceTable& table) { vulkan::Faults::wrap(table); };
-    store = take(vulkan::openSharedMeshes(lent));
+    vulkan::BorrowedDevice external = engine_.lend();
+    external.external_memory = true;
+    external.replace_calls = [](vulkan::DeviceTable& table) { vulkan::Faults::wrap(table); };
+    store = take(vulkan::openSharedMeshes(external));
   }
 
   std::unique_ptr<cuda::Device> openCuda() const { return take(cuda::openDevice(driver.table(), cuda::kFakeImage)); }

@@ -27,7 +27,7 @@ static_assert(kCuNonBlockingStream == CU_STREAM_NON_BLOCKING && kCuBlockingWaits
 static_assert(sizeof(CuResult) == sizeof(CUresult) && sizeof(CuDevice) == sizeof(CUdevice));
 static_assert(sizeof(CuPoolProperties) == sizeof(CUmemPoolProps));
 static_assert(offsetof(CuPoolProperties, location) == offsetof(CUmemPoolProps, location.id));
-static_assert(offsetof(CuPoolProperties, most_bytes) == offsetof(CUmemPoolProps, maxSize));
+static_assert(offsetof(CuPoolProperties, max_bytes) == offsetof(CUmemPoolProps, maxSize));
 static_assert(CuPoolProperties{}.allocation_type == CU_MEM_ALLOCATION_TYPE_PINNED);
 static_assert(CuPoolProperties{}.location_type == CU_MEM_LOCATION_TYPE_DEVICE);
 static_assert(sizeof(CuId) == sizeof(CUuuid));

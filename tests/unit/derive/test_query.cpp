@@ -153,7 +153,7 @@ TEST_CASE("a proof costs no more than it may, and what costs more is not proven"
   const auto single = [](const IntBox& box) { return box.lo == box.hi ? BoxContent::open : BoxContent::unknown; };
   const BallProof large = proveBall({{}, 5000}, BoxContent::open, single);
   CHECK_FALSE(large.holds);
-  CHECK(large.pieces <= kMostBallPieces + 1);
+  CHECK(large.pieces <= kMaxBallPieces + 1);
   CHECK(proveBall({{}, 3}, BoxContent::open, single).holds);
   CHECK(proveBall({{}, 0}, BoxContent::open, single).pieces == 1);
   CHECK_FALSE(proveBall({{}, 0}, BoxContent::solid, single).holds);

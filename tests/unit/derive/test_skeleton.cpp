@@ -179,7 +179,7 @@ TEST_CASE("a tree that is too large lacks twigs, not its stem and boughs") {
   const Turtle turtle{13, 1, 0.4, 1};
   const Skeleton skeleton = grownSkeleton(PathKey{5}, turtle);
   CHECK_FALSE(skeleton.whole);
-  CHECK(skeleton.segments.size() <= kMostSegments);
+  CHECK(skeleton.segments.size() <= kMaxSegments);
   checkTree(skeleton, turtle);
   // With a fork at every joint, there are binomial(13, d + 1) segments of depth d.
   std::map<uint32_t, int> of_depth;

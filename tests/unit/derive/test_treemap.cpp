@@ -33,12 +33,12 @@ struct Drawn {
   FloorPlan plan;
 };
 
-Drawn drawnPlan(std::mt19937& random, size_t most_rooms = 10) {
+Drawn drawnPlan(std::mt19937& random, size_t max_rooms = 10) {
   std::uniform_real_distribution<double> unit(0, 1);
   Drawn out;
   out.sizes = {static_cast<int32_t>(1024 * (9 + 15 * unit(random))),
                static_cast<int32_t>(1024 * (8 + 12 * unit(random))), 256, 920, 1332};
-  const size_t rooms = 1 + random() % most_rooms;
+  const size_t rooms = 1 + random() % max_rooms;
   for (size_t i = 0; i < rooms; ++i) out.areas.push_back(6 + 34 * unit(random));
   for (size_t i = 0; i < random() % 3 && rooms > 1; ++i) {
     const size_t a = random() % rooms;

@@ -29,10 +29,10 @@ WaveLabels drawnLabels(std::mt19937& random, unsigned labels) {
   return out;
 }
 
-DrawnWave drawnWave(std::mt19937& random, unsigned most_tiles, unsigned most_edge) {
+DrawnWave drawnWave(std::mt19937& random, unsigned max_tiles, unsigned most_edge) {
   DrawnWave out;
   const unsigned labels = 1 + static_cast<unsigned>(random() % 4);
-  out.tiles.resize(1 + random() % most_tiles);
+  out.tiles.resize(1 + random() % max_tiles);
   for (WaveTile& tile : out.tiles) {
     for (WaveLabels& side : tile.sides) side = drawnLabels(random, labels);
     tile.weight = 1 + static_cast<uint32_t>(random() % 1000);

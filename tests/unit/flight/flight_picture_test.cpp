@@ -10,7 +10,7 @@
 using namespace sgm;
 using cli::FlightPlace;
 using cli::PicturedChunk;
-using cli::PictureWish;
+using cli::PictureRequest;
 
 #if defined(__SANITIZE_ADDRESS__)
 // Mesa's drivers leak a little memory for each instance, and are unloaded before the leak check, so that no suppression
@@ -66,13 +66,13 @@ TEST_CASE("a picture shows the chunks that are drawn, each level in its colour",
   Octree coarse(kTop, kFinestCell);
   for (int corner = 0; corner < 8; ++corner)
     coarse.split({kTop + 1, {-(corner & 1), -(corner >> 1 & 1), -(corner >> 2)}});
-  PictureWish wish;
-  wish.camera.position = {4, -3, 70};
-  wish.width = 160;
-  wish.height = 120;
-  wish.levels = true;
+  PictureRequest request;
+  request.camera.position = {4, -3, 70};
+  request.width = 160;
+  request.height = 120;
+  request.levels = true;
   const auto draw = [&](std::span<const PicturedChunk> chunks) {
-    auto image = cli::drawChunks(*renderer, world.grammar(), chunks, wish);
+    auto image = cli::drawChunks(*renderer, world.grammar(), chunks, request);
     INFO((image ? "" : image.error().message));
     REQUIRE(image);
     return std::move(*image);
@@ -95,9 +95,9 @@ TEST_CASE("a picture shows the chunks that are drawn, each level in its colour",
   CHECK(blue[1] > blue[0]);
 
   // The ball in its own material, seen from the other side.
-  wish.levels = false;
-  wish.camera.position = {4, -3, -70};
-  wish.camera.direction = {0, 0, 1};
+  request.levels = false;
+  request.camera.position = {4, -3, -70};
+  request.camera.direction = {0, 0, 1};
   CHECK(brightness(draw(pictured(world, coarse)), 80, 60, 20) > 30);
   for (const std::string& message : renderer->messages()) CHECK(message.empty());
 }

@@ -33,7 +33,7 @@ struct Told {
 
 /// Passes the bytes to the reader in pieces, whose sizes size(bytes left) returns (at least 1). Stops when the reader
 /// rejects a request. The last element is an incomplete request, or the rejected one.
-inline std::vector<Told> readAll(std::string_view bytes, uint64_t most_bytes, const ReaderLimits& limits,
+inline std::vector<Told> readAll(std::string_view bytes, uint64_t max_bytes, const ReaderLimits& limits,
                                  const std::function<size_t(size_t)>& size) {
   using Event = RequestReader::Event;
   RequestReader reader(limits);
@@ -50,7 +50,7 @@ inline std::vector<Told> readAll(std::string_view bytes, uint64_t most_bytes, co
           now.has_head = true;
           now.request = reader.request();
           now.keep_alive = reader.keepAlive();
-          reader.allow(most_bytes);
+          reader.allow(max_bytes);
           break;
         case Event::go_on:
           now.go_on = true;
@@ -74,8 +74,8 @@ inline std::vector<Told> readAll(std::string_view bytes, uint64_t most_bytes, co
   return told;
 }
 
-inline std::vector<Told> readAll(std::string_view bytes, uint64_t most_bytes = 1000, const ReaderLimits& limits = {}) {
-  return readAll(bytes, most_bytes, limits, [](size_t left) { return left; });
+inline std::vector<Told> readAll(std::string_view bytes, uint64_t max_bytes = 1000, const ReaderLimits& limits = {}) {
+  return readAll(bytes, max_bytes, limits, [](size_t left) { return left; });
 }
 
 inline std::string textOf(const std::vector<Told>& told) {

@@ -423,7 +423,7 @@ TEST_CASE("The limits of a head are met to the byte") {
   // Input that never ends is limited.
   CHECK(statusOf(std::string(101, 'a')) == 414);
   std::string parameters;
-  for (size_t i = 0; i < kMostParameters; ++i) parameters += "&a";
+  for (size_t i = 0; i < kMaxParameters; ++i) parameters += "&a";
   const auto query = [](const std::string& text) { return "GET /?" + text + " HTTP/1.1\r\nHost: h\r\n\r\n"; };
   CHECK(readAll(query(parameters)).front().refused == 0);
   CHECK(readAll(query(parameters + "&a")).front().refused == 400);

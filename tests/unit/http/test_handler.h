@@ -29,7 +29,7 @@ class TestBody : public Body {
 
 class TestHandler : public Handler {
  public:
-  static constexpr uint64_t kMostBytes = 1000;
+  static constexpr uint64_t kMaxBytes = 1000;
 
   Admission admit(const Request& request) override {
     Admission admission;
@@ -37,7 +37,7 @@ class TestHandler : public Handler {
     if (request.path == "/forbidden") admission.refusal = makeResponse({403, "foreign_origin", "No.", {}});
     if (request.method == "POST" || request.method == "PUT") {
       admission.body = std::make_unique<TestBody>();
-      admission.most_bytes = request.path == "/large" ? uint64_t{1} << 40 : kMostBytes;
+      admission.max_bytes = request.path == "/large" ? uint64_t{1} << 40 : kMaxBytes;
     }
     return admission;
   }

@@ -182,7 +182,7 @@ TEST_CASE("the tree finds all pairs that meet", "[self_intersection]") {
     CHECK(here.pairs == allPairs(mesh));
     CHECK(here.complete);
     CHECK(here.folded == 0);  // no two triangles share an edge
-    CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMostExamples));
+    CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMaxExamples));
     for (const auto& [a, b] : here.examples) {
       CHECK(a < b);
       CHECK(meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b]));

@@ -132,7 +132,7 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
       const bool high = anyOf(random, 2) == 0;
       // Vertices may lie outside the cell, but not outside the chunk; these cells touch only low faces of it.
       if (anyOf(random, 2) == 0 && high && isUncut(q, side.axis, across, high)) {
-        place[across] = kSubcell + 9 + anyOf(random, kMostOutside - 8);
+        place[across] = kSubcell + 9 + anyOf(random, kMaxOutside - 8);
         ++beyond;
       }
       for (int k = 0; k < 3; ++k) place[k] += cell[k] * kSubcell;

@@ -196,7 +196,7 @@ TEST_CASE("random chunks have the voids, masks and blocks that a flood fill find
     if (sealed != VoidComponent{}) expected.push_back(sealed);
     const VoidComponents found = voidComponents(signs);
     CHECK(found == expected);
-    CHECK(found.size() <= kMostVoidComponents);
+    CHECK(found.size() <= kMaxVoidComponents);
     several += touching > 1;
     joined += touching > 63;
 

@@ -62,8 +62,8 @@ class LyingBackend final : public Backend {
   uint64_t lie_at_, batches_ = 0;
 };
 
-Contender contender(const char* name, const char* instruction_set, unsigned threads) {
-  Contender made;
+BackendRun backend_run(const char* name, const char* instruction_set, unsigned threads) {
+  BackendRun made;
   made.name = name;
   made.device = instruction_set;
   made.workers = threads;
@@ -72,8 +72,8 @@ Contender contender(const char* name, const char* instruction_set, unsigned thre
   return made;
 }
 
-Contender absent() {
-  Contender made;
+BackendRun absent() {
+  BackendRun made;
   made.name = "absent";
   made.reason = "nobody made it";
   return made;
@@ -85,12 +85,12 @@ const StageModel& building() { return stageModels()[2]; }
 
 TEST_CASE("the stages are those of the paper, and every one has a surface") {
   REQUIRE(stageModels().size() == kPaperStages.size());
-  const Contender contenders[] = {contender("sequential", "scalar", 1)};
+  const BackendRun backend_runs[] = {backend_run("sequential", "scalar", 1)};
   for (size_t i = 0; i < stageModels().size(); ++i) {
     CAPTURE(i);
     const StageModel& model = stageModels()[i];
     CHECK(model.name == kPaperStages[i].name);
-    const Result<StageResult> result = measureStage(model, model.edge * kUnitsPerMetre / 32, 1, contenders, [] {});
+    const Result<StageResult> result = measureStage(model, model.edge * kUnitsPerMetre / 32, 1, backend_runs, [] {});
     REQUIRE(result);
     CHECK(result->triangles > 100);
     CHECK(result->operations > result->triangles);
@@ -98,9 +98,9 @@ TEST_CASE("the stages are those of the paper, and every one has a surface") {
 }
 
 TEST_CASE("all contenders run as often, and what is absent does not") {
-  const Contender contenders[] = {contender("sequential", "scalar", 1), absent(), contender("parallel", "", 2)};
+  const BackendRun backend_runs[] = {backend_run("sequential", "scalar", 1), absent(), backend_run("parallel", "", 2)};
   size_t steps = 0;
-  const Result<StageResult> result = measureStage(building(), kCell, 3, contenders, [&] { ++steps; });
+  const Result<StageResult> result = measureStage(building(), kCell, 3, backend_runs, [&] { ++steps; });
   REQUIRE(result);
   CHECK(steps == 8);  // including the first runs, which are not measured
   CHECK(result->rows[0].seconds.size() == 3);
@@ -113,8 +113,8 @@ TEST_CASE("all contenders run as often, and what is absent does not") {
 }
 
 TEST_CASE("operations are those of the stage, whoever counts them") {
-  const Contender one[] = {contender("sequential", "", 1)};
-  const Contender two[] = {contender("sequential", "scalar", 1), contender("parallel", "", 3)};
+  const BackendRun one[] = {backend_run("sequential", "", 1)};
+  const BackendRun two[] = {backend_run("sequential", "scalar", 1), backend_run("parallel", "", 3)};
   const Result<StageResult> a = measureStage(building(), kCell, 1, one, [] {});
   const Result<StageResult> b = measureStage(building(), kCell, 1, two, [] {});
   const Result<StageResult> finer = measureStage(building(), kCell / 2, 1, one, [] {});
@@ -126,12 +126,12 @@ TEST_CASE("operations are those of the stage, whoever counts them") {
 TEST_CASE("a run with another mesh is an error that names both backends") {
   for (uint64_t lie_at : {0u, 1u, 3u}) {
     CAPTURE(lie_at);
-    Contender contenders[] = {contender("honest", "scalar", 1), contender("liar", "scalar", 1)};
-    const Result<StageResult> agreed = measureStage(building(), kCell * 32, 3, contenders, [] {});
+    BackendRun backend_runs[] = {backend_run("honest", "scalar", 1), backend_run("liar", "scalar", 1)};
+    const Result<StageResult> agreed = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
     REQUIRE(agreed);
     REQUIRE(agreed->triangles > 0);
-    contenders[1].backend = std::make_shared<LyingBackend>(contenders[1].backend, lie_at);
-    const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
+    backend_runs[1].backend = std::make_shared<LyingBackend>(backend_runs[1].backend, lie_at);
+    const Result<StageResult> result = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
     REQUIRE_FALSE(result);
     CHECK(result.error().code == Code::bad_input);
     CHECK(result.error().message.find("building: the meshes differ: honest (scalar) makes ") == 0);
@@ -140,21 +140,21 @@ TEST_CASE("a run with another mesh is an error that names both backends") {
 }
 
 TEST_CASE("what a device leaves to the CPU is told of each") {
-  Contender contenders[] = {contender("cpu", "scalar", 1), contender("device", "scalar", 1)};
-  contenders[1].backend = std::make_shared<LyingBackend>(contenders[1].backend, kNever);
-  const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
+  BackendRun backend_runs[] = {backend_run("cpu", "scalar", 1), backend_run("device", "scalar", 1)};
+  backend_runs[1].backend = std::make_shared<LyingBackend>(backend_runs[1].backend, kNever);
+  const Result<StageResult> result = measureStage(building(), kCell * 32, 3, backend_runs, [] {});
   REQUIRE(result);
   CHECK(result->rows[0].on_cpu == 0);
   CHECK(result->rows[1].on_cpu == 8);  // two chunks of the one batch of each run
 }
 
 TEST_CASE("errors name the stage and the contender") {
-  const Contender contenders[] = {contender("sequential", "scalar", 1)};
-  const Result<StageResult> result = measureStage(building(), 1, 1, contenders, [] {});
+  const BackendRun backend_runs[] = {backend_run("sequential", "scalar", 1)};
+  const Result<StageResult> result = measureStage(building(), 1, 1, backend_runs, [] {});
   REQUIRE_FALSE(result);
   CHECK(result.error().code == Code::limit);
   CHECK(result.error().message.find("building: sequential: ") == 0);
-  const Contender nobody[] = {absent()};
+  const BackendRun nobody[] = {absent()};
   CHECK_FALSE(measureStage(building(), kCell, 1, nobody, [] {}));
 }
 

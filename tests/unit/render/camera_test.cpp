@@ -39,9 +39,9 @@ TEST_CASE("of two hollows the one with the anchor is taken", "[render]") {
 
   // Far outside, in rock, and in the small hollow.
   const std::vector<glm::vec3> anchors{{200, 0, 0}, {30, 0, 0}, {60, 0, 1}};
-  CameraWish wish;
-  wish.anchors = anchors;
-  auto anchored = chooseCamera(mesh.vertices, mesh.indices, wish);
+  CameraRequest request;
+  request.anchors = anchors;
+  auto anchored = chooseCamera(mesh.vertices, mesh.indices, request);
   REQUIRE(anchored);
   CHECK(anchored->enclosed);
   CHECK(glm::distance(anchored->camera.position, glm::vec3(60, 0, 0)) < 5);
@@ -51,9 +51,9 @@ TEST_CASE("a solid is framed whole from outside", "[render]") {
   const glm::vec3 centre{0, 100, 0};
   const TestMesh mesh = sphereMesh(centre, 30, false);
   for (bool airborne : {false, true}) {
-    CameraWish wish;
-    wish.airborne = airborne;
-    auto view = chooseCamera(mesh.vertices, mesh.indices, wish);
+    CameraRequest request;
+    request.airborne = airborne;
+    auto view = chooseCamera(mesh.vertices, mesh.indices, request);
     REQUIRE(view);
     CHECK(!view->enclosed);
     CHECK((view->camera.position.y < centre.y) == airborne);

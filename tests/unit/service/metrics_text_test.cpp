@@ -59,7 +59,7 @@ TEST_CASE("metrics of random worlds are well formed, with a closed set of names 
                                        "kind",  "heap",    "port",   "version", "code",  "state"};
   for (unsigned round = 0; round < rounds(40); ++round) {
     std::vector<WorldSample> worlds;
-    const size_t count = random.below(kMostWorlds + 1);
+    const size_t count = random.below(kMaxWorlds + 1);
     for (size_t i = 0; i < count; ++i)
       worlds.push_back(random.world("w" + std::to_string(i) + (i % 2 == 0 ? "" : "_-."), round % 2 == 0));
     const Metrics metrics = MetricsReader::read(metricsText(random.service(), worlds));

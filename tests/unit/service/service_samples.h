@@ -169,8 +169,8 @@ class RandomSamples {
     for (uint64_t& count : inspector.seconds) count = within = std::min(all, within + below(30));
     inspector.seconds_sum = static_cast<double>(below(1000)) / 7;
     state.inspects = below(2) == 0;
-    state.most_waiting = 16;
-    state.most_upload_bytes = uint64_t{64} << 20;
+    state.max_waiting = 16;
+    state.max_upload_bytes = uint64_t{64} << 20;
     state.reports = below(65);
     return state;
   }

@@ -207,7 +207,7 @@ TEST_CASE("sixteen worlds are watched, by name, and no more") {
   StreamedWorld streamed;
   const auto worlds = makeWatcher();
   std::vector<sgm_world*> all;
-  for (size_t i = 0; i < kMostWorlds; ++i) {
+  for (size_t i = 0; i < kMaxWorlds; ++i) {
     all.push_back(streamed.make());
     REQUIRE(worlds->watch("w" + std::to_string(99 - i), all.back()));
   }
@@ -215,11 +215,11 @@ TEST_CASE("sixteen worlds are watched, by name, and no more") {
   REQUIRE(!one_more);
   CHECK(one_more.error().code == Code::limit);
   const std::vector<WorldSample> samples = worlds->samples();
-  REQUIRE(samples.size() == kMostWorlds);
+  REQUIRE(samples.size() == kMaxWorlds);
   for (size_t i = 1; i < samples.size(); ++i) CHECK(samples[i - 1].name < samples[i].name);
   worlds->forget(all[3]);
   REQUIRE(worlds->watch("more", streamed.world));
-  CHECK(worlds->samples().size() == kMostWorlds);
+  CHECK(worlds->samples().size() == kMaxWorlds);
 }
 
 }  // namespace sgm::service

@@ -87,7 +87,7 @@ struct Fixture {
       return answer;
     }
     if (admission.body) {
-      REQUIRE(admission.most_bytes >= body.size());
+      REQUIRE(admission.max_bytes >= body.size());
       REQUIRE_FALSE(admission.body->take(body));
     }
     work->answer(request, std::move(admission.body), [answer](Response response) { *answer = std::move(response); });
@@ -230,8 +230,8 @@ TEST_CASE_METHOD(Fixture, "a full queue, and no program, are said before the bod
 }
 
 TEST_CASE_METHOD(Fixture, "only so many bytes come in at one time, and there is room again when an upload ends") {
-  settings.most_incoming_bytes = 20;
-  settings.most_upload_bytes = 10;
+  settings.max_incoming_bytes = 20;
+  settings.max_upload_bytes = 10;
   remake();
   const http::Admission idle = work->admit(upload("model/stl"));
   {

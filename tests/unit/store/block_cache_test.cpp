@@ -22,7 +22,7 @@ struct File {
   std::atomic<int>* wrong;
   BlockCache::Fetch fetch() const {
     return [this](uint64_t offset, size_t bytes) -> Result<std::pmr::vector<std::byte>> {
-      *wrong += offset % BlockCache::kBlock != 0 || bytes > BlockCache::kMostAtOnce * BlockCache::kBlock ||
+      *wrong += offset % BlockCache::kBlock != 0 || bytes > BlockCache::kMaxConcurrent * BlockCache::kBlock ||
                 ((offset + bytes) % BlockCache::kBlock != 0 && offset + bytes != size);
       *fetched += bytes;
       std::pmr::vector<std::byte> all(bytes);
@@ -70,7 +70,7 @@ TEST_CASE("blocks give what their files have, each fetched once while there is r
 TEST_CASE("a file larger than all blocks that are kept is read all the same", "[store]") {
   std::atomic<uint64_t> fetched = 0;
   std::atomic<int> wrong = 0;
-  const File file{3, (BlockCache::kMostBlocks + 9) * BlockCache::kBlock + 5, &fetched, &wrong};
+  const File file{3, (BlockCache::kMaxBlocks + 9) * BlockCache::kBlock + 5, &fetched, &wrong};
   BlockCache cache(std::pmr::get_default_resource());
   for (int again = 0; again < 2; ++again) {
     const auto all = cache.read(file.number, file.size, 0, static_cast<size_t>(file.size), file.fetch(),

@@ -146,14 +146,14 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
   for (uint32_t seed = 1; seed <= rounds(60); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    constexpr size_t kLookers = 4;
-    WorkQueue queue(kLookers);
+    constexpr size_t kPrefetchers = 4;
+    WorkQueue queue(kPrefetchers);
     Clock::time_point now{std::chrono::hours(1)};
     std::vector<WorkItem> model;  // the most urgent last, as in the queue
     std::vector<std::shared_ptr<Look>> looking;
     Clock::time_point progress{};
     const auto sight = [&] { return std::span(model).last(std::min(WorkQueue::kSight, model.size())); };
-    const auto isStalled = [&] { return looking.size() >= kLookers && now - progress >= WorkQueue::kPatience; };
+    const auto isStalled = [&] { return looking.size() >= kPrefetchers && now - progress >= WorkQueue::kPatience; };
     const auto isReady = [&](const WorkItem& item) {
       const bool is_in_sight = &item >= sight().data();
       return item.rank == WorkItem::Rank::edited || (item.look && item.look->has_ended) ||
@@ -165,7 +165,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
       switch (random() % 8) {
         case 0: {
           std::vector<WorkItem> plan;
-          const bool may_look = random() % 4 != 0;
+          const bool may_prefetch = random() % 4 != 0;
           const size_t size = random() % 2 ? random() % 12 : random() % (WorkQueue::kSight + 40);
           std::set<ChunkKey> keys;
           while (keys.size() < size) keys.insert({0, {static_cast<int32_t>(random() % 600), 0, 0}});
@@ -181,11 +181,11 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
             for (const WorkItem& old : sight()) {
               if (old.request.key != item.request.key) continue;
               if (old.request == item.request) item.look = old.look;
-              if (may_look || item.look) item.in_sight_since = old.in_sight_since;
+              if (may_prefetch || item.look) item.in_sight_since = old.in_sight_since;
             }
           }
           model = std::move(next);
-          queue.replace(plan, may_look, now);
+          queue.replace(plan, may_prefetch, now);
           break;
         }
         case 1:
@@ -207,7 +207,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
         case 3:
         case 4:
         case 5: {
-          if (looking.size() == kLookers) break;
+          if (looking.size() == kPrefetchers) break;
           const auto look = std::make_shared<Look>();
           const auto isFound = [](const WorkItem& item) { return item.look && item.look->has_ended; };
           const auto found = static_cast<size_t>(std::ranges::count_if(sight(), isFound));
@@ -215,7 +215,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
           const auto wanted = std::find_if(of.rbegin(), of.rend(), [](const WorkItem& item) {
             return item.look == nullptr && item.rank != WorkItem::Rank::edited;
           });
-          const bool is_there = wanted != of.rend() && found < WorkQueue::kMostFound;
+          const bool is_there = wanted != of.rend() && found < WorkQueue::kMaxFound;
           CHECK((queue.countToLook() > 0) == is_there);
           const auto request = queue.beginLook(look, now);
           REQUIRE(request.has_value() == is_there);

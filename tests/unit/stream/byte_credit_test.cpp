@@ -24,10 +24,10 @@ TEST_CASE("any updates in a row hand over at most their budgets and one item, an
     std::vector<uint64_t> given{0}, budgets{0};  // sums up to each update
     size_t next = 0;
     // Each update spends its budget, unless nothing is waiting; this bounds the number of updates.
-    const uint64_t most_updates = all / std::max<uint64_t>(1, varies ? budget / 2 : budget) + 2 * items.size() + 2;
+    const uint64_t max_updates = all / std::max<uint64_t>(1, varies ? budget / 2 : budget) + 2 * items.size() + 2;
     for (uint64_t updates = 0; next < items.size(); ++updates) {
       if (updates > 4000) break;  // tiny budgets only take long and test nothing new
-      REQUIRE(updates <= 8 * most_updates);
+      REQUIRE(updates <= 8 * max_updates);
       const uint64_t now = varies ? 1 + random() % budget : budget;
       credit.begin(now);
       uint64_t bytes = 0;

@@ -114,7 +114,7 @@ TEST_CASE("an entry that is whole but says what meshing did not is missed, and m
   CHECK(spoiled([&](ChunkPart& p) { p.anchors[0].name = past(names.names); }));
   CHECK(spoiled([&](ChunkPart& p) { p.anchors[0].tag = past(names.tags); }));
   CHECK(spoiled([&](ChunkPart& p) { p.anchors[0].frame.origin.y = inputs->box().lo.y - 1; }));
-  CHECK(spoiled([&](ChunkPart& p) { p.voids.resize(kMostVoidComponents + 1); }));
+  CHECK(spoiled([&](ChunkPart& p) { p.voids.resize(kMaxVoidComponents + 1); }));
   ChunkPart unhashed = good;
   ++unhashed.mesh.hash.b;
   CHECK(!decodes(unhashed));

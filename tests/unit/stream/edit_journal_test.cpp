@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr WorldIdentity kWorld{0x1234567890, 77, 256};
-constexpr size_t kHead = 40, kMostRecord = 87;
+constexpr size_t kHead = 40, kMaxRecord = 87;
 
 struct JournalFolder {
   fs::path path;
@@ -341,7 +341,7 @@ TEST_CASE("a process killed at any moment leaves all that it flushed", "[edits][
     CHECK(journal.operations.size() >= flushed);
     CHECK(beginsWith(all, journal.operations));
     CHECK(journal.damaged.empty());
-    CHECK(journal.cut_bytes <= kMostRecord);
+    CHECK(journal.cut_bytes <= kMaxRecord);
     kept += journal.operations.size();
   }
   CHECK(kept > 0);

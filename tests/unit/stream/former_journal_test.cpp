@@ -2,9 +2,9 @@
 
 #include "base/bytes.h"
 #include "base/checksum.h"
-#include "world/edits_support.h"
 #include "streaming_support.h"
 #include "temporary_folder.h"
+#include "world/edits_support.h"
 #include "world/version_0_2.h"
 
 using namespace sgm;
@@ -42,7 +42,7 @@ TEST_CASE("a world opens its journal of version 0.2, and another world does not"
   settings.lod.finest_cell = kUnitsPerMetre;
   settings.lod.view_distance = 120.0 * kUnitsPerMetre;
   const auto open = [&](const WorldField& field) {
-    return World::create(lent(field), *backend, *jobs, settings, std::pmr::get_default_resource());
+    return World::create(external(field), *backend, *jobs, settings, std::pmr::get_default_resource());
   };
   EditLog edits({1});
   {

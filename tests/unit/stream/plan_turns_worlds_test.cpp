@@ -40,7 +40,7 @@ struct TwoWorlds {
     auto turns = std::make_shared<PlanTurns>(jobs);
     for (std::unique_ptr<World>* world : {&first, &second}) {
       *world = std::move(
-          *World::create(lent(scene.field), *scene.backend, jobs, scene.settings, scene.field.memory(), turns));
+          *World::create(external(scene.field), *scene.backend, jobs, scene.settings, scene.field.memory(), turns));
       move(**world);
       if (world == &first) REQUIRE(jobs.help());
     }

@@ -98,7 +98,7 @@ class PatientBackend final : public Backend {
 };
 
 /// A shared_ptr to a field that outlives all of its users.
-inline std::shared_ptr<const WorldField> lent(const WorldField& field) { return {std::shared_ptr<void>(), &field}; }
+inline std::shared_ptr<const WorldField> external(const WorldField& field) { return {std::shared_ptr<void>(), &field}; }
 
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
@@ -117,7 +117,7 @@ struct Scene {
     Result<std::unique_ptr<Backend>> made = makeBackend(request, *jobs, memory);
     REQUIRE(made);
     backend = std::make_unique<PatientBackend>(std::move(*made));
-    Result<std::unique_ptr<World>> created = World::create(lent(field), *backend, *jobs, settings, memory);
+    Result<std::unique_ptr<World>> created = World::create(external(field), *backend, *jobs, settings, memory);
     REQUIRE(created);
     world = std::move(*created);
   }

@@ -257,7 +257,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     CHECK(scene.world->editHash() == hash);
     CHECK(scene.world->stats().edits > 0);
     const Result<std::unique_ptr<World>> second =
-        World::create(lent(scene.field), *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
+        World::create(external(scene.field), *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
     REQUIRE_FALSE(second);  // another world has the journal open
     CHECK(second.error().code == Code::limit);
   }
@@ -265,7 +265,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
   WorldSettings wrong = other.settings;
   wrong.journal = path;
   const Result<std::unique_ptr<World>> refused =
-      World::create(lent(other.field), *other.backend, *other.jobs, wrong, other.field.memory());
+      World::create(external(other.field), *other.backend, *other.jobs, wrong, other.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::bad_input);
 }

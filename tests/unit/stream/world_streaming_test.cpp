@@ -237,7 +237,7 @@ TEST_CASE("a cap too small to stream with is refused, with how much is needed") 
   WorldSettings settings = scene.settings;
   settings.mesh_bytes = size_t{1} << 20;
   const Result<std::unique_ptr<World>> refused =
-      World::create(lent(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
+      World::create(external(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::limit);
 }
@@ -249,7 +249,7 @@ TEST_CASE("distances that would take too many chunks are refused, with what woul
     settings.lod.finest_distance = finest;
     settings.lod.view_distance = view;
     const Result<std::unique_ptr<World>> world =
-        World::create(lent(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
+        World::create(external(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
     REQUIRE_FALSE(world);
     CHECK(world.error().code == code);
     CHECK(world.error().message.find(says) != std::string::npos);
@@ -273,8 +273,8 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
   }
   CHECK(scene.world->stats().plans > 0);
   // Including the coarser chunks that are drawn until the finer ones are ready.
-  CHECK(scene.world->stats().queued < static_cast<size_t>(kMostExpectedLeaves * 9 / 8));
-  const std::vector<Viewer> many(kMostViewers + 1, viewer);
+  CHECK(scene.world->stats().queued < static_cast<size_t>(kMaxExpectedLeaves * 9 / 8));
+  const std::vector<Viewer> many(kMaxViewers + 1, viewer);
   const Result<void> set = scene.world->setViewers(many);
   REQUIRE_FALSE(set);
   CHECK(set.error().code == Code::limit);

@@ -75,12 +75,12 @@ TEST_CASE("a sheet has walls, water, what lies below, and the cut", "[survey]") 
   REQUIRE(slice);
   CHECK(slice->line.x0 == Approx(4));
   CHECK(slice->line.x1 == Approx(36));
-  SheetWish wish;
-  wish.width = 800;
-  wish.height = 600;
-  wish.title = "rooms.sgm";
+  SheetRequest request;
+  request.width = 800;
+  request.height = 600;
+  request.title = "rooms.sgm";
   SheetFigures figures;
-  const Drawing drawing = drawSheet(columns, &*slice, signsFor(*world.settings().program), wish, figures);
+  const Drawing drawing = drawSheet(columns, &*slice, signsFor(*world.settings().program), request, figures);
   for (const char* name : {"wall", "water", "shore", "under", "cut", "rock", "scale", "north", "room", "beyond"}) {
     INFO(name);
     CHECK(hasMark(drawing, name));

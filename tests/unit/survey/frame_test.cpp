@@ -37,9 +37,9 @@ FrameTarget targetOf(const TestMesh& mesh, glm::vec3 centre, float radius, uint3
   return target;
 }
 
-std::optional<FramedView> frame(const TestMesh& mesh, std::span<const FrameTarget> targets, const RenderCamera& wish,
+std::optional<FramedView> frame(const TestMesh& mesh, std::span<const FrameTarget> targets, const RenderCamera& request,
                                 const std::function<bool(glm::vec3)>& isOpen) {
-  Result<std::optional<FramedView>> view = frameTargets(mesh.vertices, mesh.indices, targets, wish, isOpen);
+  Result<std::optional<FramedView>> view = frameTargets(mesh.vertices, mesh.indices, targets, request, isOpen);
   REQUIRE(view);
   return *view;
 }
@@ -96,11 +96,11 @@ TEST_CASE("the camera shows what is asked for, two thirds of the picture large",
   const glm::vec3 centre{3, 2, -1};
   const TestMesh ball = sphereMesh(centre, 2, false);
   const std::vector<FrameTarget> targets{targetOf(ball, centre, 2)};
-  RenderCamera wish;
-  wish.width = 300;
-  wish.height = 200;
-  wish.fov_degrees = 50;
-  const auto view = frame(ball, targets, wish, [](glm::vec3) { return true; });
+  RenderCamera request;
+  request.width = 300;
+  request.height = 200;
+  request.fov_degrees = 50;
+  const auto view = frame(ball, targets, request, [](glm::vec3) { return true; });
   REQUIRE(view);
   CHECK(view->camera.target == centre);
   CHECK(view->seen == 1);
@@ -108,10 +108,10 @@ TEST_CASE("the camera shows what is asked for, two thirds of the picture large",
   const float distance = glm::distance(view->camera.position, centre);
   CHECK(2 / distance < std::tan(glm::radians(25.0f)));
   CHECK(2 / distance > 0.4f * std::tan(glm::radians(25.0f)));
-  const auto again = frame(ball, targets, wish, [](glm::vec3) { return true; });
+  const auto again = frame(ball, targets, request, [](glm::vec3) { return true; });
   CHECK(again->camera.position == view->camera.position);
   // Without any place for the camera, no view is found.
-  CHECK_FALSE(frame(ball, targets, wish, [](glm::vec3) { return false; }));
+  CHECK_FALSE(frame(ball, targets, request, [](glm::vec3) { return false; }));
 }
 
 TEST_CASE("of two the one that is not hidden is shown, and from the open side", "[frame]") {
@@ -124,11 +124,11 @@ TEST_CASE("of two the one that is not hidden is shown, and from the open side", 
   add(mesh, sphereMesh(hidden, 1.5f, false));
   std::vector<FrameTarget> targets{targetOf(sphereMesh(hidden, 1, false), hidden, 1),
                                    targetOf(other, free, 1, in_ball)};
-  RenderCamera wish;
-  const auto view = frame(mesh, targets, wish, [](glm::vec3) { return true; });
+  RenderCamera request;
+  const auto view = frame(mesh, targets, request, [](glm::vec3) { return true; });
   REQUIRE(view);
   CHECK(view->target == 1);
-  const auto west = frame(mesh, targets, wish, [](glm::vec3 p) { return p.x < 11; });
+  const auto west = frame(mesh, targets, request, [](glm::vec3 p) { return p.x < 11; });
   REQUIRE(west);
   CHECK(west->camera.position.x < 11);
 }

@@ -70,7 +70,7 @@ struct TurnedCube {
   asset::TriangleMesh truth() const { return cube({centre[0], centre[1], centre[2]}, turned(degrees), sides); }
 };
 
-asset::TriangleMesh sharpMesh(const TurnedCube& turned_cube, double cell, const Workshop& shop) {
+asset::TriangleMesh sharpMesh(const TurnedCube& turned_cube, double cell, const ReportContext& shop) {
   const WorldField world(worldOf(compiled(turned_cube.text), cell, 1), std::pmr::get_default_resource());
   const int32_t most = 8 * kUnitsPerMetre;
   return meshedRegion(world, shop, {{-most, -most, -most}, {most, most, most}}, true).mesh;
@@ -79,7 +79,7 @@ asset::TriangleMesh sharpMesh(const TurnedCube& turned_cube, double cell, const 
 }  // namespace
 
 TEST_CASE("cubes at any angle deviate by a twentieth of a cell", "[validity][cubes][costly]") {
-  const Workshop shop;
+  const ReportContext shop;
   double farthest = 0;
   size_t seen = 0;
   for (unsigned seed = 1; seed <= rounds(15); ++seed) {
@@ -107,7 +107,7 @@ TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp
   // A sample that touches an edge often makes a tiny component of its own, 1/256 of a cell wide, which the sharp edge
   // must not enclose. In the first two wedges, it did so.
   constexpr unsigned kFirst = 241;
-  const Workshop shop;
+  const ReportContext shop;
   for (unsigned seed = kFirst; seed < kFirst + rounds(60); ++seed) {
     TurnedCube wedge(seed);
     std::mt19937 random(seed);
@@ -132,7 +132,7 @@ TEST_CASE("wedges whose edges touch samples are valid", "[validity][cubes][sharp
 }
 
 TEST_CASE("a cube at any angle is valid", "[validity][cubes][sharp][costly]") {
-  const Workshop shop;
+  const ReportContext shop;
   size_t seen = 0, valid = 0;
   for (unsigned seed = 1; seed <= rounds(100); ++seed) {
     const TurnedCube turned_cube(seed);

@@ -24,7 +24,7 @@ struct Row {
 };
 
 constexpr double kCells[] = {0.5, 0.25, 0.125};
-constexpr uint64_t kMostChunks = 512;
+constexpr uint64_t kMaxChunks = 512;
 
 const Row kRows[] = {
     {"arches", {-8, -8, -8}, {8, 8, 8}},
@@ -94,7 +94,7 @@ uint64_t seedsWanted() { return std::getenv("SGM_LONG") != nullptr ? 20 : 1; }
 
 void checkTable(bool sharp) {
   const std::filesystem::path folder(SGM_SAMPLE_GRAMMARS);
-  const Workshop shop;
+  const ReportContext shop;
   std::printf("%-16s %5s %5s %6s %9s %10s %8s %6s %5s %7s %6s %7s\n", sharp ? "sharp" : "plain", "cell", "seed",
               "chunks", "triangles", "degenerate", "no area", "folded", "cuts", "3-edges", "others", "seconds");
   size_t rows = 0, invalid = 0;
@@ -109,7 +109,7 @@ void checkTable(bool sharp) {
         const auto start = std::chrono::steady_clock::now();
         const WorldField world(worldOf(program, cell, seed), std::pmr::get_default_resource());
         const MeshedRegion region = meshedRegion(world, shop, boxOf(row), sharp);
-        CHECK(region.chunks <= kMostChunks);
+        CHECK(region.chunks <= kMaxChunks);
         triangles += region.mesh.triangles.size();
         // With many seeds, some have nothing in such a small region.
         if (region.mesh.triangles.empty()) continue;

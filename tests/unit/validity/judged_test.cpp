@@ -18,7 +18,7 @@ unsigned solidsJudged() { return std::getenv("SGM_LONG") != nullptr ? 500 : 20; 
 void judgeSolids(bool sharp) {
   const char* const judge = std::getenv("SGM_JUDGE_CGAL");
   REQUIRE(judge != nullptr);
-  const Workshop shop;
+  const ReportContext shop;
   measure::JudgedMeshes meshes;
   std::vector<std::pair<unsigned, bool>> ours;
   for (unsigned seed = 1; seed <= solidsJudged(); ++seed) {

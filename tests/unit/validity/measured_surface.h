@@ -41,7 +41,7 @@ inline WorldFieldSettings worldOf(std::shared_ptr<const Program> program, double
 }
 
 /// A thread pool of two workers, and a backend.
-struct Workshop {
+struct ReportContext {
   std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
   std::unique_ptr<Backend> backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
 };
@@ -115,7 +115,7 @@ struct MeshedRegion {
 };
 
 /// The mesh of the chunks of one level that meet lo <= p < hi.
-inline MeshedRegion meshedRegion(const WorldField& world, const Workshop& shop, const IntBox& box, bool sharp) {
+inline MeshedRegion meshedRegion(const WorldField& world, const ReportContext& shop, const IntBox& box, bool sharp) {
   const Result<RegionMesh> region = meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
   INFO((region ? "" : region.error().message));
   REQUIRE(region);

@@ -23,7 +23,7 @@ unsigned solidsWanted() { return rounds(100); }
 
 /// Checks the regions of random solids with both cell sizes.
 void checkSolids(bool sharp) {
-  const Workshop shop;
+  const ReportContext shop;
   size_t valid = 0, seen = 0, triangles = 0;
   Faults all;
   for (unsigned seed = 1; seed <= solidsWanted(); ++seed) {
@@ -142,7 +142,7 @@ SeamFaults seamFaultsOf(const std::pmr::vector<PlacedChunk>& chunks, JobSystem& 
 }
 
 void checkTrees(bool sharp) {
-  const Workshop shop;
+  const ReportContext shop;
   size_t good = 0, seen = 0;
   SeamFaults all;
   for (unsigned seed = 1; seed <= solidsWanted(); ++seed) {
@@ -193,7 +193,7 @@ TEST_CASE("random solids are valid with sharp features", "[validity][solids][sha
 TEST_CASE("a speck that an edge grows round stays outside of the solid", "[validity][solids][sharp]") {
   // This seed has a sample that touches the surface beside an edge: the ball around the sample is a component of its
   // own, 1/256 of a cell wide, and the sharp edge, which is exact to 1/25 of a cell, passed beyond it.
-  const Workshop shop;
+  const ReportContext shop;
   std::mt19937 random(312);
   const WorldField world(worldOf(compiled(randomSolid(random)), 0.5, 1), std::pmr::get_default_resource());
   const Faults faults = faultsOf(meshedRegion(world, shop, kAll, true).mesh, nullptr, *shop.jobs);

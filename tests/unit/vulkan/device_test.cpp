@@ -43,9 +43,9 @@ TEST_CASE("an engine's device is used under its lock and left as it was", "[vulk
 TEST_CASE("an engine's device is used without a lock where there is none", "[vulkan]") {
   if (!haveDevice()) return;
   Engine engine;
-  BorrowedDevice lent = engine.lend();
-  lent.lock = lent.unlock = nullptr;
-  const auto device = Device::borrow(lent);
+  BorrowedDevice external = engine.lend();
+  external.lock = external.unlock = nullptr;
+  const auto device = Device::borrow(external);
   REQUIRE(device);
   CHECK(throughAllLayers(**device, std::vector<int32_t>{7}, {}));
   CHECK(engine.locks == 0);
@@ -55,27 +55,28 @@ TEST_CASE("an engine's device that will not do is refused with what it lacks", "
   if (!haveDevice()) return;
   Engine engine;
   const auto refused = [&](Code code, const char* named, auto spoil) {
-    BorrowedDevice lent = engine.lend();
-    spoil(lent);
-    const auto device = Device::borrow(lent);
+    BorrowedDevice external = engine.lend();
+    spoil(external);
+    const auto device = Device::borrow(external);
     REQUIRE(!device);
     INFO(device.error().message);
     CHECK(device.error().code == code);
     CHECK(device.error().message.find(named) != std::string::npos);
   };
   using B = BorrowedDevice;
-  refused(Code::invalid_argument, "vkGetInstanceProcAddr", [](B& lent) { lent.get_instance_proc_addr = nullptr; });
-  refused(Code::invalid_argument, "needs", [](B& lent) { lent.instance = VK_NULL_HANDLE; });
-  refused(Code::invalid_argument, "needs", [](B& lent) { lent.physical = VK_NULL_HANDLE; });
-  refused(Code::invalid_argument, "needs", [](B& lent) { lent.device = VK_NULL_HANDLE; });
-  refused(Code::invalid_argument, "needs", [](B& lent) { lent.queue = VK_NULL_HANDLE; });
-  refused(Code::invalid_argument, "unlock", [](B& lent) { lent.unlock = nullptr; });
-  refused(Code::invalid_argument, "queue family 77", [](B& lent) { lent.family = 77; });
-  refused(Code::unsupported, "1.1", [](B& lent) { lent.api_version = VK_API_VERSION_1_1; });
-  refused(Code::unsupported, "timelineSemaphore", [](B& lent) { lent.timeline_semaphores = false; });
+  refused(Code::invalid_argument, "vkGetInstanceProcAddr",
+          [](B& external) { external.get_instance_proc_addr = nullptr; });
+  refused(Code::invalid_argument, "needs", [](B& external) { external.instance = VK_NULL_HANDLE; });
+  refused(Code::invalid_argument, "needs", [](B& external) { external.physical = VK_NULL_HANDLE; });
+  refused(Code::invalid_argument, "needs", [](B& external) { external.device = VK_NULL_HANDLE; });
+  refused(Code::invalid_argument, "needs", [](B& external) { external.queue = VK_NULL_HANDLE; });
+  refused(Code::invalid_argument, "unlock", [](B& external) { external.unlock = nullptr; });
+  refused(Code::invalid_argument, "queue family 77", [](B& external) { external.family = 77; });
+  refused(Code::unsupported, "1.1", [](B& external) { external.api_version = VK_API_VERSION_1_1; });
+  refused(Code::unsupported, "timelineSemaphore", [](B& external) { external.timeline_semaphores = false; });
   // A resolver that knows no functions, like one of another loader.
-  refused(Code::unsupported, "lacks functions", [](B& lent) {
-    lent.get_instance_proc_addr = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
+  refused(Code::unsupported, "lacks functions", [](B& external) {
+    external.get_instance_proc_addr = [](VkInstance, const char*) -> PFN_vkVoidFunction { return nullptr; };
   });
 }
 
@@ -87,7 +88,7 @@ TEST_CASE("a device of our own is chosen by its number or its kind", "[vulkan]")
     OwnDevice options;
     options.index = static_cast<int>(i);
     const auto device = Device::open(options);
-    CHECK(bool(device) == lackOf((*devices)[i]).empty());
+    CHECK(bool(device) == unsupportedReason((*devices)[i]).empty());
     if (device) CHECK((*device)->info().name == (*devices)[i].name);
   }
   OwnDevice beyond;
@@ -103,7 +104,7 @@ TEST_CASE("a software device is taken only where it was asked for", "[vulkan]") 
   const auto devices = listDevices();
   REQUIRE(devices);
   bool hardware = false;
-  for (const DeviceInfo& info : *devices) hardware = hardware || (!info.software() && lackOf(info).empty());
+  for (const DeviceInfo& info : *devices) hardware = hardware || (!info.software() && unsupportedReason(info).empty());
   const auto device = Device::open();
   CHECK(bool(device) == hardware);
   if (device) CHECK(!(*device)->info().software());

@@ -35,7 +35,7 @@ DeviceInfo goodDevice() {
 
 TEST_CASE("a device that has just enough can be used, of any vendor and kind", "[vulkan]") {
   DeviceInfo info = goodDevice();
-  CHECK(lackOf(info).empty());
+  CHECK(unsupportedReason(info).empty());
   info.subgroup_size = 64;
   info.exact = false;
   for (const uint32_t vendor : {0x1002u, 0x10DEu, 0x8086u, 0x13B5u, 0x10005u}) {
@@ -43,7 +43,7 @@ TEST_CASE("a device that has just enough can be used, of any vendor and kind", "
     for (const auto type : {VK_PHYSICAL_DEVICE_TYPE_OTHER, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
                             VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, VK_PHYSICAL_DEVICE_TYPE_CPU}) {
       info.type = type;
-      CHECK(lackOf(info).empty());
+      CHECK(unsupportedReason(info).empty());
       CHECK(info.software() == (type == VK_PHYSICAL_DEVICE_TYPE_CPU));
     }
   }
@@ -74,7 +74,7 @@ TEST_CASE("a device that lacks one thing is refused by its name", "[vulkan]") {
   for (const auto& lack : lacks) {
     DeviceInfo info = goodDevice();
     lack.spoil(info);
-    const std::string reason = lackOf(info);
+    const std::string reason = unsupportedReason(info);
     INFO(reason);
     CHECK(reason.find(info.name) == 0);
     CHECK(reason.find(lack.named) != std::string::npos);
@@ -88,7 +88,7 @@ TEST_CASE("the devices of this machine say who they are", "[vulkan]") {
   for (const DeviceInfo& info : *devices) {
     CHECK(!info.name.empty());
     CHECK(info.api_version >= VK_API_VERSION_1_0);
-    if (lackOf(info).empty()) {
+    if (unsupportedReason(info).empty()) {
       CHECK(!info.driver.empty());
       CHECK(info.max_allocation >= uint64_t{1} << 30);
     }

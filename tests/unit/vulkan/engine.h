@@ -23,7 +23,7 @@ struct Engine {
     const auto devices = instance->devices();
     REQUIRE(devices);
     for (VkPhysicalDevice candidate : *devices) {
-      if (lackOf(describe(instance->calls(), candidate)).empty()) physical = candidate;
+      if (unsupportedReason(describe(instance->calls(), candidate)).empty()) physical = candidate;
     }
     REQUIRE(physical);
     const float priority = 1;
@@ -54,18 +54,18 @@ struct Engine {
   Engine& operator=(const Engine&) = delete;
 
   BorrowedDevice lend() {
-    BorrowedDevice lent;
-    lent.get_instance_proc_addr = instance->resolver();
-    lent.instance = instance->handle();
-    lent.physical = physical;
-    lent.device = device;
-    lent.queue = queue;
-    lent.lock = [](void* user) { ++static_cast<Engine*>(user)->locks, ++static_cast<Engine*>(user)->held; };
-    lent.unlock = [](void* user) { ++static_cast<Engine*>(user)->unlocks, --static_cast<Engine*>(user)->held; };
-    lent.user = this;
-    lent.api_version = VK_API_VERSION_1_2;
-    lent.timeline_semaphores = true;
-    return lent;
+    BorrowedDevice external;
+    external.get_instance_proc_addr = instance->resolver();
+    external.instance = instance->handle();
+    external.physical = physical;
+    external.device = device;
+    external.queue = queue;
+    external.lock = [](void* user) { ++static_cast<Engine*>(user)->locks, ++static_cast<Engine*>(user)->held; };
+    external.unlock = [](void* user) { ++static_cast<Engine*>(user)->unlocks, --static_cast<Engine*>(user)->held; };
+    external.user = this;
+    external.api_version = VK_API_VERSION_1_2;
+    external.timeline_semaphores = true;
+    return external;
   }
 };
 

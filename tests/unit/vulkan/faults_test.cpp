@@ -62,9 +62,9 @@ Result<std::vector<int32_t>> runOnOwn(const std::shared_ptr<MessageLog>& log) {
 }
 
 Result<std::vector<int32_t>> runOnBorrowed(Engine& engine) {
-  BorrowedDevice lent = engine.lend();
-  lent.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
-  return runOn(Device::borrow(lent));
+  BorrowedDevice external = engine.lend();
+  external.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  return runOn(Device::borrow(external));
 }
 
 /// Makes every function fail that `run` calls, at each call that `wanted` selects; the validation layer must report

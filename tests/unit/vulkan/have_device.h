@@ -29,7 +29,7 @@ inline bool haveDevice() {
     if (!devices) return devices.error().message;
     std::string lacks = "there is no usable Vulkan device";
     for (const DeviceInfo& info : *devices) {
-      const std::string lack = lackOf(info);
+      const std::string lack = unsupportedReason(info);
       if (lack.empty()) return lack;
       lacks += "; " + lack;
     }

@@ -45,11 +45,11 @@ TEST_CASE("the driver's budget is kept where the driver tells it", "[vulkan]") {
   if (!haveDevice()) return;
   Engine engine;
   real_resolver = engine.instance->resolver();
-  BorrowedDevice lent = engine.lend();
-  lent.get_instance_proc_addr = scarceResolver;
+  BorrowedDevice external = engine.lend();
+  external.get_instance_proc_addr = scarceResolver;
   for (const bool told : {true, false}) {
-    lent.memory_budget = told;
-    const auto device = Device::borrow(lent);
+    external.memory_budget = told;
+    const auto device = Device::borrow(external);
     REQUIRE(device);
     Memory memory(**device);
     const auto large = memory.buffer(MemoryKind::device, 3 << 18);

@@ -268,7 +268,7 @@ TEST_CASE("damaged and hostile bytes change nothing", "[edits]") {
   CHECK(differs.error().message == "edit 1 of author 1 already exists with other contents");
   CHECK(knows.size() == 1);
 
-  for (const EditOrder order : {EditOrder{0, {1, 1}}, EditOrder{1, {1, 0}}, EditOrder{kMostEditTime + 1, {1, 1}}}) {
+  for (const EditOrder order : {EditOrder{0, {1, 1}}, EditOrder{1, {1, 0}}, EditOrder{kMaxEditTime + 1, {1, 1}}}) {
     EditOperation none;
     none.order = order;
     none.brush = ball({}, 10);
@@ -308,7 +308,7 @@ TEST_CASE("snapshots are read while the world is edited", "[edits][threads]") {
 
 TEST_CASE("the last time there is does not stop a world", "[edits]") {
   EditOperation last;
-  last.order = {kMostEditTime, {1, 1}};
+  last.order = {kMaxEditTime, {1, 1}};
   last.brush = ball({}, 100);
   EditLog log = logOf(2);
   REQUIRE(log.merge({&last, 1}));

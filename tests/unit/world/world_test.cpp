@@ -101,25 +101,25 @@ TEST_CASE("chunks that need no keys are the same but for these") {
 
 TEST_CASE("cells at hand give the same programs and anchors, and are not asked for again") {
   const WorldField world(settingsOf(yardstick("cave.sgm"), 1024), std::pmr::get_default_resource());
-  CellsAtHand at_hand;
+  CachedCells cached_cells;
   const std::vector<ChunkRequest> requests = requestsOf(world, kHall);
   for (const ChunkRequest& request : requests) {
     const Result<ChunkGrid> grid = chunkGrid(world, request.key);
     REQUIRE(grid);
     const IntBox box = chunkBox(*grid);
-    const auto program = world.compile(box, 0), same = world.compile(box, 0, nullptr, &at_hand);
+    const auto program = world.compile(box, 0), same = world.compile(box, 0, nullptr, &cached_cells);
     REQUIRE((program && same));
     CHECK((*program)->params == (*same)->params);
     REQUIRE((*program)->instrs.size() == (*same)->instrs.size());
     CHECK((*program)->groups.size() == (*same)->groups.size());
-    const auto anchors = world.anchors(box), these = world.anchors(box, &at_hand);
+    const auto anchors = world.anchors(box), these = world.anchors(box, &cached_cells);
     REQUIRE((anchors && these));
     CHECK(anchors->size() == these->size());
   }
-  CHECK_FALSE(at_hand.empty());
+  CHECK_FALSE(cached_cells.empty());
   const CellCacheStats before = world.cacheStats();
   for (const ChunkRequest& request : requests)
-    CHECK(world.compile(chunkBox(*chunkGrid(world, request.key)), 0, nullptr, &at_hand));
+    CHECK(world.compile(chunkBox(*chunkGrid(world, request.key)), 0, nullptr, &cached_cells));
   const CellCacheStats after = world.cacheStats();
   CHECK(after.hits == before.hits);
   CHECK(after.misses == before.misses);

@@ -130,7 +130,7 @@ class LoopQueues {
   LoopQueues(const uint32_t* offsets, size_t first, uint32_t* out) : offsets_(offsets), first_(first), out_(out) {
     for (size_t n = 0; n < kLengths; ++n) {
       next_[kShortest + n] = waiting_[n];
-      full_[kShortest + n] = waiting_[n] + kMostWaiting;
+      full_[kShortest + n] = waiting_[n] + kMaxWaiting;
     }
   }
 
@@ -155,8 +155,8 @@ class LoopQueues {
 
  private:
   static constexpr size_t kShortest = 3, kLengths = kLongestCubeLoop - kShortest + 1;
-  static constexpr size_t kMostWaiting = 32;
-  static_assert(kMostWaiting % kLanes == 0);
+  static constexpr size_t kMaxWaiting = 32;
+  static_assert(kMaxWaiting % kLanes == 0);
 
   template <class Place>
   FN void push(const Place& place, const uint8_t* edges, size_t length) {
@@ -226,7 +226,7 @@ class LoopQueues {
   size_t first_;
   uint32_t* out_;
   WaitingLoop *next_[kShortest + kLengths], *full_[kShortest + kLengths];  ///< by length
-  WaitingLoop waiting_[kLengths][kMostWaiting];
+  WaitingLoop waiting_[kLengths][kMaxWaiting];
 };
 static_assert(kLongestCubeLoop == 7);
 

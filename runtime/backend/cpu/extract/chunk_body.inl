@@ -82,8 +82,8 @@ void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool ke
   part.hash = {};
   if (vertices == 0) return;
 
-  scratch.offsets.grow(0, vertices + kMostLanes);
-  scratch.growPlaces(vertices + kMostLanes);
+  scratch.offsets.grow(0, vertices + kMaxLanes);
+  scratch.growPlaces(vertices + kMaxLanes);
   scratch.numbers.grow(0, 2 * kPlane);
   uint32_t* const numbers[2] = {scratch.numbers.data(), scratch.numbers.data() + kPlane};
   LoopQueues queues(scratch.offsets.data(), 0, part.indices.data());

@@ -53,11 +53,11 @@ struct ListCounts {
 };
 
 /// Lanes of the widest vector. A pass may write up to this number of elements past the end of a list.
-inline constexpr size_t kMostLanes = 16;
+inline constexpr size_t kMaxLanes = 16;
 
 /// Capacities of the lists for `rows` rows: of edges (packed as in lattice.inl), and of cells.
-constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMostLanes; }
-constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMostLanes; }
+constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMaxLanes; }
+constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMaxLanes; }
 
 /// Bounds of the vertices that a slab owns, in 1/256 of a cell; lo is above hi if it has none.
 struct GridBounds {
@@ -83,7 +83,7 @@ struct GridSlab {
 /// Working memory for one slab, which need not be initialised.
 struct GridScratch {
   uint32_t* numbers = nullptr;  ///< capacity 2 * size[0] * size[1]
-  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane below it, plus kMostLanes
+  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane below it, plus kMaxLanes
 };
 
 inline constexpr int kBrickSamples = 8;                      ///< per axis; the last brick of a chunk has one more

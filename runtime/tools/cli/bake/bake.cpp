@@ -140,29 +140,29 @@ Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::T
 
 Exit bake(const BakeOptions& options) {
   const Stopwatch watch;
-  if (const Result<void> can = store::available(); !can) return complain(can.error());
+  if (const Result<void> can = store::available(); !can) return reportError(can.error());
   const std::optional<std::pair<int, int>> levels = readLevels(options.levels);
   const std::optional<std::pair<uint64_t, uint64_t>> shard = readShard(options.shard.empty() ? "0/1" : options.shard);
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   const Result<std::string> text = readGrammarText(options.file);
-  if (!text) return complain(text.error());
+  if (!text) return reportError(text.error());
   const store::BakedRegion region{opened.region, levels->first, levels->second, opened.settings.finest_cell};
-  if (const Result<void> good = store::check(region); !good) return complain(good.error());
+  if (const Result<void> good = store::check(region); !good) return reportError(good.error());
 
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return reportError(jobs.error());
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
-  if (!backend) return complain(backend.error());
-  if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
+  if (!backend) return reportError(backend.error());
+  if (!(*backend)->capabilities().exact) return reportError(Exit::backend, kNotExact);
   const WorldField world(opened.settings, std::pmr::new_delete_resource());
-  if (const Result<void> here = store::checkHere(options.out); !here) return complain(here.error());
+  if (const Result<void> here = store::checkHere(options.out); !here) return reportError(here.error());
   const store::Folder folder(options.out);
   Result<store::Bakery> bakery =
       store::bakeryOf(world, **backend, **jobs, region, options.sharp, folder, std::pmr::new_delete_resource());
-  if (!bakery) return complain(bakery.error());
+  if (!bakery) return reportError(bakery.error());
   bakery->unfinished = &unfinished_files;
-  if (const Result<void> made = options.merge ? folder.check() : folder.make(); !made) return complain(made.error());
+  if (const Result<void> made = options.merge ? folder.check() : folder.make(); !made) return reportError(made.error());
   Report report;
   const auto finish = [&] {
     report.seconds = watch.seconds();
@@ -174,10 +174,10 @@ Exit bake(const BakeOptions& options) {
     report.there_before = baked && *baked;
     return baked;
   };
-  if (const Result<bool> there = isThere(); !there || *there) return there ? finish() : complain(there.error());
+  if (const Result<bool> there = isThere(); !there || *there) return there ? finish() : reportError(there.error());
 
   if (!options.merge) {
-    if (const Result<void> made = store::makeFolder(bakery->folder); !made) return complain(made.error());
+    if (const Result<void> made = store::makeFolder(bakery->folder); !made) return reportError(made.error());
     const std::vector<store::TileKey> tiles = store::tilesOf(region);
     const Result<std::vector<uint64_t>> costs = [&] {
       ProgressBar bar("planning");
@@ -186,14 +186,14 @@ Exit bake(const BakeOptions& options) {
         return true;
       });
     }();
-    if (!costs) return complain(costs.error());
+    if (!costs) return reportError(costs.error());
     if (options.slurm != 0) return bakeBySlurm(options, store::nameOf(bakery->job), isThere);
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
     const Result<Report> baked = bakeTiles(*bakery, tiles, *costs, first, last);
     if (!baked) {
       // If another process has baked and merged the same tiles meanwhile, this is not an error.
       const Result<bool> there = isThere();
-      return there && *there ? finish() : complain(baked.error());
+      return there && *there ? finish() : reportError(baked.error());
     }
     report = *baked;
     if (!options.shard.empty()) return finish();
@@ -209,7 +209,7 @@ Exit bake(const BakeOptions& options) {
     };
     return store::merge(folder, *bakery, manifest, progress, patience);
   });
-  if (!merged) return complain(merged.error());
+  if (!merged) return reportError(merged.error());
   for (const std::string& warning : merged->warnings) fmt::print(stderr, "sgm: warning: {}\n", warning);
   report.there_before = merged->there_before;
   report.merged = *merged;

@@ -71,13 +71,13 @@ Error withoutSlurm(const Error& error) {
 
 Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere) {
   const Result<SlurmBake> bake = slurmBakeOf(options, name);
-  if (!bake) return complain(bake.error());
-  if (const Result<void> made = store::makeFolder(bake->folder); !made) return complain(made.error());
+  if (!bake) return reportError(bake.error());
+  if (const Result<void> made = store::makeFolder(bake->folder); !made) return reportError(made.error());
   const Result<std::optional<SlurmJobs>> found = findJobs(*bake);
-  if (!found) return complain(withoutSlurm(found.error()));
+  if (!found) return reportError(withoutSlurm(found.error()));
   const bool is_new = !found->has_value();
   const Result<SlurmJobs> jobs = is_new ? submitJobs(*bake) : Result<SlurmJobs>(**found);
-  if (!jobs) return complain(withoutSlurm(jobs.error()));
+  if (!jobs) return reportError(withoutSlurm(jobs.error()));
   fmt::print(stderr,
              "sgm: Slurm jobs {} (shards), {} (merge) and {} (verification) {}; stopping this program does not end "
              "them, scancel does\n",
@@ -91,18 +91,18 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
       state = stateOf(*jobs);
     }
   }
-  if (!state) return complain(withoutSlurm(state.error()));
+  if (!state) return reportError(withoutSlurm(state.error()));
   const Result<bool> there = isThere();
   report(options, *jobs, *state, there && *there);
   if (options.detach) return Exit::done;
-  if (!there) return complain(there.error());
+  if (!there) return reportError(there.error());
   if (*there && state->verification == "COMPLETED") return Exit::done;
   if (*there && state->verification.empty()) {
-    return complain(Exit::input,
-                    "the world is in the store, but Slurm does not report how its verification ended: check it with "
-                    "sgm store verify");
+    return reportError(Exit::input,
+                       "the world is in the store, but Slurm does not report how its verification ended: check it with "
+                       "sgm store verify");
   }
-  return complain(
+  return reportError(
       Exit::input,
       fmt::format(
           "some of the jobs did not succeed: '{}' has their output; run the same command again to bake what is missing",

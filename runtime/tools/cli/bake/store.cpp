@@ -68,8 +68,8 @@ Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)
 
 /// The member "origin" of a world's manifest; nullopt if it cannot be read.
 std::optional<Json> originOf(const fs::path& manifest) {
-  constexpr uint64_t kMostManifest = uint64_t{64} << 20;
-  const Result<std::string> text = readFile(manifest, kMostManifest);
+  constexpr uint64_t kMaxManifest = uint64_t{64} << 20;
+  const Result<std::string> text = readFile(manifest, kMaxManifest);
   if (!text) return std::nullopt;
   const nlohmann::json json = nlohmann::json::parse(*text, nullptr, false);
   if (!json.is_object()) return std::nullopt;
@@ -97,29 +97,29 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, J
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return reportError(jobs.error());
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
-  if (!backend) return complain(backend.error());
-  if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
+  if (!backend) return reportError(backend.error());
+  if (!(*backend)->capabilities().exact) return reportError(Exit::backend, kNotExact);
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const WorldField world(opened.settings, memory);
   const Result<store::ContentId> key = store::worldKey(folder, world, options.sharp);
-  if (!key) return complain(key.error());
+  if (!key) return reportError(key.error());
   std::error_code error;
   if (!fs::exists(folder.world(*key), error)) {
-    return complain(
+    return reportError(
         Exit::input,
         fmt::format(
             "'{}' has no bake of '{}' with this seed, these parameters and cells: sgm store info lists its bakes",
             options.store, options.file));
   }
   const Result<store::WorldFile> file = store::WorldFile::open(folder.world(*key));
-  if (!file) return complain(file.error());
+  if (!file) return reportError(file.error());
   const Result<store::Bakery> bakery =
       store::bakeryOf(world, **backend, **jobs, file->index.region, options.sharp, folder, memory);
-  if (!bakery) return complain(bakery.error());
+  if (!bakery) return reportError(bakery.error());
   const Result<store::Compared> compared = store::compareWithBaking(*bakery, *file, options.samples, options.draw);
-  if (!compared) return complain(compared.error());
+  if (!compared) return reportError(compared.error());
   tell(compared->problems);
   json["baked_again"] = {{"chunks", compared->chunks}, {"problems", compared->problems.count}};
   if (!options.json) {
@@ -134,14 +134,14 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, J
 Exit storeInfo(const StoreOptions& options) {
   const store::Folder folder(options.store);
   const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
-  if (!worlds) return complain(worlds.error());
+  if (!worlds) return reportError(worlds.error());
   Json all = Json::array();
   Exit status = Exit::done;
   for (const Result<store::WorldFile>& world : *worlds) {
     const Result<store::WorldSummary> summary =
         world ? store::summaryOf(*world, std::pmr::new_delete_resource()) : Result<store::WorldSummary>(world.error());
     if (!summary) {
-      status = complain(summary.error());
+      status = reportError(summary.error());
       continue;
     }
     const store::BakedRegion& region = world->index.region;
@@ -179,9 +179,9 @@ Exit storeInfo(const StoreOptions& options) {
 Exit storeVerify(const StoreVerifyOptions& options) {
   const store::Folder folder(options.store);
   const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
-  if (!worlds) return complain(worlds.error());
+  if (!worlds) return reportError(worlds.error());
   if (worlds->empty()) {
-    return complain(
+    return reportError(
         Exit::input,
         fmt::format("'{}' has no worlds to verify: bake one with sgm bake, or merge shards with sgm bake --merge",
                     options.store));
@@ -194,7 +194,7 @@ Exit storeVerify(const StoreVerifyOptions& options) {
   Json all = Json::array();
   for (const Result<store::WorldFile>& world : *worlds) {
     if (!world) {
-      status = complain(world.error());
+      status = reportError(world.error());
       continue;
     }
     const store::Verified found = [&] {
@@ -229,18 +229,18 @@ Exit storeVerify(const StoreVerifyOptions& options) {
 Exit storeDiff(const StoreDiffOptions& options) {
   const store::Folder from(options.store), to(options.other);
   const Result<store::WorldFile> before = worldOf(from, options.from), after = worldOf(to, options.to);
-  if (!before) return complain(before.error());
-  if (!after) return complain(after.error());
+  if (!before) return reportError(before.error());
+  if (!after) return reportError(after.error());
   if (before->index.region.finest_cell != after->index.region.finest_cell) {
-    return complain(Exit::input,
-                    fmt::format("the worlds have cells of {} and {} m: only worlds with equal cells can be compared",
-                                metres(before->index.region.finest_cell), metres(after->index.region.finest_cell)));
+    return reportError(Exit::input,
+                       fmt::format("the worlds have cells of {} and {} m: only worlds with equal cells can be compared",
+                                   metres(before->index.region.finest_cell), metres(after->index.region.finest_cell)));
   }
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   std::set<store::ContentId> had;
   for (const store::TileEntry& tile : before->index.tiles) {
     const Result<store::TileRecord> record = before->record(tile, memory);
-    if (!record) return complain(record.error());
+    if (!record) return reportError(record.error());
     for (const store::StoredContent& content : record->contents) had.insert(content.id);
   }
   uint64_t changed = 0, added = 0, removed = 0, bytes = 0;
@@ -263,8 +263,8 @@ Exit storeDiff(const StoreDiffOptions& options) {
       return world.record(*entry, memory);
     };
     const Result<store::TileRecord> old = recordOf(*before), now = recordOf(*after);
-    if (!old) return complain(old.error());
-    if (!now) return complain(now.error());
+    if (!old) return reportError(old.error());
+    if (!now) return reportError(now.error());
     for (const store::StoredContent& content : now->contents) {
       if (had.insert(content.id).second) bytes += content.stored;
     }
@@ -294,11 +294,11 @@ Exit storeDiff(const StoreDiffOptions& options) {
 
 Exit storeClean(const StoreOptions& options) {
   const store::Folder folder(options.store);
-  if (const Result<void> can = store::available(); !can) return complain(can.error());
-  if (const Result<void> good = checkFolder(folder); !good) return complain(good.error());
+  if (const Result<void> can = store::available(); !can) return reportError(can.error());
+  if (const Result<void> good = checkFolder(folder); !good) return reportError(good.error());
   const Result<store::Cleaned> cleaned =
       inTurn(folder, [&](auto patience) { return store::clean(folder, std::pmr::new_delete_resource(), patience); });
-  if (!cleaned) return complain(cleaned.error());
+  if (!cleaned) return reportError(cleaned.error());
   if (options.json) {
     fmt::print("{}\n",
                Json{{"packs", cleaned->packs}, {"bytes", cleaned->bytes}, {"unfinished", cleaned->unfinished}}.text());

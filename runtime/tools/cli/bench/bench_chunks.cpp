@@ -151,8 +151,8 @@ void print(const BenchChunksOptions& options, const std::vector<Row>& rows) {
 
 Exit benchChunks(const BenchChunksOptions& options) {
   if (options.backend == "vulkan" || options.backend == "cuda")
-    return complain(Exit::usage,
-                    "--backend: this command measures only the processor; compare devices with sgm bench paper");
+    return reportError(Exit::usage,
+                       "--backend: this command measures only the processor; compare devices with sgm bench paper");
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   std::vector<Row> rows;
@@ -162,7 +162,7 @@ Exit benchChunks(const BenchChunksOptions& options) {
     if (options.threads != 1) threads.push_back(options.threads);
     for (const unsigned count : threads) {
       Result<Row> row = Contest(opened, options, set.kernels->name, count).run(opened.region);
-      if (!row) return complain(row.error());
+      if (!row) return reportError(row.error());
       // On a machine with one processor, the row for all processors repeats the row for one thread.
       if (count != 1 && row->threads == 1) continue;
       rows.push_back(std::move(*row));
@@ -177,8 +177,8 @@ Exit benchChunks(const BenchChunksOptions& options) {
   }
   for (const Row& row : rows) {
     if (row.hash == rows.front().hash) continue;
-    return complain(Exit::input, fmt::format("{} with {} threads makes other meshes than {}: please report this bug",
-                                             row.set, row.threads, rows.front().set));
+    return reportError(Exit::input, fmt::format("{} with {} threads makes other meshes than {}: please report this bug",
+                                                row.set, row.threads, rows.front().set));
   }
   return Exit::done;
 }

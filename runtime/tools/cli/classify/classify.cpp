@@ -25,8 +25,8 @@ Result<std::string> reportOf(const asset::TriangleMesh& mesh, const ClassifyOpti
   return json.text() + "\n";
 }
 
-Exit printOrComplain(const Result<std::string>& text) {
-  if (!text) return complain(text.error());
+Exit printOrReportError(const Result<std::string>& text) {
+  if (!text) return reportError(text.error());
   fmt::print("{}", *text);
   return Exit::done;
 }
@@ -43,14 +43,14 @@ Result<std::string> classifyFile(const ClassifyOptions& options) {
 
 Exit classifyGrammar(const ClassifyOptions& options) {
   const Result<masters::OpenedBase> base = mastersOf(options.masters);
-  if (!base) return complain(base.error());
+  if (!base) return reportError(base.error());
   RegionPlan plan;
   plan.choose = [](const WorldField& world) { return blockRegion(*world.settings().program, 1); };
   const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   Json json = toJson(options, *made.region);
   json["file"] = options.file;
-  return printOrComplain(
+  return printOrReportError(
       reportOf(trianglesOf(*made.region), options, *base, 1 / metres(made.region->cell), std::move(json)));
 }
 
@@ -75,7 +75,7 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
 
 Exit classifyMesh(const ClassifyOptions& options) {
   if (options.sandbox.sandboxed) return answerFromSandbox(options.sandbox, [&] { return classifyFile(options); });
-  return isGrammarFile(options.file) ? classifyGrammar(options) : printOrComplain(askSandbox(options.sandbox));
+  return isGrammarFile(options.file) ? classifyGrammar(options) : printOrReportError(askSandbox(options.sandbox));
 }
 
 }  // namespace sgm::cli

@@ -15,17 +15,17 @@ namespace sgm::cli {
 namespace {
 
 /// For any file that the process writes: more than an answer or a base needs.
-constexpr uint64_t kMostFileBytes = uint64_t{256} << 20;
+constexpr uint64_t kMaxFileBytes = uint64_t{256} << 20;
 /// For its streams, a base with its journal, and files that libraries open briefly.
-constexpr uint64_t kMostDescriptors = 32;
+constexpr uint64_t kMaxDescriptors = 32;
 constexpr int kStandardInput = 0, kStandardOutput = 1;
 
 void holdTo(const InspectOptions& options) {
   platform::ProcessLimits limits;
   limits.memory_bytes = options.memory << 20;
   limits.cpu_seconds = static_cast<double>(options.seconds);
-  limits.file_bytes = kMostFileBytes;
-  limits.open_files = kMostDescriptors;
+  limits.file_bytes = kMaxFileBytes;
+  limits.open_files = kMaxDescriptors;
   platform::sandboxThisProcess(limits);
 }
 
@@ -118,7 +118,7 @@ Exit inspect(const InspectOptions& options) {
   } catch (const std::bad_alloc&) {
     bytes = framed({toJson(outOfMemory(options)), {}});
   }
-  return writeOutput(bytes) ? Exit::done : complain(Exit::file, "cannot write to standard output");
+  return writeOutput(bytes) ? Exit::done : reportError(Exit::file, "cannot write to standard output");
 }
 
 }  // namespace sgm::cli

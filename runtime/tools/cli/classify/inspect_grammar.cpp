@@ -16,7 +16,7 @@ namespace {
 
 /// Maximum number of chunks. `sgm classify` has the same maximum if no region is given; here it also applies to a given
 /// region.
-constexpr uint64_t kMostChunks = 4096;
+constexpr uint64_t kMaxChunks = 4096;
 
 Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics) {
   Json list = Json::array();
@@ -67,7 +67,7 @@ Result<WorldOptions> worldOptions(const InspectOptions& options) {
   world.sets = options.sets;
   world.region = options.region;
   world.backend = "cpu";
-  world.max_chunks = kMostChunks;
+  world.max_chunks = kMaxChunks;
   if (!options.seed.empty()) {
     const Result<uint64_t> seed = numberOf<uint64_t>("seed", options.seed, "a whole number from 0 to 2^64 - 1");
     if (!seed) return seed.error();

@@ -66,32 +66,32 @@ Result<masters::MasterSet> build(const MastersBuildOptions& options) {
 Exit buildMasters(const MastersBuildOptions& options) {
   const std::string out = options.out.empty() && options.emit.empty() ? masters::defaultBase().string() : options.out;
   if (out.empty() && options.emit.empty()) {
-    return complain(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: name the database with --out");
+    return reportError(Exit::usage, "neither $XDG_DATA_HOME nor $HOME is set: name the database with --out");
   }
   // Report an unwritable file before the long work.
   if (!out.empty()) {
     if (options.out.empty()) {
-      if (const Result<masters::OpenedBase> there = mastersOf({}); !there) return complain(there.error());
+      if (const Result<masters::OpenedBase> there = mastersOf({}); !there) return reportError(there.error());
     }
-    if (const Result<void> can = masters::checkWritable(out); !can) return complain(can.error());
+    if (const Result<void> can = masters::checkWritable(out); !can) return reportError(can.error());
   }
   std::optional<FileWriter> source;
   if (!options.emit.empty()) {
     Result<FileWriter> writer = FileWriter::create(options.emit, &unfinished_files);
-    if (!writer) return complain(writer.error());
+    if (!writer) return reportError(writer.error());
     source.emplace(std::move(*writer));
   }
   const Stopwatch watch;
   const Result<masters::MasterSet> set = build(options);
-  if (!set) return complain(set.error());
+  if (!set) return reportError(set.error());
   if (source) {
     source->write(masters::sourceOf(
         *set, fmt::format("sgm masters build --models {} --seed {} --emit FILE", options.models, options.seed)));
-    if (const Result<void> done = source->commit(); !done) return complain(done.error());
+    if (const Result<void> done = source->commit(); !done) return reportError(done.error());
     fmt::print("{}: ", options.emit);
   }
   if (!out.empty()) {
-    if (const Result<void> done = masters::writeBase(out, *set); !done) return complain(done.error());
+    if (const Result<void> done = masters::writeBase(out, *set); !done) return reportError(done.error());
     fmt::print("{}: ", out);
   }
   fmt::print("{} reference histograms of {} models, {:.1f} s\n{}", set->masters.size(),
@@ -101,7 +101,7 @@ Exit buildMasters(const MastersBuildOptions& options) {
 
 Exit listMasters(const MastersListOptions& options) {
   const Result<masters::OpenedBase> base = mastersOf(options.file);
-  if (!base) return complain(base.error());
+  if (!base) return reportError(base.error());
   if (options.json) {
     fmt::print("{}\n", Json{{"masters", base->from}, {"keys", keysJson(base->set)}}.text());
     return Exit::done;

@@ -19,9 +19,9 @@ bool isPlace(const asset::Point& p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Keeps every n-th triangle of a mesh that simplification cannot reduce to kMostPreviewTriangles.
+/// Keeps every n-th triangle of a mesh that simplification cannot reduce to kMaxPreviewTriangles.
 void thinOut(std::vector<uint32_t>& indices) {
-  const size_t count = indices.size() / 3, step = (count + kMostPreviewTriangles - 1) / kMostPreviewTriangles;
+  const size_t count = indices.size() / 3, step = (count + kMaxPreviewTriangles - 1) / kMaxPreviewTriangles;
   size_t kept = 0;
   for (size_t i = 0; i < count; i += step, ++kept)
     std::copy_n(indices.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
@@ -75,7 +75,7 @@ void dropFolded(std::vector<uint32_t>& indices, const std::vector<Position>& pos
 /// Collapses edges first, which rarely turns a triangle over. If the mesh has too many separate parts to keep each, its
 /// points are then clustered, which collapses some parts to specks.
 void simplify(std::vector<uint32_t>& indices, std::vector<Position>& positions) {
-  constexpr size_t kMost = 3 * kMostPreviewTriangles;
+  constexpr size_t kMost = 3 * kMaxPreviewTriangles;
   constexpr float kAnyError = 1;
   weld(indices, positions);
   std::vector<uint32_t> fewer(indices.size());
@@ -119,7 +119,7 @@ Preview previewOf(const asset::TriangleMesh& mesh) {
     const asset::Point p = isPlace(mesh.points[i]) ? mesh.points[i] - centre : asset::Point{};
     positions[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   }
-  if (indices.size() > 3 * kMostPreviewTriangles) simplify(indices, positions);
+  if (indices.size() > 3 * kMaxPreviewTriangles) simplify(indices, positions);
   preview.positions.resize(positions.size());
   const size_t used = meshopt_optimizeVertexFetch(preview.positions.data(), indices.data(), indices.size(),
                                                   positions.data(), positions.size(), sizeof(Position));

@@ -10,12 +10,12 @@
 
 namespace sgm::cli {
 
-inline constexpr size_t kMostPreviewTriangles = 60'000;
+inline constexpr size_t kMaxPreviewTriangles = 60'000;
 
 struct Preview {
   asset::Point origin;                          ///< in the coordinates of the mesh; positions are relative to it
   std::vector<std::array<float, 3>> positions;  ///< finite; triangles use every position
-  /// Three for each triangle; at most kMostPreviewTriangles triangles, unless the mesh cannot be simplified so far.
+  /// Three for each triangle; at most kMaxPreviewTriangles triangles, unless the mesh cannot be simplified so far.
   std::vector<uint32_t> indices;
   std::array<float, 3> low{}, high{};  ///< bounds of the positions
 };

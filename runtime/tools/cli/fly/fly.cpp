@@ -46,11 +46,11 @@ struct Scene {
   sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
 };
 
-Exit reportError(const sgm_error& error) {
+Exit reportApiError(const sgm_error& error) {
   const Exit status = error.code == SGM_ERR_UNSUPPORTED ? Exit::backend
                       : error.code == SGM_ERR_IO        ? Exit::file
                                                         : Exit::input;
-  return complain(status, error.message);
+  return reportError(status, error.message);
 }
 
 /// Prints warnings of the world to stderr: a damaged journal, an unwritable folder.
@@ -78,11 +78,11 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   const std::string pipelines = pipelineFolder();
   if (!pipelines.empty()) runtime_desc.pipeline_folder = pipelines.c_str();
   sgm_runtime* runtime = nullptr;
-  if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return reportError(error);
+  if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return reportApiError(error);
   scene.runtime.reset(runtime);
 
   const Result<std::string> text = readGrammarText(options.file);
-  if (!text) return complain(text.error());
+  if (!text) return reportError(text.error());
   const std::string folder = std::filesystem::path(options.file).parent_path().string();
   sgm_grammar_desc grammar_desc = SGM_GRAMMAR_DESC_INIT;
   grammar_desc.text = text->data();
@@ -90,20 +90,20 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   grammar_desc.name = options.file.c_str();
   grammar_desc.import_folder = folder.empty() ? "." : folder.c_str();
   sgm_grammar* grammar = nullptr;
-  if (sgm_grammar_compile(runtime, &grammar_desc, &grammar, nullptr, &error) != SGM_OK) return reportError(error);
+  if (sgm_grammar_compile(runtime, &grammar_desc, &grammar, nullptr, &error) != SGM_OK) return reportApiError(error);
   scene.grammar.reset(grammar);
   sgm_parameters* parameters = nullptr;
-  if (sgm_parameters_create(grammar, &parameters, &error) != SGM_OK) return reportError(error);
+  if (sgm_parameters_create(grammar, &parameters, &error) != SGM_OK) return reportApiError(error);
   scene.parameters.reset(parameters);
   for (const std::string& set : options.sets) {
     const size_t equals = set.find('=');
     if (sgm_parameters_set_text(parameters, set.substr(0, equals).c_str(), set.substr(equals + 1).c_str(), &error) !=
         SGM_OK)
-      return reportError(error);
+      return reportApiError(error);
   }
 
   const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return complain(cell.error());
+  if (!cell) return reportError(cell.error());
   scene.cell = *cell;
   sgm_field_desc& field_desc = scene.field_desc;
   field_desc.grammar = grammar;
@@ -112,7 +112,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   field_desc.cell_units = *cell;
   field_desc.backend = backendNamed(options.backend);
   sgm_field* field = nullptr;
-  if (sgm_field_create(runtime, &field_desc, &field, &error) != SGM_OK) return reportError(error);
+  if (sgm_field_create(runtime, &field_desc, &field, &error) != SGM_OK) return reportApiError(error);
   scene.field.reset(field);
 
   sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
@@ -136,7 +136,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   // Measures are reported for the first flight only.
   if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
   sgm_world* world = nullptr;
-  if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportError(error);
+  if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportApiError(error);
   scene.world.reset(world);
   return Exit::done;
 }
@@ -217,17 +217,17 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   std::optional<Serving> serving;
   if (serves) {
     Result<Serving> started = serveWorld(options, scene);
-    if (!started) return {{}, complain(started.error())};
+    if (!started) return {{}, reportError(started.error())};
     serving = std::move(*started);
   }
   Result<FlightPath> path = pathOf(options, scene);
-  if (!path) return {{}, complain(path.error())};
+  if (!path) return {{}, reportError(path.error())};
   FlightSettings settings = settingsOf(options, scene);
   std::optional<FlightAnimation> animation;
   if (options.animate) {
     Result<FlightAnimation> made =
         FlightAnimation::of(scene.runtime.get(), scene.field_desc, scene.parameters.get(), options.animated);
-    if (!made) return {{}, complain(made.error())};
+    if (!made) return {{}, reportError(made.error())};
     animation = std::move(*made);
     settings.each_frame = [&](double seconds) { return animation->show(scene.world.get(), seconds); };
   }
@@ -251,14 +251,14 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   bar.reset();
   // Write the journal before everything else that may fail, since the dug edits exist only in this process.
   const Result<void> kept = keepEdits(scene);
-  if (!kept && !report) return {{}, complain(kept.error())};
+  if (!kept && !report) return {{}, reportError(kept.error())};
   if (signals && signals->came() && !report) {
     fmt::print(stderr, "stopped before the end of the flight: there is no report\n");
     return {{}, Exit::done};
   }
-  if (!report && report.error().code != Code::cancelled) return {{}, complain(report.error())};
+  if (!report && report.error().code != Code::cancelled) return {{}, reportError(report.error())};
   if (pictures != nullptr) {
-    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, complain(drawn.error())};
+    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, reportError(drawn.error())};
   }
   Flown flown;
   if (pictures != nullptr) flown.lights = pictures->lights();
@@ -269,16 +269,17 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
     flown.fields_drawn = animation->drawn();
   }
   const Result<uint64_t> hash = hashAround(scene, last);
-  if (!hash) return {{}, complain(hash.error())};
+  if (!hash) return {{}, reportError(hash.error())};
   flown.hash = *hash;
   sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
   sgm_error error = SGM_ERROR_INIT;
   if (options.measure && pictures != nullptr) {
     flown.measures = SGM_WORLD_MEASURES_INIT;
-    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK) return {{}, reportError(error)};
+    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK)
+      return {{}, reportApiError(error)};
   }
   if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
-    return {{}, reportError(error)};
+    return {{}, reportApiError(error)};
   if (!kept) flown.edits_lost = kept.error();
   if (signals) signals->wait();
   return {std::move(flown), Exit::done};
@@ -289,7 +290,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
 Exit fly(const FlyOptions& options) {
   if (const LoadedGrammar loaded = loadGrammar(options.file); loaded.program == nullptr) return loaded.status;
   FlyPictures pictures(options);
-  if (Result<void> begun = pictures.begin(); !begun) return complain(begun.error());
+  if (Result<void> begun = pictures.begin(); !begun) return reportError(begun.error());
   const FlightResult flight = flyOnce(options, &pictures);
   if (!flight.flown) return flight.status;
   std::optional<FlightReport> by_distance;
@@ -304,8 +305,8 @@ Exit fly(const FlyOptions& options) {
     print(options, *flight.flown, by_distance);
   }
   const std::optional<std::string> defect = defectOf(*flight.flown);
-  if (defect) complain(Exit::input, *defect);
-  if (flight.flown->edits_lost) return complain(*flight.flown->edits_lost);
+  if (defect) reportError(Exit::input, *defect);
+  if (flight.flown->edits_lost) return reportError(*flight.flown->edits_lost);
   return defect ? Exit::input : Exit::done;
 }
 

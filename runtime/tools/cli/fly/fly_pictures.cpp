@@ -59,9 +59,9 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   CameraPlace camera;
   camera.position = place.position;
   camera.direction = place.direction;
-  const PictureWish wish;
-  camera.fov_degrees = wish.fov_degrees;
-  camera.aspect = static_cast<double>(wish.width) / wish.height;
+  const PictureRequest request;
+  camera.fov_degrees = request.fov_degrees;
+  camera.aspect = static_cast<double>(request.width) / request.height;
   LitWorld world = litWorld(scene);
   const std::optional<Light> wanted = lightNamed(options_.light);
   if (wanted || options_.levels) world.roofless = false;  // the daylight is not used then, so it need not be measured
@@ -82,10 +82,10 @@ Result<void> FlyPictures::begin() {
     sheet_.emplace(std::move(*sheet));
   }
   if (!options_.video.empty()) {
-    const PictureWish wish;
+    const PictureRequest request;
     const int rate = 60 / static_cast<int>(kFramesAPicture);
     Result<std::unique_ptr<VideoFile>> video =
-        VideoFile::begin(options_.video, &unfinished_files, {wish.width, wish.height, rate});
+        VideoFile::begin(options_.video, &unfinished_files, {request.width, request.height, rate});
     if (!video) return video.error();
     video_ = std::move(*video);
   }
@@ -127,12 +127,12 @@ Result<Image> FlyPictures::draw(const sgm_grammar* grammar, const FlightPlace& p
     sgm_mesh_get_view(chunk.mesh.get(), &pictured.mesh, nullptr);
     pictured.seams = chunk.seams;
   }
-  PictureWish wish;
-  wish.camera = place;
-  wish.light = light_;
-  wish.depth = depth_;
-  wish.levels = options_.levels;
-  return drawChunks(*renderer_, grammar, chunks, wish);
+  PictureRequest request;
+  request.camera = place;
+  request.light = light_;
+  request.depth = depth_;
+  request.levels = options_.levels;
+  return drawChunks(*renderer_, grammar, chunks, request);
 }
 
 Result<void> FlyPictures::finish() {

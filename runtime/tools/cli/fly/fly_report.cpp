@@ -9,7 +9,7 @@ namespace sgm::cli {
 namespace {
 
 /// Maximum number of changed pictures until a dig is drawn: the one in preparation when it was made, and the next.
-constexpr double kMostDigFrames = 2;
+constexpr double kMaxDigFrames = 2;
 
 double shareOf(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -63,7 +63,7 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
       {"digs_by_kind", {{"cuts", r.digs.cuts}, {"adds", r.digs.adds}, {"undos", r.digs.undos}}},
       {"dig_frames", toJson(r.digs.frames)},
       {"dig_ms", toJson(r.digs.milliseconds)},
-      {"most_queued_while_digging", r.digs.most_queued},
+      {"most_queued_while_digging", r.digs.max_queued},
       {"colliders",
        {{"count", r.colliders.colliders},
         {"missing", r.colliders.missing},
@@ -156,7 +156,7 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
     fmt::print("  digs      {} ({} cuts, {} adds, {} undos), drawn {} frames of changes later (median), {} at most\n",
                r.digs.digs(), r.digs.cuts, r.digs.adds, r.digs.undos, r.digs.frames.p50, r.digs.frames.max);
     fmt::print("            after {:.0f} ms (median), {:.0f} at 99 %, {:.0f} at most; up to {} chunks waited\n",
-               r.digs.milliseconds.p50, r.digs.milliseconds.p99, r.digs.milliseconds.max, r.digs.most_queued);
+               r.digs.milliseconds.p50, r.digs.milliseconds.p99, r.digs.milliseconds.max, r.digs.max_queued);
   }
   if (by_distance) {
     fmt::print("  reach     {} chunks of level 0 instead of {} by distance alone: {:.1f} % saved\n",
@@ -196,7 +196,7 @@ std::optional<std::string> defectOf(const Flown& flown) {
     return "a frame's surface has triangles that are flat, fold or cut each other";
   if (report.checked.whole_failures > 0) return "a check of a whole frame failed";
   if (!report.colliders.fit()) return "colliders differ from the drawn meshes";
-  if (report.digs.frames.max > kMostDigFrames)
+  if (report.digs.frames.max > kMaxDigFrames)
     return fmt::format("a dig was drawn {} frames of changes later", report.digs.frames.max);
   if (flown.measures) return defectOf(*flown.measures);
   return {};

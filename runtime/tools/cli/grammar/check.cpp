@@ -15,10 +15,10 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostSeeds = 10;  ///< maximum number of seeds that a message names
+constexpr size_t kMaxSeeds = 10;  ///< maximum number of seeds that a message names
 
 /// Resources for --expect, shared by all checked files.
-struct Workshop {
+struct ReportContext {
   std::unique_ptr<JobSystem> jobs;
   std::unique_ptr<Backend> backend;
 };
@@ -67,9 +67,9 @@ std::string failureText(const ExpectationSummary& summary, const CheckOptions& o
   if (options.seeds == 1)
     return summary.failed == 1 ? "1 statement fails" : fmt::format("{} statements fail", summary.failed);
   std::string text = summary.bad_seeds.size() == 1 ? "fails with seed " : "fails with seeds ";
-  for (size_t i = 0; i < std::min(kMostSeeds, summary.bad_seeds.size()); ++i)
+  for (size_t i = 0; i < std::min(kMaxSeeds, summary.bad_seeds.size()); ++i)
     text += fmt::format("{}{}", i == 0 ? "" : ", ", summary.bad_seeds[i]);
-  if (summary.bad_seeds.size() > kMostSeeds) text += fmt::format(" and {} more", summary.bad_seeds.size() - kMostSeeds);
+  if (summary.bad_seeds.size() > kMaxSeeds) text += fmt::format(" and {} more", summary.bad_seeds.size() - kMaxSeeds);
   return text + fmt::format(", of {} from {} on", options.seeds, options.seed);
 }
 
@@ -90,14 +90,14 @@ std::string successText(const CheckResult& checked, const ExpectationSummary* su
 Exit check(const CheckOptions& options) {
   Exit status = Exit::done;
   Json all = Json::array();
-  Workshop workshop;
+  ReportContext report_context;
   if (options.expect) {
     Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-    if (!jobs) return complain(jobs.error());
-    workshop.jobs = std::move(*jobs);
-    Result<std::unique_ptr<Backend>> backend = backendOf(options, *workshop.jobs);
-    if (!backend) return complain(backend.error());
-    workshop.backend = std::move(*backend);
+    if (!jobs) return reportError(jobs.error());
+    report_context.jobs = std::move(*jobs);
+    Result<std::unique_ptr<Backend>> backend = backendOf(options, *report_context.jobs);
+    if (!backend) return reportError(backend.error());
+    report_context.backend = std::move(*backend);
   }
   for (const std::string& file : options.files) {
     const Result<CheckResult> checked = [&] {
@@ -105,7 +105,7 @@ Exit check(const CheckOptions& options) {
       return checkFileOnDisk(file);
     }();
     if (!checked) {
-      status = std::max(status, complain(checked.error()));
+      status = std::max(status, reportError(checked.error()));
       if (options.json)
         all.push_back(
             {{"file", file}, {"ok", false}, {"diagnostics", Json::array()}, {"error", checked.error().message}});
@@ -117,7 +117,7 @@ Exit check(const CheckOptions& options) {
     if (!options.json) fmt::print(stderr, "{}", renderDiagnostics(*compiled));
     std::optional<ExpectationSummary> summary;
     if (ok && options.expect && !checked->library)
-      summary = sayExpectations(*compiled, options, options.seeds, *workshop.backend, *workshop.jobs);
+      summary = sayExpectations(*compiled, options, options.seeds, *report_context.backend, *report_context.jobs);
     const bool holds = !summary || summary->status == Exit::done;
     if (!holds) status = std::max(status, summary->status);
     if (options.json) {

@@ -83,11 +83,11 @@ struct Said {
 /// For measures that count pieces, text such as "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ..."; nullopt if there are
 /// no pieces.
 std::optional<std::string> piecesText(const Measured& measured) {
-  constexpr size_t kMostNamed = 4;
+  constexpr size_t kMaxNamed = 4;
   const std::vector<MeasuredPiece>& pieces = measured.pieces;
   if (pieces.empty()) return std::nullopt;
   std::string text = *measured.value == 1 ? "it is" : "the smallest are";
-  for (size_t i = 0; i < std::min(pieces.size(), kMostNamed); ++i)
+  for (size_t i = 0; i < std::min(pieces.size(), kMaxNamed); ++i)
     text += fmt::format("{} {:.4g} m3 in {} to {} m", i > 0 ? ";" : "", pieces[i].volume, metresText(pieces[i].box.lo),
                         metresText(pieces[i].box.hi));
   return text;
@@ -195,7 +195,7 @@ ExpectationSummary sayExpectations(const CompileResult& compiled, const WorldOpt
   ExpectationSummary summary;
   summary.statements = Json::array();
   const auto stop = [&](const Error& error) {
-    summary.status = complain(error);
+    summary.status = reportError(error);
     return summary;
   };
   const Program& program = *compiled.program;

@@ -194,16 +194,16 @@ Exit explain(const ExplainOptions& options) {
   for (int axis = 0; axis < 3; ++axis) {
     const double units = std::floor(at[static_cast<size_t>(axis)] * kUnitsPerMetre + 0.5);
     if (!(std::fabs(units) <= 2147483647.0))
-      return complain(Exit::usage,
-                      "--at: the place lies outside of the world, which ends about 2,097 km from the origin");
+      return reportError(Exit::usage,
+                         "--at: the place lies outside of the world, which ends about 2,097 km from the origin");
     place[axis] = static_cast<int32_t>(units);
   }
   const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return complain(cell.error());
+  if (!cell) return reportError(cell.error());
   const LoadedGrammar grammar = loadGrammar(options.file);
   if (grammar.program == nullptr) return grammar.status;
   Result<ParameterValues> parameters = parameterValues(*grammar.program, options.sets);
-  if (!parameters) return complain(parameters.error());
+  if (!parameters) return reportError(parameters.error());
   WorldFieldSettings settings;
   settings.program = grammar.program;
   settings.parameters = std::move(*parameters);
@@ -217,19 +217,19 @@ Exit explain(const ExplainOptions& options) {
     return Answer{*grammar.program, options.file, std::move(*found)};
   };
   const Result<Answer> here = answerAt(place);
-  if (!here) return complain(here.error());
+  if (!here) return reportError(here.error());
   const std::array<double, 3> asked{static_cast<double>(place.x), static_cast<double>(place.y),
                                     static_cast<double>(place.z)};
   const double search = std::min(kNearSurface, static_cast<double>(farthestSurface(*cell)));
   const Result<std::optional<SurfacePoint>> surface = closestPoint(queryField(world), asked, search);
-  if (!surface) return complain(surface.error());
+  if (!surface) return reportError(surface.error());
   std::optional<Answer> there;
   if (*surface) {
     Int3 p;
     for (int axis = 0; axis < 3; ++axis)
       p[axis] = saturate(static_cast<int64_t>(std::llround((**surface).position[static_cast<size_t>(axis)])));
     Result<Answer> answer = answerAt(p);
-    if (!answer) return complain(answer.error());
+    if (!answer) return reportError(answer.error());
     // The place is rounded to units and may lie on either side of the surface; report the surface's material and tag.
     answer->found.material = (**surface).material;
     answer->found.tag = (**surface).tag;

@@ -15,13 +15,13 @@ namespace {
 
 Exit formatOne(const std::string& file, const FmtOptions& options) {
   const Result<std::string> text = readGrammarText(file);
-  if (!text) return complain(text.error());
+  if (!text) return reportError(text.error());
   const FormatResult formatted = formatGrammar(*text, file);
   for (const Diagnostic& d : formatted.diagnostics) fmt::print(stderr, "{}", renderDiagnostic(d, *text));
   if (!formatted.text) return Exit::input;
   if (options.check) {
     if (*formatted.text == *text) return Exit::done;
-    return complain(Exit::input, fmt::format("{} is not in canonical layout: run sgm fmt --write {}", file, file));
+    return reportError(Exit::input, fmt::format("{} is not in canonical layout: run sgm fmt --write {}", file, file));
   }
   if (!options.write) {
     fmt::print("{}", *formatted.text);
@@ -29,9 +29,9 @@ Exit formatOne(const std::string& file, const FmtOptions& options) {
   }
   if (*formatted.text == *text) return Exit::done;
   Result<FileWriter> out = FileWriter::create(file, &unfinished_files);
-  if (!out) return complain(out.error());
+  if (!out) return reportError(out.error());
   out->write(*formatted.text);
-  if (Result<void> ok = out->commit(); !ok) return complain(ok.error());
+  if (Result<void> ok = out->commit(); !ok) return reportError(ok.error());
   fmt::print(stderr, "formatted {}\n", file);
   return Exit::done;
 }

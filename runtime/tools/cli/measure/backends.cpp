@@ -28,7 +28,7 @@ const char* typeName(VkPhysicalDeviceType type) {
 }
 
 Json deviceJson(const vulkan::DeviceInfo& device) {
-  const std::string lack = vulkan::lackOf(device);
+  const std::string lack = vulkan::unsupportedReason(device);
   Json one{{"name", device.name},
            {"type", typeName(device.type)},
            {"driver", device.driver},
@@ -43,7 +43,7 @@ Json deviceJson(const vulkan::DeviceInfo& device) {
 }
 
 void printDevice(const vulkan::DeviceInfo& device) {
-  const std::string lack = vulkan::lackOf(device);
+  const std::string lack = vulkan::unsupportedReason(device);
   fmt::print("  {} ({}{}{}): ", device.name, typeName(device.type), device.driver.empty() ? "" : ", ", device.driver);
   if (lack.empty()) {
     fmt::print("usable, {}\n", device.exact ? "exact" : "not exact");
@@ -53,7 +53,7 @@ void printDevice(const vulkan::DeviceInfo& device) {
 }
 
 Json deviceJson(const cuda::DeviceInfo& device) {
-  const std::string lack = cuda::lackOf(device);
+  const std::string lack = cuda::unsupportedReason(device);
   Json one{{"name", device.name},
            {"compute_capability", fmt::format("{}.{}", device.capability_major, device.capability_minor)},
            {"driver", fmt::format("{}.{}", device.driver / 1000, device.driver % 1000 / 10)},
@@ -65,7 +65,7 @@ Json deviceJson(const cuda::DeviceInfo& device) {
 }
 
 void printDevice(const cuda::DeviceInfo& device) {
-  const std::string lack = cuda::lackOf(device);
+  const std::string lack = cuda::unsupportedReason(device);
   fmt::print("  {} (compute capability {}.{}, {} multiprocessors, {:.1f} GB, CUDA {}.{}): {}\n", device.name,
              device.capability_major, device.capability_minor, device.processors,
              static_cast<double>(device.memory) * 1e-9, device.driver / 1000, device.driver % 1000 / 10,
@@ -94,7 +94,7 @@ void addDevices(const char* kind, const Result<std::vector<Device>>& devices, Js
 Exit listBackends(bool json) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime* runtime = nullptr;
-  if (sgm_runtime_create(nullptr, &runtime, &error) != SGM_OK) return complain(Exit::backend, error.message);
+  if (sgm_runtime_create(nullptr, &runtime, &error) != SGM_OK) return reportError(Exit::backend, error.message);
   std::vector<sgm_backend_info> infos;
   sgm_result result = SGM_OK;
   for (const sgm_backend backend : {SGM_BACKEND_AUTO, SGM_BACKEND_CPU, SGM_BACKEND_VULKAN, SGM_BACKEND_CUDA}) {
@@ -103,7 +103,7 @@ Exit listBackends(bool json) {
     if (result != SGM_OK) break;
   }
   sgm_runtime_destroy(runtime);
-  if (result != SGM_OK) return complain(Exit::backend, error.message);
+  if (result != SGM_OK) return reportError(Exit::backend, error.message);
 
   const Result<std::vector<vulkan::DeviceInfo>> by_vulkan = vulkan::listDevices();
   const Result<std::vector<cuda::DeviceInfo>> by_cuda = cuda::listDevices();

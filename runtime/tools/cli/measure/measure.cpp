@@ -68,7 +68,7 @@ Result<std::string> reportOf(const Subject& subject, const MeasureOptions& optio
 }
 
 Exit printed(const Result<std::string>& report, bool strict) {
-  if (!report) return complain(report.error());
+  if (!report) return reportError(report.error());
   fmt::print("{}", std::string_view(*report).substr(1));
   return strict && report->front() == kUnsound ? Exit::input : Exit::done;
 }
@@ -151,7 +151,7 @@ Exit measureGrammar(const MeasureOptions& options) {
   std::optional<asset::TriangleMesh> other;
   if (!options.against.empty()) {
     Result<asset::TriangleMesh> read = askSandboxForMesh(options.against, options.sandbox);
-    if (!read) return complain(read.error());
+    if (!read) return reportError(read.error());
     other = std::move(*read);
   }
   std::vector<std::pair<std::string, Section>> sections;
@@ -177,11 +177,11 @@ Exit measureGrammar(const MeasureOptions& options) {
   if (!made.region) return made.status;
   const asset::TriangleMesh mesh = trianglesOf(*made.region);
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return reportError(jobs.error());
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh.points, mesh.triangles})));
   if (other) {
     Result<Section> section = against(mesh, std::move(*other), options, **jobs);
-    if (!section) return complain(section.error());
+    if (!section) return reportError(section.error());
     sections.emplace_back("against", std::move(*section));
   }
   return printed(reportOf({mesh, cutOf(*made.region), toJson(options, *made.region), textOf(options, *made.region),
@@ -199,20 +199,20 @@ Exit measureMesh(const MeasureOptions& options) {
                              [&] { return grammar ? meshFileAnswer(options.against) : measureFile(options); });
   if (asksForVoid(options)) {
     if (grammar) return measureVoid(options);
-    return complain(Exit::usage, "--from, --to and --radius measure the void of a grammar: a mesh file has none");
+    return reportError(Exit::usage, "--from, --to and --radius measure the void of a grammar: a mesh file has none");
   }
   if (grammar && options.against.empty() && !options.of_files.empty())
-    return complain(Exit::usage, options.of_files.front() + " is for mesh files, and for a grammar's --against");
+    return reportError(Exit::usage, options.of_files.front() + " is for mesh files, and for a grammar's --against");
   if (grammar && options.level + options.levels > kMaxLevel)
-    return complain(Exit::usage, fmt::format("--level and --levels reach level {}, and {} is the coarsest",
-                                             options.level + options.levels, kMaxLevel));
+    return reportError(Exit::usage, fmt::format("--level and --levels reach level {}, and {} is the coarsest",
+                                                options.level + options.levels, kMaxLevel));
   if (grammar) return measureGrammar(options);
   if (options.field || options.levels > 0) {
-    return complain(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
-                                             options.field ? "--field" : "--levels"));
+    return reportError(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
+                                                options.field ? "--field" : "--levels"));
   }
   if (!options.of_grammars.empty())
-    return complain(Exit::usage, options.of_grammars.front() + " is for grammars: a mesh file is measured as it is");
+    return reportError(Exit::usage, options.of_grammars.front() + " is for grammars: a mesh file is measured as it is");
   return printed(askSandbox(options.sandbox), options.strict);
 }
 

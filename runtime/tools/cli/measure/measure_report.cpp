@@ -12,7 +12,7 @@ using measure::MeshMeasures;
 using measure::Point;
 using measure::Shell;
 
-constexpr size_t kMostShells = 16;
+constexpr size_t kMaxShells = 16;
 
 Json pointJson(Point p) { return {p.x, p.y, p.z}; }
 
@@ -37,7 +37,7 @@ Json histogramJson(const measure::Histogram& h) {
 
 Json shellsJson(const std::vector<Shell>& shells) {
   Json list = Json::array();
-  for (size_t i = 0; i < std::min(shells.size(), kMostShells); ++i) {
+  for (size_t i = 0; i < std::min(shells.size(), kMaxShells); ++i) {
     const Shell& s = shells[i];
     list.push_back({{"triangles", s.triangles},
                     {"area", s.area},

@@ -11,7 +11,7 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kMostVolumes = 16;
+constexpr size_t kMaxVolumes = 16;
 
 double inMetres(double units) { return units / kUnitsPerMetre; }
 
@@ -34,7 +34,7 @@ const char* nameOf(WayVerdict verdict) {
 }
 
 /// Whether the search for the widest path reached its maximum radius, so that the true radius may be larger.
-bool isOpenEnded(const VoidWay& way, int32_t cell) { return way.widest >= double{kMostClearance} * cell; }
+bool isOpenEnded(const VoidWay& way, int32_t cell) { return way.widest >= double{kMaxClearance} * cell; }
 
 std::string widestText(const VoidWay& way, int32_t cell) {
   if (way.widest == 0) return "no agent passes, however small";
@@ -103,7 +103,7 @@ Json wayJson(const VoidWay& way, const MeasureOptions& options, const VoidAnswer
 Json toJson(const VoidAnswer& answer, const MeasureOptions& options, int32_t cell, double seconds) {
   const Totals totals = totalsOf(answer);
   Json volumes = Json::array();
-  for (size_t i = 0; i < std::min(answer.voids.size(), kMostVolumes); ++i)
+  for (size_t i = 0; i < std::min(answer.voids.size(), kMaxVolumes); ++i)
     volumes.push_back(static_cast<double>(answer.voids[i].samples) * answer.sample);
   Json json = {{"file", options.file},
                {"seed", options.seed},
@@ -166,12 +166,12 @@ Exit measureVoid(const MeasureOptions& options) {
   OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   const Result<VoidQuestion> question = questionOf(options, opened.region);
-  if (!question) return complain(question.error());
+  if (!question) return reportError(question.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return reportError(jobs.error());
   const Stopwatch watch;
   const int32_t cell = opened.settings.finest_cell;
-  if (const Result<void> few = checkChunks(options, opened.region, cell); !few) return complain(few.error());
+  if (const Result<void> few = checkChunks(options, opened.region, cell); !few) return reportError(few.error());
   const WorldField world(std::move(opened.settings), std::pmr::new_delete_resource());
   const SignField field = signField(queryField(world));
   const Result<VoidAnswer> answer = [&] {
@@ -181,11 +181,11 @@ Exit measureVoid(const MeasureOptions& options) {
       return true;
     });
   }();
-  if (!answer) return complain(answer.error());
+  if (!answer) return reportError(answer.error());
   const double seconds = watch.seconds();
   // A region with too many cells to derive at once has no notes, which is not an error.
   const Result<std::vector<DeriveNote>> notes = world.notes(answer->extent, cell);
-  if (!notes && notes.error().code != Code::limit) return complain(notes.error());
+  if (!notes && notes.error().code != Code::limit) return reportError(notes.error());
   if (notes) warnOfNotes(options.file, *notes);
   if (options.json) {
     fmt::print("{}\n", toJson(*answer, options, cell, seconds).text());
@@ -195,7 +195,7 @@ Exit measureVoid(const MeasureOptions& options) {
   if (!answer->way || answer->way->verdict == WayVerdict::found) return Exit::done;
   if (options.json) return Exit::input;
   std::fflush(stdout);
-  return complain(Exit::input, whyNot(*answer->way, options, *answer, cell));
+  return reportError(Exit::input, whyNot(*answer->way, options, *answer, cell));
 }
 
 }  // namespace sgm::cli

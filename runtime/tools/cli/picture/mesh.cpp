@@ -11,7 +11,7 @@
 #include "region/solid_volume.h"
 #include "sgm/sgm.h"
 #include "tools/cli/picture/commands.h"
-#include "tools/support/chequer.h"
+#include "tools/support/checkerboard.h"
 #include "tools/support/console.h"
 #include "tools/support/ending_signals.h"
 #include "tools/support/materials.h"
@@ -94,13 +94,13 @@ Result<void> measureRegion(const WorldField& world, const Region& region, const 
 
 Exit mesh(const MeshOptions& options) {
   if (options.uv && !options.out.empty() && !MeshFile::holdsTexture(options.out)) {
-    return complain(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
+    return reportError(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
   }
   // Open the file before the long meshing, so that its errors are reported at once.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
     Result<MeshFile> opened = MeshFile::create(options.out, &unfinished_files);
-    if (!opened) return complain(opened.error());
+    if (!opened) return reportError(opened.error());
     file.emplace(std::move(*opened));
   }
   Summary summary;
@@ -122,20 +122,20 @@ Exit mesh(const MeshOptions& options) {
     std::vector<uint32_t> vertices;
     std::vector<std::array<float, 2>> coordinates;
     std::vector<ExportBlend> blends;
-    std::vector<std::byte> chequer;
+    std::vector<std::byte> checkerboard;
     if (region.texture) {
-      Result<std::vector<std::byte>> drawn = chequerPng();
-      if (!drawn) return complain(drawn.error());
-      chequer = std::move(*drawn);
+      Result<std::vector<std::byte>> drawn = checkerboardPng();
+      if (!drawn) return reportError(drawn.error());
+      checkerboard = std::move(*drawn);
       for (const Wedge& wedge : region.texture->unwrapped.wedges) {
         vertices.push_back(wedge.vertex);
         coordinates.push_back({wedge.u, wedge.v});
         blends.push_back({wedge.materials, wedge.share, wedge.plane_shares});
       }
-      texture = {vertices, coordinates, blends, region.texture->unwrapped.corners, chequer};
+      texture = {vertices, coordinates, blends, region.texture->unwrapped.corners, checkerboard};
       info.texture = &texture;
     }
-    if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return complain(ok.error());
+    if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return reportError(ok.error());
     for (const std::filesystem::path& path : file->paths()) summary.files.push_back(path.string());
     summary.bytes = file->bytes();
   }

@@ -40,12 +40,12 @@ RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& d
   RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;
   Result<RenderOptions> settled = withCamera(options, *made.region);
-  if (!settled) return {std::nullopt, complain(settled.error())};
+  if (!settled) return {std::nullopt, reportError(settled.error())};
   options = std::move(*settled);
   RegionPlan plan = picturePlan(options, density);
   plan.notes = false;  // the first meshing has already printed the notes
   Result<Region> again = meshProgram(made.region->program, options, plan);
-  if (!again) return {std::nullopt, complain(again.error())};
+  if (!again) return {std::nullopt, reportError(again.error())};
   made.region = std::move(*again);
   return made;
 }
@@ -56,25 +56,25 @@ Exit render(const RenderOptions& asked) {
   RenderOptions options = asked;
   if (options.plan || options.section) return drawSurvey(options);
   if (!hasExtension(options.out, ".png"))
-    return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
+    return reportError(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   if (!options.seeds.empty()) return drawSeeds(options);
   // Open the device and the file before the long meshing, so that their errors are reported at once.
   const Result<Renderer> renderer = Renderer::create();
-  if (!renderer) return complain(renderer.error());
+  if (!renderer) return reportError(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
-  if (!file) return complain(file.error());
+  if (!file) return reportError(file.error());
   std::optional<RegionDensity> density;
   const RegionResult made = meshPicture(options, density);
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  if (const Result<void> drawable = checkDrawable(options, region); !drawable) return complain(drawable.error());
+  if (const Result<void> drawable = checkDrawable(options, region); !drawable) return reportError(drawable.error());
 
   const Stopwatch watch;
   const Result<RegionPicture> picture = drawRegion(*renderer, options, region, density);
-  if (!picture) return complain(picture.error());
+  if (!picture) return reportError(picture.error());
   const Image& image = picture->image;
   const View& view = picture->view;
-  if (Result<void> ok = writePng(image, *file); !ok) return complain(ok.error());
+  if (Result<void> ok = writePng(image, *file); !ok) return reportError(ok.error());
   if (!options.at.empty() && !view.at_anchor)
     fmt::print(stderr,
                "note: --at {} is ignored: no such anchor is in a room or a cave; place the camera with --camera\n",

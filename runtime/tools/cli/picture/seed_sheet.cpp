@@ -108,8 +108,8 @@ Exit tellFailures(const std::vector<SeedPicture>& pictures) {
       told[j] = true;
       seeds.push_back(pictures[j].seed);
     }
-    const Exit said = complain(exitOf(error.code), fmt::format("seed{} {}: {}", seeds.size() > 1 ? "s" : "",
-                                                               fmt::join(seeds, ", "), error.message));
+    const Exit said = reportError(exitOf(error.code), fmt::format("seed{} {}: {}", seeds.size() > 1 ? "s" : "",
+                                                                  fmt::join(seeds, ", "), error.message));
     if (status == Exit::done) status = said;
   }
   return status;
@@ -136,14 +136,15 @@ Exit drawSeeds(const RenderOptions& options) {
   const int columns = columnsFor(seeds.size());
   const PictureSize whole = *readSize(options.size), size = pictureSize(whole, columns);
   if (size.width < kLeastWidth || size.height < kLeastHeight)
-    return complain(Exit::usage, fmt::format("--size: {} pictures on a sheet of {} have {}x{} pixels each, fewer than "
-                                             "{}x{}: ask for a larger --size or fewer --seeds",
-                                             seeds.size(), options.size, std::max(0, size.width),
-                                             std::max(0, size.height), kLeastWidth, kLeastHeight));
+    return reportError(Exit::usage,
+                       fmt::format("--size: {} pictures on a sheet of {} have {}x{} pixels each, fewer than "
+                                   "{}x{}: ask for a larger --size or fewer --seeds",
+                                   seeds.size(), options.size, std::max(0, size.width), std::max(0, size.height),
+                                   kLeastWidth, kLeastHeight));
   const Result<Renderer> renderer = Renderer::create();
-  if (!renderer) return complain(renderer.error());
+  if (!renderer) return reportError(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
-  if (!file) return complain(file.error());
+  if (!file) return reportError(file.error());
   const LoadedGrammar grammar = loadGrammar(options.file);
   if (grammar.program == nullptr) return grammar.status;
 
@@ -167,7 +168,7 @@ Exit drawSeeds(const RenderOptions& options) {
   if (std::ranges::all_of(pictures, [](const SeedPicture& picture) { return picture.error.has_value(); }))
     return status;
   const Image sheet = contactSheet(images, columns);
-  if (const Result<void> written = writePng(sheet, *file); !written) return complain(written.error());
+  if (const Result<void> written = writePng(sheet, *file); !written) return reportError(written.error());
   if (options.json) {
     fmt::print("{}\n", toJson(options, sheet, columns, size, pictures, watch.seconds()).text());
   } else {

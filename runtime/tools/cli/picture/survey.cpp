@@ -103,30 +103,30 @@ Json toJson(const RenderOptions& options, const survey::Drawing& drawing, const 
 Exit drawSurvey(const RenderOptions& options) {
   const PictureSize size = *readSize(options.size);
   if (size.width < survey::kLeastSheet || size.height < survey::kLeastSheet)
-    return complain(Exit::usage,
-                    fmt::format("--size: a plan or a section needs at least {0}x{0} pixels", survey::kLeastSheet));
+    return reportError(Exit::usage,
+                       fmt::format("--size: a plan or a section needs at least {0}x{0} pixels", survey::kLeastSheet));
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
-  if (!file) return complain(file.error());
+  if (!file) return reportError(file.error());
   std::optional<RegionDensity> no_density;
   const OpenedWorld opened = openWorld(options, picturePlan(options, no_density));
   if (opened.program == nullptr) return opened.status;
   const Stopwatch watch;
   Result<Survey> made = sampleSurvey(options, opened);
-  if (!made) return complain(made.error());
+  if (!made) return reportError(made.error());
 
-  survey::SheetWish wish;
-  wish.width = size.width;
-  wish.height = size.height;
-  wish.plan = options.plan;
-  wish.title = nameOfFile(options.file);
-  wish.subtitle = fmt::format("seed {}, {}", options.seed, boxText(made->columns.extent));
+  survey::SheetRequest request;
+  request.width = size.width;
+  request.height = size.height;
+  request.plan = options.plan;
+  request.title = nameOfFile(options.file);
+  request.subtitle = fmt::format("seed {}, {}", options.seed, boxText(made->columns.extent));
   const survey::Drawing drawing = survey::drawSheet(made->columns, made->slice ? &*made->slice : nullptr,
-                                                    survey::signsFor(*opened.program), wish, made->figures);
+                                                    survey::signsFor(*opened.program), request, made->figures);
   if (hasExtension(options.out, ".svg")) {
-    file->write(survey::svgText(drawing, wish.title + ", " + wish.subtitle));
-    if (const Result<void> written = file->commit(); !written) return complain(written.error());
+    file->write(survey::svgText(drawing, request.title + ", " + request.subtitle));
+    if (const Result<void> written = file->commit(); !written) return reportError(written.error());
   } else if (const Result<void> written = writePng(survey::rasterise(drawing), *file); !written) {
-    return complain(written.error());
+    return reportError(written.error());
   }
   if (options.json) {
     fmt::print("{}\n", toJson(options, drawing, *made).text());

@@ -17,9 +17,9 @@
 namespace sgm::cli {
 namespace {
 
-constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // limit of a message
-constexpr size_t kMostHeaderBytes = 64 << 10;        // limit of all header lines of a message
-constexpr int kDeepest = 256;                        // limit of nested arrays and objects
+constexpr uint64_t kMaxBytes = uint64_t{64} << 20;  // limit of a message
+constexpr size_t kMaxHeaderBytes = 64 << 10;        // limit of all header lines of a message
+constexpr int kDeepest = 256;                       // limit of nested arrays and objects
 
 /// Whether arrays and objects are nested too deeply: the JSON library copies and prints values recursively, and the
 /// stack is limited. For text that is not JSON, the result is arbitrary.
@@ -52,7 +52,7 @@ class MessageReader {
   std::optional<std::string> next() {
     const std::optional<uint64_t> length = headers();
     if (!length) return std::nullopt;
-    if (*length > kMostBytes) {
+    if (*length > kMaxBytes) {
       in_.ignore(static_cast<std::streamsize>(*length));
       return std::string();
     }
@@ -70,7 +70,7 @@ class MessageReader {
     std::optional<uint64_t> length;
     std::string line;
     bool any = false;
-    size_t left = kMostHeaderBytes;
+    size_t left = kMaxHeaderBytes;
     while (headerLine(line, left)) {
       if (!line.empty() && line.back() == '\r') line.pop_back();
       if (line.empty()) {
@@ -125,7 +125,7 @@ Exit serveLanguage() {
     const nlohmann::json message =
         too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : nlohmann::json::parse(*bytes, nullptr, false);
     if (message.is_discarded()) {
-      const std::string why = bytes->empty() ? fmt::format("a message must have 1 to {} bytes", kMostBytes)
+      const std::string why = bytes->empty() ? fmt::format("a message must have 1 to {} bytes", kMaxBytes)
                               : too_deep     ? fmt::format("arrays and objects may be nested at most {} deep", kDeepest)
                                              : "this is not JSON";
       if (!send(LanguageServer::answerToGarbage(why))) return Exit::file;
@@ -134,7 +134,7 @@ Exit serveLanguage() {
     for (const nlohmann::json& answer : server.handle(message))
       if (!send(answer)) return Exit::file;
   }
-  if (reader.lost()) return complain(Exit::input, "lsp: the input is not a message of the Language Server Protocol");
+  if (reader.lost()) return reportError(Exit::input, "lsp: the input is not a message of the Language Server Protocol");
   return server.endedWell() ? Exit::done : Exit::input;
 }
 

@@ -13,7 +13,7 @@ namespace sgm::cli {
 Exit serve(const ServeOptions& options) {
   AwaitedSignals signals;
   const Result<Serving> serving = Serving::start(options.serving);
-  if (!serving) return complain(serving.error());
+  if (!serving) return reportError(serving.error());
   if (options.json) {
     fmt::print("{{\"work\": \"{}\", \"operations\": \"{}\"}}\n", serving->work(), serving->operations());
   } else {

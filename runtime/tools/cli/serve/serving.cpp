@@ -11,8 +11,8 @@ namespace sgm::cli {
 namespace {
 
 Result<std::string> readToken(const std::string& file) {
-  constexpr uint64_t kMostTokenBytes = uint64_t{1} << 20;
-  const Result<std::string> text = readFile(file, kMostTokenBytes, Readable::all_but_folders);
+  constexpr uint64_t kMaxTokenBytes = uint64_t{1} << 20;
+  const Result<std::string> text = readFile(file, kMaxTokenBytes, Readable::all_but_folders);
   if (!text) return text.error();
   if (text->empty())
     return Error{Code::io, fmt::format("cannot read a token from the first line of {}: it is empty", file)};

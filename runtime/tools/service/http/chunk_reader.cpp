@@ -9,10 +9,10 @@ namespace sgm::service::http {
 namespace {
 
 /// Limit of the total bytes of chunk extensions and trailers in one body.
-constexpr uint32_t kMostBeside = 4096;
+constexpr uint32_t kMaxFraming = 4096;
 
 /// Maximum number of hexadecimal digits of a chunk size: 64 bits.
-constexpr uint32_t kMostDigits = 16;
+constexpr uint32_t kMaxDigits = 16;
 
 Problem badChunk() { return {400, "bad_request", "The chunks of the body are not valid HTTP.", {}}; }
 
@@ -43,7 +43,7 @@ std::optional<Problem> ChunkReader::take(char c) {
   };
   const auto ignore = [&]() -> std::optional<Problem> {
     if (isControl(c) && c != '\t') return badChunk();
-    if (++beside_ > kMostBeside)
+    if (++beside_ > kMaxFraming)
       return Problem{431,
                      "header_too_large",
                      "The chunks of the body have longer extensions and trailers than this server reads.",
@@ -53,7 +53,7 @@ std::optional<Problem> ChunkReader::take(char c) {
   switch (state_) {
     case State::size:
       if (const int digit = hexValue(c); digit >= 0) {
-        if (++digits_ > kMostDigits) return badChunk();
+        if (++digits_ > kMaxDigits) return badChunk();
         in_chunk_ = in_chunk_ * 16 + static_cast<uint64_t>(digit);
         return std::nullopt;
       }

@@ -12,8 +12,8 @@ namespace sgm::service::http {
 
 class ChunkReader {
  public:
-  /// most_bytes: limit of the decoded body. A chunk that would exceed it gives a 413 before the chunk is read.
-  explicit ChunkReader(uint64_t most_bytes) : room_(most_bytes) {}
+  /// max_bytes: limit of the decoded body. A chunk that would exceed it gives a 413 before the chunk is read.
+  explicit ChunkReader(uint64_t max_bytes) : room_(max_bytes) {}
 
   /// Consumes bytes up to the end of the next piece of the body or of the whole body, and removes them from `bytes`.
   /// Sets `piece` to a part of `bytes`, or to empty if no byte of the body was found. Must not be called again after it

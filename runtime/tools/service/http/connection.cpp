@@ -207,7 +207,7 @@ bool Connection::admit() {
     return false;
   }
   body_ = std::move(admission.body);
-  if (body_) reader_.allow(admission.most_bytes);
+  if (body_) reader_.allow(admission.max_bytes);
   return true;
 }
 

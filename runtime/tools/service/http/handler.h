@@ -30,7 +30,7 @@ struct Admission {
   /// The answer to a rejected request, sent immediately; if a body follows, the connection closes afterwards.
   std::optional<Response> refusal;
   std::unique_ptr<Body> body;  ///< receives the body; null: a body is not accepted, and gives a 413
-  uint64_t most_bytes = 0;     ///< limit of the decoded body; a larger body gives a 413
+  uint64_t max_bytes = 0;      ///< limit of the decoded body; a larger body gives a 413
 };
 
 /// Answers the requests of a server. Both functions are called in the server's thread, and must not block. The request

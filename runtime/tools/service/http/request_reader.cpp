@@ -17,7 +17,7 @@ RequestReader::Event RequestReader::next(std::string_view& bytes) {
       if (auto problem = readHead(scanner_.text(), head_)) return refuse(std::move(*problem));
       scanner_.reset();
       head_.request.gone = gone_;
-      most_bytes_ = 0;
+      max_bytes_ = 0;
       state_ = State::admitted;
       return Event::head;
     case State::admitted:
@@ -28,7 +28,7 @@ RequestReader::Event RequestReader::next(std::string_view& bytes) {
       }
       state_ = State::body;
       to_come_ = head_.length.value_or(0);
-      chunks_ = ChunkReader(most_bytes_);
+      chunks_ = ChunkReader(max_bytes_);
       if (head_.expects_continue) return Event::go_on;
       [[fallthrough]];
     case State::body:
@@ -64,7 +64,7 @@ std::optional<Problem> RequestReader::checkBody() const {
   if (!head_.chunked && !head_.length && (method == "POST" || method == "PUT" || method == "PATCH"))
     return Problem{
         411, "length_required", "Give the length of the body with Content-Length, or send it in chunks.", {}};
-  if (head_.length.value_or(0) > most_bytes_)
+  if (head_.length.value_or(0) > max_bytes_)
     return Problem{413, "too_large", "The body is larger than this path accepts.", {}};
   return std::nullopt;
 }

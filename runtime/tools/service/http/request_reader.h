@@ -39,7 +39,7 @@ class RequestReader {
   const Request& request() const { return head_.request; }
   /// Sets the limit of the body in bytes, after Event::head; without a call the limit is 0. The next step rejects a
   /// body that is larger, that has a Content-Encoding, or whose length is missing (POST, PUT, PATCH).
-  void allow(uint64_t most_bytes) { most_bytes_ = most_bytes; }
+  void allow(uint64_t max_bytes) { max_bytes_ = max_bytes; }
   /// May be called after Event::head instead of allow(), for a request without a body that has already been answered.
   /// The next step begins with the next request.
   void finish() { state_ = State::end; }
@@ -67,7 +67,7 @@ class RequestReader {
   std::shared_ptr<const std::atomic<bool>> gone_;
   Head head_;
   State state_ = State::head;
-  uint64_t most_bytes_ = 0;
+  uint64_t max_bytes_ = 0;
   uint64_t to_come_ = 0;  ///< number of bytes that have not arrived, for a body of known length
   ChunkReader chunks_{0};
   std::string_view piece_;

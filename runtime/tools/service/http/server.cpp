@@ -52,11 +52,11 @@ using Tcp = net::ip::tcp;
 
 /// Maximum number of clients beyond the limit that concurrently get an answer (503). Further clients are closed without
 /// an answer.
-constexpr size_t kMostTurnedAway = 64;
+constexpr size_t kMaxRejected = 64;
 /// That number is also at most an eighth of the limit, to keep descriptors free, but at least this many.
 constexpr size_t kLeastTurnedAway = 8;
 
-size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMostTurnedAway); }
+size_t mostTurnedAway(size_t connections) { return std::clamp(connections / 8, kLeastTurnedAway, kMaxRejected); }
 
 /// A reserved descriptor. When the process cannot open more files, releasing it allows the server to accept and close
 /// the next client, which would otherwise wait.

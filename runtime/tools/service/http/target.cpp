@@ -61,7 +61,7 @@ std::optional<Problem> readQuery(std::string_view text, Request& request) {
     const std::string_view parameter = text.substr(begin, end - begin);
     begin = end + 1;
     if (parameter.empty()) continue;
-    if (request.query.size() == kMostParameters) return badTarget("The query has too many parameters.");
+    if (request.query.size() == kMaxParameters) return badTarget("The query has too many parameters.");
     const size_t equals = std::min(parameter.find('='), parameter.size());
     std::optional<std::string> name = decoded(parameter.substr(0, equals), true);
     std::optional<std::string> value = decoded(parameter.substr(std::min(equals + 1, parameter.size())), true);

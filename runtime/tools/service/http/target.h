@@ -9,7 +9,7 @@
 namespace sgm::service::http {
 
 /// The maximal number of query parameters.
-constexpr size_t kMostParameters = 64;
+constexpr size_t kMaxParameters = 64;
 
 /// Sets request.path and request.query. A 400 rejects ambiguous targets:
 /// - a path with empty segments ("//"), "." or "..", an encoded '/' or '\', in any encoding;

@@ -12,7 +12,7 @@ namespace sgm::service::http {
 /// For one server. Used only in its thread.
 class Unsent {
  public:
-  explicit Unsent(uint64_t most_bytes) : most_(most_bytes) {}
+  explicit Unsent(uint64_t max_bytes) : most_(max_bytes) {}
 
   /// Counts the size of a body until release() has been called as often as hold(); a body that is already held costs
   /// nothing. Returns false, without holding the body, if the total would exceed the limit and other bodies are held.

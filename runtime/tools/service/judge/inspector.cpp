@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostMastersJobs = 64;
+constexpr size_t kMaxMastersJobs = 64;
 
 /// The environment of the processes: only the variables with which they find their libraries.
 std::vector<std::string> environmentOfChildren() {
@@ -177,7 +177,7 @@ void ProcessInspector::queueMasters(MastersJob job) {
   const bool program = !settings_.program.empty();
   try {
     const std::lock_guard lock(mutex_);
-    if (program && masters_waiting_.size() < kMostMastersJobs) {
+    if (program && masters_waiting_.size() < kMaxMastersJobs) {
       masters_waiting_.push_back(std::move(job));
       changed_.notify_all();
       return;
@@ -286,7 +286,7 @@ Inspection ProcessInspector::answerTo(std::vector<std::string> arguments, platfo
   platform::RunSettings run;
   run.input = text;
   run.time = settings_.time;
-  run.most_output = kMostAnswer;
+  run.max_output = kMaxAnswer;
   run.cancellation = &stop_;
   const Result<platform::ProcessOutput> said = platform::runProcess(settings, run);
   if (!said) return problemOf(500, "validator_crashed", said.error().message);

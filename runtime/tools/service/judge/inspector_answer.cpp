@@ -80,7 +80,7 @@ Inspection tooMuchSaid(size_t most) {
 std::optional<Inspection> soundAnswer(std::string_view output, Answer wanted) {
   const std::optional<std::string_view> text = takePart(output), preview = takePart(output);
   if (!text || !preview || !output.empty()) return std::nullopt;
-  if (wanted == Answer::report && text->size() > kMostReportText) return tooMuchSaid(kMostReportText);
+  if (wanted == Answer::report && text->size() > kMaxReportText) return tooMuchSaid(kMaxReportText);
   if (!isSoundObject(*text)) return std::nullopt;
   const std::vector<JsonMember> members = membersOf(*text);
   Inspection said;
@@ -151,7 +151,7 @@ Inspection inspectionOf(const platform::ProcessOutput& said, std::chrono::second
       return limitReached("the validation takes more than " + seconds +
                           " s, the time limit of the service: send a smaller file");
     case Stop::output_limit:
-      return tooMuchSaid(kMostAnswer);
+      return tooMuchSaid(kMaxAnswer);
     case Stop::none:
       break;
   }

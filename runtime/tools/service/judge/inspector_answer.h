@@ -13,9 +13,9 @@ namespace sgm::service {
 
 /// Limit of the process's standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview;
 /// little-endian.
-inline constexpr size_t kMostAnswer = size_t{32} << 20;
+inline constexpr size_t kMaxAnswer = size_t{32} << 20;
 /// Limit of a report's JSON, which stays in memory.
-inline constexpr size_t kMostReportText = size_t{2} << 20;
+inline constexpr size_t kMaxReportText = size_t{2} << 20;
 
 enum class Answer { report, masters };
 

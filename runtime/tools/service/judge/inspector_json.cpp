@@ -10,7 +10,7 @@ using Json = nlohmann::json;
 
 /// Limits that are large enough for valid answers. Deeper nesting could exhaust the stack of a recursive parser.
 constexpr size_t kDeepest = 16;
-constexpr size_t kMostMembers = 64;
+constexpr size_t kMaxMembers = 64;
 
 /// Validates a JSON text without storing its values.
 class Structure final : public nlohmann::json_sax<Json> {
@@ -23,7 +23,7 @@ class Structure final : public nlohmann::json_sax<Json> {
   bool string(string_t&) override { return depth_ > 0; }
   bool binary(binary_t&) override { return false; }
   bool start_object(size_t) override { return ++depth_ <= kDeepest; }
-  bool key(string_t&) override { return depth_ > 1 || ++members_ <= kMostMembers; }
+  bool key(string_t&) override { return depth_ > 1 || ++members_ <= kMaxMembers; }
   bool end_object() override { return depth_-- > 0; }
   bool start_array(size_t) override { return depth_ > 0 && ++depth_ <= kDeepest; }
   bool end_array() override { return depth_-- > 0; }

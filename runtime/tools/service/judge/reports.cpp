@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kNoMemory =
     R"({"type":"about:blank","title":"Internal Server Error","status":500,"code":"out_of_memory",)"
     R"("detail":"the service is out of memory and cannot keep this report: send the request again later"})";
-constexpr size_t kMostReports = 64, kMostBytes = size_t{128} << 20;
+constexpr size_t kMaxReports = 64, kMaxBytes = size_t{128} << 20;
 
 std::string_view nameOf(ReportState state) {
   switch (state) {
@@ -184,7 +184,7 @@ struct Reports::Kept {
     size_t bytes = 0;
     for (const KeptReport& report : reports) bytes += report.size();
     std::list<KeptReport> surplus;
-    for (auto at = reports.end(); at != reports.begin() && (reports.size() > kMostReports || bytes > kMostBytes);) {
+    for (auto at = reports.end(); at != reports.begin() && (reports.size() > kMaxReports || bytes > kMaxBytes);) {
       --at;
       if (!at->finished() || &*at == wanted) continue;
       bytes -= at->size();

@@ -61,9 +61,9 @@ export class UploadPanel {
     this.#takeDrops();
   }
 
-  limit(most_bytes) {
-    this.#uploads.limit(most_bytes);
-    this.#limit.textContent = `, up to ${bytes(most_bytes)} each`;
+  limit(max_bytes) {
+    this.#uploads.limit(max_bytes);
+    this.#limit.textContent = `, up to ${bytes(max_bytes)} each`;
   }
 
   #grammarOptions() {

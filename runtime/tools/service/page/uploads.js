@@ -49,7 +49,7 @@ export class Uploads {
   #told;
   #queue = [];
   #sending = false;
-  #mostBytes = Infinity;
+  #maxBytes = Infinity;
 
   /** told(upload): called whenever the state of an upload has changed. */
   constructor(api, told) {
@@ -58,8 +58,8 @@ export class Uploads {
   }
 
   /** Sets the maximum size that the service accepts. Larger files are not sent at all. */
-  limit(most_bytes) {
-    this.#mostBytes = most_bytes;
+  limit(max_bytes) {
+    this.#maxBytes = max_bytes;
   }
 
   /** options: parameters for grammars, [[name, value]]. */
@@ -87,8 +87,8 @@ export class Uploads {
   #whyNot({ name, size }) {
     if (!(endingOf(name) in types))
       return `This file cannot be validated: the service takes ${endings.map((ending) => `.${ending}`).join(', ')}`;
-    if (size > this.#mostBytes)
-      return `This file is too large: ${bytes(size)}, and the service takes ${bytes(this.#mostBytes)} at most`;
+    if (size > this.#maxBytes)
+      return `This file is too large: ${bytes(size)}, and the service takes ${bytes(this.#maxBytes)} at most`;
     return null;
   }
 

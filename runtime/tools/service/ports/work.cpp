@@ -20,7 +20,7 @@ using http::Reply;
 using http::Request;
 using http::Response;
 
-constexpr uint64_t kMostMastersBytes = uint64_t{4} << 20;
+constexpr uint64_t kMaxMastersBytes = uint64_t{4} << 20;
 /// Maximum number of sets of reference histograms that are being received or wait to be written, since they are held in
 /// memory.
 constexpr uint64_t kMastersAtOnce = 4;
@@ -119,8 +119,8 @@ Admission refused(Response response) {
 bool wantsNoWait(const Request& request) {
   for (const http::Field& field : request.fields) {
     if (inSmallLetters(field.name) != "prefer") continue;
-    for (const std::string_view wish : listed(field.value))
-      if (mediaType(wish) == "respond-async") return true;
+    for (const std::string_view preference : listed(field.value))
+      if (mediaType(preference) == "respond-async") return true;
   }
   return false;
 }
@@ -132,8 +132,8 @@ Work::Work(const WorkParts& parts, const WorkSettings& settings)
       settings_(settings),
       room_(std::make_shared<IncomingRoom>()),
       text_room_(std::make_shared<IncomingRoom>()) {
-  room_->most = std::max(settings.most_incoming_bytes, settings.most_upload_bytes);
-  text_room_->most = kMostMastersBytes * kMastersAtOnce;
+  room_->most = std::max(settings.max_incoming_bytes, settings.max_upload_bytes);
+  text_room_->most = kMaxMastersBytes * kMastersAtOnce;
   for (const EmbeddedFile& file : embeddedFiles())
     files_.emplace(file.name, std::make_shared<const std::string>(file.bytes));
 }
@@ -192,7 +192,7 @@ Admission Work::admitUpload(const Request& request) {
     if (key != "name") upload->options.emplace_back(key, value);
   Admission admission;
   admission.body = std::make_unique<UploadBody>(std::move(*upload), room_);
-  admission.most_bytes = settings_.most_upload_bytes;
+  admission.max_bytes = settings_.max_upload_bytes;
   return admission;
 }
 
@@ -208,7 +208,7 @@ Admission Work::admitMasters(const Request& request) {
   }
   Admission admission;
   admission.body = std::make_unique<TextBody>(text_room_);
-  admission.most_bytes = kMostMastersBytes;
+  admission.max_bytes = kMaxMastersBytes;
   return admission;
 }
 

@@ -20,10 +20,10 @@ namespace sgm::service {
 
 struct WorkSettings {
   std::string upload_folder;  ///< empty: the system's folder for temporary files
-  uint64_t most_upload_bytes = uint64_t{64} << 20;
+  uint64_t max_upload_bytes = uint64_t{64} << 20;
   bool masters_writable = false;
   /// Limit of all uploads that are being received; a single upload is always accepted.
-  uint64_t most_incoming_bytes = uint64_t{1} << 30;
+  uint64_t max_incoming_bytes = uint64_t{1} << 30;
 };
 
 /// Objects that the port uses; they must outlive the server.

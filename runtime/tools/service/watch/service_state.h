@@ -13,9 +13,9 @@ struct ServiceState {
   uint16_t operations_port = 0;
   http::ServerCounts work, operations;
   InspectorCounts inspector;
-  bool inspects = false;      ///< whether uploads can be inspected
-  unsigned most_waiting = 0;  ///< maximum number of waiting uploads
-  uint64_t most_upload_bytes = 0;
+  bool inspects = false;     ///< whether uploads can be inspected
+  unsigned max_waiting = 0;  ///< maximum number of waiting uploads
+  uint64_t max_upload_bytes = 0;
   size_t reports = 0;
 };
 

@@ -130,11 +130,11 @@ std::string summaryText(const ServiceState& state, const std::vector<WorldSample
                      {"validator", state.inspects},
                      {"jobs_running", inspector.running},
                      {"jobs_waiting", inspector.waiting},
-                     {"jobs_most_waiting", state.most_waiting},
+                     {"jobs_most_waiting", state.max_waiting},
                      {"validated", inspector.valid + inspector.invalid + inspector.refused + inspector.failed},
                      {"reports", state.reports},
                      {"resident_bytes", resident ? json(*resident) : json()},
-                     {"most_upload_bytes", state.most_upload_bytes}}},
+                     {"most_upload_bytes", state.max_upload_bytes}}},
                    {"worlds", std::move(all)}});
 }
 

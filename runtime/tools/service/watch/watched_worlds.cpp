@@ -106,7 +106,7 @@ double distanceOf(const sgm_chunk_key& key, const WorldSample& world) {
   return nearest;
 }
 
-/// Indices of at most kMostMapped chunks: the finest first, among equals those nearest to a viewer.
+/// Indices of at most kMaxMapped chunks: the finest first, among equals those nearest to a viewer.
 std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& world) {
   struct Place {
     int32_t level;
@@ -119,7 +119,7 @@ std::vector<size_t> mostWanted(const DrawnMeshes& drawn, const WorldSample& worl
   const auto by = [](const Place& a, const Place& b) {
     return std::tie(a.level, a.distance, a.number) < std::tie(b.level, b.distance, b.number);
   };
-  const size_t most = std::min(places.size(), kMostMapped);
+  const size_t most = std::min(places.size(), kMaxMapped);
   std::partial_sort(places.begin(), places.begin() + static_cast<ptrdiff_t>(most), places.end(), by);
   std::vector<size_t> numbers;
   numbers.reserve(most);
@@ -143,7 +143,7 @@ class WatchedWorld {
     now.name = name_;
     if (const Result<void> asked = ask(now); !asked) return asked.error();
     now.taken = Clock::now();
-    most_in_vain_ = now.stats.chunks_in_vain = std::max(most_in_vain_, now.stats.chunks_in_vain);
+    max_failures_ = now.stats.chunks_in_vain = std::max(max_failures_, now.stats.chunks_in_vain);
     // Keep one sample that is older than the window, so that rates always cover the whole window.
     while (past_.size() > 1 && now.taken - past_[1].taken >= kWindow) past_.pop_front();
     past_.push_back({now.taken, now.stats.chunks_meshed, now.times.clock_seconds, now.times.job_seconds});
@@ -213,7 +213,7 @@ class WatchedWorld {
   const std::string name_;
   sgm_world* world_;
   std::deque<Past> past_;
-  uint64_t most_in_vain_ = 0;
+  uint64_t max_failures_ = 0;
   std::optional<double> speedup_;
   std::shared_ptr<const WorldMap> map_;
   Clock::time_point mapped_;
@@ -245,8 +245,8 @@ class Watcher final : public WatchedWorlds {
       if (other == name) return Error{Code::busy, "another world is already watched as '" + name + "'"};
       if (entry.world == world) return Error{Code::busy, "the world is already watched, as '" + other + "'"};
     }
-    if (worlds_.size() >= kMostWorlds)
-      return Error{Code::limit, "at most " + std::to_string(kMostWorlds) + " worlds can be watched concurrently"};
+    if (worlds_.size() >= kMaxWorlds)
+      return Error{Code::limit, "at most " + std::to_string(kMaxWorlds) + " worlds can be watched concurrently"};
     worlds_.emplace(name, Entry{world, std::move(watched), std::move(*first)});
     return {};
   }

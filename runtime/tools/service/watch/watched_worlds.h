@@ -38,11 +38,11 @@ struct DrawnChunk {
 struct WorldMap {
   WorldSample world;
   uint64_t total = 0;
-  /// At most kMostMapped chunks; the finest first, and among equals those nearest to a viewer.
+  /// At most kMaxMapped chunks; the finest first, and among equals those nearest to a viewer.
   std::vector<DrawnChunk> chunks;
 };
-inline constexpr size_t kMostMapped = 20000;
-inline constexpr size_t kMostWorlds = 16;
+inline constexpr size_t kMaxMapped = 20000;
+inline constexpr size_t kMaxWorlds = 16;
 
 /// The set of sampled worlds. Thread-safe.
 class WatchedWorlds {
@@ -53,7 +53,7 @@ class WatchedWorlds {
 
   /// Adds a world, and samples it once before returning. The world must live until forget() has returned. name:
   /// letters, digits, '_', '-' and '.', at most 64 characters, unique among watched worlds. Errors: invalid_argument;
-  /// limit for more than kMostWorlds worlds; busy if the world or the name is already in use; those of querying the
+  /// limit for more than kMaxWorlds worlds; busy if the world or the name is already in use; those of querying the
   /// world.
   virtual Result<void> watch(const std::string& name, sgm_world* world) = 0;
   /// Removes a world. Blocks until this object no longer uses it. Does nothing if the world is not watched.

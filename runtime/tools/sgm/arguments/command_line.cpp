@@ -18,7 +18,7 @@ namespace sgm::cli {
 namespace {
 
 /// The error message for a word that stands in place of a command but is none; otherwise the parser's own message.
-std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
+std::string errorTextOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
   for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
     const std::string word = argv[i];
@@ -56,16 +56,16 @@ Exit runCommandLine(int argc, char** argv) {
 
   // Checked before CLI11 runs, which would answer `sgm bake --help` with the help of sgm itself.
   if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
-    return complain(Exit::usage,
-                    fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "
-                                "--preset release), and build it again",
-                                argv[1]));
+    return reportError(Exit::usage,
+                       fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "
+                                   "--preset release), and build it again",
+                                   argv[1]));
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e), Exit::done;
-    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", complaintOf(app, e, argc, argv));
+    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", errorTextOf(app, e, argc, argv));
     return Exit::usage;
   }
   const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });

@@ -56,7 +56,7 @@ Command addInspect(CLI::App& root) {
   app->footer("Example:\n  sgm inspect --kind glb <cave.glb");
   return [options, kind, list, store] {
     if (kind->count() + list->count() + store->count() == 0)
-      return complain(Exit::usage, "--kind is missing: give the kind of the file on standard input");
+      return reportError(Exit::usage, "--kind is missing: give the kind of the file on standard input");
     return inspect(*options);
   };
 }

@@ -7,8 +7,8 @@
 #include "measure/mesh_measures.h"
 #include "tools/cli/measure/commands.h"
 #include "tools/paper/commands.h"
-#include "tools/paper/exhibit.h"
 #include "tools/paper/folder.h"
+#include "tools/paper/report_item.h"
 #include "tools/render/renderer.h"
 #include "tools/support/options.h"
 #include "tools/support/region.h"
@@ -16,10 +16,10 @@
 
 namespace sgm::cli {
 
-class Workshop {
+class ReportContext {
  public:
   /// renderer: null if no pictures are drawn. The options, jobs and renderer must outlive the workshop.
-  Workshop(const PaperOptions& options, JobSystem& jobs, const Renderer* renderer)
+  ReportContext(const PaperOptions& options, JobSystem& jobs, const Renderer* renderer)
       : options_(options), jobs_(jobs), renderer_(renderer) {}
 
   const PaperOptions& options() const { return options_; }

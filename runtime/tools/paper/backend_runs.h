@@ -11,6 +11,6 @@ namespace sgm::cli {
 /// Makes the sequential backend first, then one backend for each name, or all backends if there are no names.
 /// Unavailable backends are included with the reason, as are software devices that are not named. threads: number of
 /// CPU threads; 0: one for each processor.
-Result<std::vector<Contender>> makeContenders(const std::vector<std::string>& backends, unsigned threads);
+Result<std::vector<BackendRun>> makeBackendRuns(const std::vector<std::string>& backends, unsigned threads);
 
 }  // namespace sgm::cli

@@ -1,4 +1,4 @@
-#include "tools/paper/workshop.h"
+#include "tools/paper/report_context.h"
 
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@ namespace sgm::cli {
 namespace {
 
 Result<Region> meshBundled(const WorldOptions& options, const RegionPlan& plan) {
-  const CompileResult compiled = compileBundled(Workshop::grammarOf(options));
+  const CompileResult compiled = compileBundled(ReportContext::grammarOf(options));
   if (!compiled.program) return Error{Code::bad_input, renderDiagnostics(compiled)};
   Result<Region> region = meshProgram(compiled.program, options, plan);
   if (!region) return Error{region.error().code, fmt::format("{}: {}", options.file, region.error().message)};
@@ -26,7 +26,7 @@ Result<Region> meshBundled(const WorldOptions& options, const RegionPlan& plan) 
 
 }  // namespace
 
-Result<Region> Workshop::mesh(const WorldOptions& options, bool texture) const {
+Result<Region> ReportContext::mesh(const WorldOptions& options, bool texture) const {
   RegionPlan plan;
   plan.doing = doing_;
   plan.texture = texture;
@@ -34,7 +34,7 @@ Result<Region> Workshop::mesh(const WorldOptions& options, bool texture) const {
   return meshBundled(options, plan);
 }
 
-Result<measure::MeshMeasures> Workshop::measure(const MeasureOptions& options) const {
+Result<measure::MeshMeasures> ReportContext::measure(const MeasureOptions& options) const {
   const Result<Region> region = mesh(options);
   if (!region) return region.error();
   const asset::TriangleMesh triangles = trianglesOf(*region);
@@ -46,8 +46,8 @@ Result<measure::MeshMeasures> Workshop::measure(const MeasureOptions& options) c
   return measure::measureMesh({triangles.points, triangles.triangles}, settings, jobs_);
 }
 
-Result<Markup> Workshop::picture(RenderOptions options, const std::string& name, const std::string& alt,
-                                 const std::string& caption, std::vector<std::string>& commands) {
+Result<Markup> ReportContext::picture(RenderOptions options, const std::string& name, const std::string& alt,
+                                      const std::string& caption, std::vector<std::string>& commands) {
   if (renderer_ == nullptr) return Markup{};
   // The command writes the picture beside the report's folder, which may contain no other files.
   options.out = "../" + name + ".png";

@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-struct Exhibit {
+struct ReportItem {
   std::string id;                     ///< name such as "figure-7", to which Contradiction::places refers
   std::string title;                  ///< "Figure 7. Clouds"
   std::vector<std::string> printed;   ///< quotations from the figure's caption and the paper's text

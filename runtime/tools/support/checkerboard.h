@@ -9,6 +9,6 @@
 namespace sgm::cli {
 
 /// The bytes of a .png file with one tile of the texture: 2 x 2 squares, a red line along u and a green line along v.
-Result<std::vector<std::byte>> chequerPng();
+Result<std::vector<std::byte>> checkerboardPng();
 
 }  // namespace sgm::cli
