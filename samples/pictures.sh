@@ -9,7 +9,7 @@ views='
 basalt basalt.sgm --sharp --cell 0.64 --pixels 3 --fov 60 --region=-16,-1,-30:124,24,400 --camera=-8,2.9,16:10,1.5,14
 birger table4/birger.sgm --seed 3 --cell 10 --fov 52 --region=-800,700,-3200:3200,1150,0 --camera 1300,350,300:1250,560,-900
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 42 --region=-1600,640,-1600:1600,1280,800 --camera 820,600,1050:330,800,250
-branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-59.4,1,55.2:-52.6,1.1,43
+branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-59.4,1,55.2:-51,1.3,44.5
 building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:1.4,5.3,8.6
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.4,-5.4
 castle castle.sgm --sharp --cell 2.56 --pixels 2.5 --fov 38 --region -150,-14,-180:180,75,124 --camera 58,20,122:6,20,6
