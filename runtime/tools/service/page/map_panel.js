@@ -82,8 +82,8 @@ export class MapPanel {
         if (error && this.#world) this.#count.textContent = `There is no map at this moment: ${error.message}`;
       },
     );
-    new IntersectionObserver(([entry]) => {
-      this.#shown = entry.isIntersecting;
+    new IntersectionObserver((changes) => {
+      this.#shown = changes.at(-1).isIntersecting;
       if (this.#shown) this.#poller.now();
     }).observe(node);
   }

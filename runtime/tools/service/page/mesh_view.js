@@ -234,8 +234,9 @@ export class MeshView {
     });
     const resized = new ResizeObserver(() => this.#ask());
     resized.observe(frame);
-    const seen = new IntersectionObserver(([entry]) => {
-      this.#shown = entry.isIntersecting;
+    // On a busy machine one call reports several changes: the last one holds.
+    const seen = new IntersectionObserver((changes) => {
+      this.#shown = changes.at(-1).isIntersecting;
       this.#ask();
     });
     seen.observe(frame);
