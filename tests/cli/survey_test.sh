@@ -73,6 +73,11 @@ expect 0 "$SGM" render "$SOURCE/tests/bench/grammars/building.sgm" --out house.s
 json 'j.subject === "solid" && j.plan.area > 100 && j.plan.highest > 15'
 for class in solid wall contour beyond; do has $class house.svg; done
 lacks ceiling_step house.svg
+# A level top has no contours, and the legend mentions none.
+printf 'sgm 1; units m; start A; rule A { at(8m, 2m, 8m) box(12m, 4m, 8m); }\n' >level.sgm
+expect 0 "$SGM" render level.sgm --out top.svg --plan --json
+json 'j.plan.contour_interval === 0 && Math.abs(j.plan.highest - 4) < 0.1'
+lacks contour top.svg
 
 # Refused calls give one message.
 expect 1 "$SGM" render rooms.sgm --out wrong.svg --plan --region=1,14,1:4,18,4

@@ -35,16 +35,18 @@ std::optional<FoundBaked> fetchBaked(BakedParts& baked, const BakedWorld& world,
   return FoundBaked{std::move(*found), stored->is_far};
 }
 
-/// Copies a part from a server to the disk cache, if reading it there is faster than looking up its record.
+/// Copies a part that came from a server to the disk cache. Empty parts are not copied, because the record of their
+/// tile already contains them.
 void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const ChunkPart& found,
                std::pmr::memory_resource* memory) try {
   if (found.mesh.indices.empty()) return;
   cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, found.mesh, found.anchors, found.voids, memory));
 } catch (const std::bad_alloc&) {
-  // Not stored: the part will be fetched from the server again.
+  // Out of memory: the part is not cached, and will be fetched from the server again.
 }
 
-/// Searches the disk cache and the stores; the cache first if a store is on a server, else the stores first.
+/// Searches a part in the disk cache and the stores. The disk cache comes first if a store is on a server; otherwise
+/// the stores come first.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const BakedWorld& world,
                                 const ChunkPartInputs& inputs, int part, Reach reach,
                                 std::pmr::memory_resource* memory) {
@@ -70,8 +72,8 @@ void leaveOut(int part, ChunkRequest& request) {
   }
 }
 
-/// Stores the requested parts in the cache. If the chunk was proven solid or void without samples, empty parts are not
-/// stored: that proof takes as long as reading a file, and a tenth of the time of writing one.
+/// Stores the requested parts in the cache. If the chunk was proven solid or void without sampling, empty parts are not
+/// stored: the proof takes as long as reading a file, and a tenth of the time of writing one.
 void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& request, const PlacedChunk& chunk,
           const VoidComponents& voids, bool sampled, std::pmr::memory_resource* memory) try {
   const MeshParts meshes = partsOf(chunk.mesh);
@@ -82,7 +84,7 @@ void keep(DiskCache& cache, const ChunkPartInputs& inputs, const ChunkRequest& r
     cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, mesh, chunk.anchors, voids, memory));
   }
 } catch (const std::bad_alloc&) {
-  // Not stored: the chunk will be meshed again.
+  // Out of memory: the parts are not cached, and will be meshed again.
 }
 
 void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& voids) {
@@ -103,7 +105,8 @@ ChunkRequest completed(ChunkRequest request, bool sharp) {
   return request;
 }
 
-/// Returns the inputs of a request's parts; nullopt if such requests are not stored.
+/// Returns the inputs that identify a request's parts in the cache and stores; nullopt if the parts of such requests
+/// are not stored.
 std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRequest& request,
                                         const EditSnapshot* edits) {
   if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return {};
@@ -129,8 +132,8 @@ Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach rea
   return found;
 }
 
-/// Returns the found parts whose inputs have not changed since; searches the other parts in the cache and nearby
-/// stores.
+/// Returns the prefetched parts whose inputs have not changed since the prefetch; searches the others in the cache and
+/// in stores on this machine.
 Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartInputs& inputs) {
   Parts still;
   std::optional<Parts> near;
@@ -144,7 +147,7 @@ Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartI
   return still;
 }
 
-/// An order while it is processed.
+/// An order that is being processed.
 struct InWork {
   ChunkRequest request, rest;  ///< request: all parts; rest: the parts that were not found and must be meshed
   const ChunkSurface* before;
@@ -179,8 +182,8 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   }
 }
 
-/// Meshes these orders together. If that fails, meshes each half separately, so that only a failing order gets the
-/// error.
+/// Meshes the missing parts of several orders together. If that fails, meshes each half separately, so that only the
+/// order that causes the error fails. numbers: indices into `work`.
 void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<const size_t> numbers,
               const Progress& progress, std::vector<InWork>& work) {
   if (numbers.empty()) return;
@@ -204,12 +207,13 @@ void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<co
   }
 }
 
-/// Stores the meshed parts in the cache, and adds the found parts.
+/// Stores the parts that were meshed in the cache, and adds the parts that were found to the chunk.
 void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
-    // A body from the cache has been sampled; and if a chunk is already drawn, it most likely was, too.
+    // For a request of seams only it is unknown whether the chunk was sampled; if it is already drawn, it most likely
+    // was.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
     if (work.inputs && mesher.cache != nullptr)
       keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
@@ -219,9 +223,9 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   }
 }
 
-/// Uploads the parts that the device has not meshed itself: those from the disk, and those that the CPU has meshed for
-/// it. If that fails, the parts are not on the device, which is no error.
-void download(Backend& backend, std::span<InWork> all) {
+/// Uploads to the device the parts that it has not meshed itself: parts from the disk, and parts that the CPU has
+/// meshed for it. If this fails, the parts are missing on the device, which is not an error.
+void upload(Backend& backend, std::span<InWork> all) {
   std::vector<const MeshPart*> parts;
   std::vector<std::shared_ptr<const DevicePart>*> places;
   for (InWork& work : all) {
@@ -254,7 +258,8 @@ MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   return result;
 }
 
-/// Calls body on the job system for each order without an error; sets the error out_of_memory if it throws bad_alloc.
+/// Calls `body` on the job system for each order that has no error. If `body` throws std::bad_alloc, sets the order's
+/// error to out_of_memory.
 template <class Body>
 void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
   parallelFor(jobs, work.size(), [&](size_t i) {
@@ -296,7 +301,7 @@ std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const MeshOrder> or
   }
   meshRest(*this, edits, to_mesh, progress, work);
   forEach(jobs, work, [&](size_t i) { complete(*this, work[i]); });
-  if (resident) download(backend, work);
+  if (resident) upload(backend, work);
   std::vector<std::optional<MeshedChunk>> finished(work.size());
   forEach(jobs, work, [&](size_t i) { finished[i] = surfaced(*this, work[i]); });
   std::vector<Result<MeshedChunk>> results;

@@ -1,5 +1,5 @@
 #pragma once
-// The plan of a survey: a passage seen from above, in the manner of cavers' drawings.
+// The plan of a survey: passages seen from above, in the style of cave maps.
 
 #include <set>
 
@@ -7,12 +7,13 @@
 
 namespace sgm::survey {
 
-/// Colours of water and of its shores.
+/// Colours of water areas and of shorelines.
 inline constexpr Ink kWater{205, 228, 246}, kShore{30, 100, 180};
-/// Colour of solid objects in an open world.
+/// Fill colour of solids in a plan or section of an open world.
 inline constexpr Ink kBuilt{230, 230, 226};
 
-/// The materials that have signs of their own in a plan, by their indices in Program::materials.
+/// Materials with a symbol of their own on a map: whether each material is water or dripstone, indexed as in
+/// Program::materials.
 struct MaterialSigns {
   std::vector<bool> water, dripstone;
   bool isWater(uint32_t label) const { return has(water, label); }
@@ -25,23 +26,23 @@ struct MaterialSigns {
   }
 };
 
-/// A height in whole metres: "-12"; never "-0".
+/// A height rounded to whole metres, as text: "-12", and "0" instead of "-0".
 std::string wholeMetres(double height);
 
 MaterialSigns signsFor(const Program& program);
 
-/// Position and scale of a grid on the paper.
+/// Maps grid coordinates to positions on the sheet.
 struct Placement {
-  Point corner;      ///< position of the grid point (0, 0), pixels
-  double scale = 1;  ///< pixels for each grid step
+  Point corner;      ///< position on the sheet of the grid point (0, 0), pixels
+  double scale = 1;  ///< pixels per grid step
   Point at(Point p) const { return {corner.x + scale * p.x, corner.y + scale * p.y}; }
   Line at(const Line& line) const;
 };
 
-/// The rectangles of the paper that lettering occupies, so that texts do not overlap.
+/// Rectangles of the sheet that labels occupy, so that labels do not overlap.
 class Lettered {
  public:
-  /// Whether a rectangle with this centre and size overlaps no occupied one; if so, the rectangle becomes occupied.
+  /// Occupies the rectangle with this centre and size, unless it overlaps an occupied one. Returns whether it was free.
   bool take(Point middle, double width, double height);
 
  private:
@@ -51,30 +52,30 @@ class Lettered {
   std::vector<Room> rooms_;
 };
 
-/// Figures of a plan; lengths in metres.
+/// Measures of a plan. Lengths are in metres.
 struct PlanFigures {
-  double interval = 0;             ///< height difference between contours; 0: there are no contours
-  double area = 0;                 ///< area of the subject as seen from above, m2
-  double lowest = 0, highest = 0;  ///< heights of floors, or of the solid's top
+  double interval = 0;             ///< height difference between neighbouring contours; 0 without contours
+  double area = 0;                 ///< area of the subject seen from above, square metres
+  double lowest = 0, highest = 0;  ///< lowest and highest floor of a hollow, or top of a solid
   std::set<double> water;          ///< heights of water surfaces, rounded to a tenth of a metre
-  size_t dripstones = 0;           ///< number of drawn signs for dripstones
+  size_t dripstones = 0;           ///< number of dripstone symbols
   size_t leads = 0;                ///< number of places at which a passage continues beyond the region
   bool empty = true;
 };
 
-/// Heights of the surfaces that are visible from above: floors of a hollow, tops of a solid; kUnknown where there is
-/// none.
+/// For each column, the height of the surface seen from above: the floor of a hollow or the top of a solid; kUnknown if
+/// there is none, or if the region cuts it off.
 Grid heightsIn(const Columns& columns);
 
 PlanFigures drawPlan(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
-/// Draws floors as contours, with hachures where they are steep, and the edges of steps in the ceiling as dashed lines.
-/// Returns the height difference between contours in metres; 0 if there are no contours.
+/// Draws the floors as contours, with hachures on steep slopes, and steps of the ceiling as dashed lines. Returns the
+/// height difference between neighbouring contours in metres; 0 if it draws no contours.
 double drawRelief(const Columns& columns, const MaterialSigns& signs, const Placement& place, Lettered& lettered,
                   Drawing& drawing);
 
-/// Draws signs for stalagmites, stalactites and columns, and the outlines of larger flowstone. Returns the number of
-/// signs.
+/// Draws symbols for stalagmites, stalactites and columns, and outlines of large flowstone. Returns the number of
+/// symbols.
 size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing);
 
 }  // namespace sgm::survey

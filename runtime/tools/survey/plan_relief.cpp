@@ -181,16 +181,19 @@ double drawRelief(const Columns& columns, const MaterialSigns& signs, const Plac
     if (columns.subject == Subject::hollow && signs.isWater(columns.floor_label[i])) within.values[i] = -1;
     if (!std::isnan(heights.values[i])) known.push_back(heights.values[i]);
   }
-  double interval = 0;
+  double interval = 0, drawn = 0;
   if (!known.empty()) {
     std::ranges::sort(known);
     const double range = static_cast<double>(known[known.size() * 98 / 100] - known[known.size() * 2 / 100]);
     interval = niceInterval(range);
     soften(heights, 2);
-    if (range > interval / 4) drawFloors(columns, std::move(heights), within, interval, place, lettered, drawing);
+    if (range > interval / 4) {
+      drawFloors(columns, std::move(heights), within, interval, place, lettered, drawing);
+      drawn = interval;
+    }
   }
   if (columns.subject == Subject::hollow) drawCeilings(columns, interval, place, drawing);
-  return interval;
+  return drawn;
 }
 
 size_t drawDripstone(const Columns& columns, const MaterialSigns& signs, const Placement& place, Drawing& drawing) {
