@@ -42,7 +42,7 @@ KeptMemory::~KeptMemory() { meshes_.free(data_, bytes_); }
 
 Result<std::unique_ptr<KeptMeshes>> KeptMeshes::create(Device& device, uint64_t cap) {
   std::unique_ptr<KeptMeshes> meshes(new KeptMeshes(device, cap));
-  for (std::unique_ptr<Stream>* stream : {&meshes->ending_, &meshes->downloading_}) {
+  for (std::unique_ptr<Stream>* stream : {&meshes->ending_, &meshes->uploading_}) {
     Result<std::unique_ptr<Stream>> made = device.makeStream();
     if (!made) return made.error();
     *stream = std::move(*made);
@@ -134,8 +134,8 @@ Result<std::vector<std::shared_ptr<const DevicePart>>> KeptMeshes::upload(const 
   for (const MeshPart* part : parts)
     bytes += aligned(part->vertices.size() * sizeof(Vertex)) + aligned(part->indices.size() * sizeof(uint32_t));
   if (bytes == 0) return brought;
-  const std::scoped_lock lock(downloading_mutex_);
-  if (Result<void> grown = staging_.grow(*downloading_, MemoryKind::pinned, bytes); !grown) return grown.error();
+  const std::scoped_lock lock(uploading_mutex_);
+  if (Result<void> grown = staging_.grow(*uploading_, MemoryKind::pinned, bytes); !grown) return grown.error();
   std::byte* at = staging_.data();
   const auto stage = [&](const auto& array) {
     std::byte* const place = std::exchange(at, at + aligned(array.size() * sizeof(array[0])));
@@ -149,9 +149,9 @@ Result<std::vector<std::shared_ptr<const DevicePart>>> KeptMeshes::upload(const 
     sources[i][0].vertex_count = static_cast<uint32_t>(parts[i]->vertices.size());
     sources[i][0].index_count = static_cast<uint32_t>(parts[i]->indices.size());
   }
-  Result<std::vector<DeviceParts>> kept = keep(owner, *downloading_, sources, true);
+  Result<std::vector<DeviceParts>> kept = keep(owner, *uploading_, sources, true);
   if (!kept) return kept.error();
-  if (Result<void> there = downloading_->wait(); !there) return there.error();
+  if (Result<void> there = uploading_->wait(); !there) return there.error();
   for (size_t i = 0; i < parts.size(); ++i) brought[i] = std::move((*kept)[i][0]);
   return brought;
 }

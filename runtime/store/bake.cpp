@@ -164,7 +164,7 @@ Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Pro
       const Made& own = chunk.parts[static_cast<size_t>(part)];
       const auto [at, is_new] = known.try_emplace(own.id, static_cast<uint16_t>(record.contents.size() + 1));
       record.part(numbers[i], part) = at->second;
-      record.plain_bytes += own.frame ? own.frame->size() : own.content.size();
+      record.unshared_bytes += own.frame ? own.frame->size() : own.content.size();
       if (!is_new) continue;
       StoredContent content{own.id, static_cast<uint32_t>(own.content.size()), 0, kInlined, record.inlined.size()};
       const std::span<const std::byte> stored = own.frame ? *own.frame : own.content;

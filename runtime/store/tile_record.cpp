@@ -60,7 +60,7 @@ std::vector<std::byte> encodeTile(const TileRecord& record) {
   out.put(int32_t{record.key.level});
   for (int axis = 0; axis < 3; ++axis) out.put(record.key.at[axis]);
   out.put(record.chunks);
-  out.put(record.plain_bytes);
+  out.put(record.unshared_bytes);
   out.put(static_cast<uint32_t>(record.packs.size()));
   for (const PackFile& pack : record.packs) {
     putId(pack.name, out);
@@ -87,7 +87,7 @@ std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes, std::pmr:
   record.key.level = in.get<int32_t>();
   for (int axis = 0; axis < 3; ++axis) record.key.at[axis] = in.get<int32_t>();
   record.chunks = in.get<uint32_t>();
-  record.plain_bytes = in.get<uint64_t>();
+  record.unshared_bytes = in.get<uint64_t>();
   const auto packs = in.get<uint32_t>();
   if (packs > in.left() / kPackBytes) return std::nullopt;
   for (uint32_t i = 0; i < packs; ++i) {

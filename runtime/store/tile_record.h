@@ -1,5 +1,5 @@
 #pragma once
-// The record of a tile: where the parts of its chunks are stored, and their measures.
+// The record of a tile: where the parts of its chunks are stored, and measurements of their surfaces.
 
 #include "chunk/chunk_part.h"
 #include "measure/chunk_measures.h"
@@ -8,30 +8,30 @@
 
 namespace sgm::store {
 
-/// A value of StoredContent::pack: the content is stored in the record itself. Contents without triangles, and others
-/// as small, are inlined: there are only a few different ones, most chunks share them, and no reader should have to
-/// open a file for each.
+/// A value of StoredContent::pack: the content is stored inline, in the record itself. This is done with content
+/// without triangles, and other content of at most kMaxInlined bytes. Most chunks share a few such contents, and a
+/// reader should not have to open a file for each.
 inline constexpr uint32_t kInlined = 0xFFFFFFFF;
 inline constexpr size_t kMaxInlined = 256;  ///< maximum size of an inlined content, in bytes
 
-/// Where a content, the output of encodeChunkPart, is stored.
+/// Where the encoded bytes of a chunk part (the result of encodeChunkPart) are stored.
 struct StoredContent {
-  ContentId id;         ///< idOf the uncompressed content
-  uint32_t bytes = 0;   ///< size of the content
-  uint32_t stored = 0;  ///< size of its compressed frame
-  uint32_t pack = 0;    ///< index in TileRecord::packs, or kInlined
-  uint64_t offset = 0;  ///< offset in that pack, or in TileRecord::inlined
+  ContentId id;         ///< hash (idOf) of the uncompressed bytes
+  uint32_t bytes = 0;   ///< uncompressed size in bytes
+  uint32_t stored = 0;  ///< size as stored, in bytes; compressed, unless the content is inlined
+  uint32_t pack = 0;    ///< index into TileRecord::packs, or kInlined
+  uint64_t offset = 0;  ///< offset of the stored bytes in that pack, or in TileRecord::inlined
   friend bool operator==(const StoredContent&, const StoredContent&) = default;
 };
 
-/// A pack: a file that consists of a head and successive frames. Its name is a hash of its bytes.
+/// A pack: a file that consists of a header and the compressed frames of chunk parts. Its name is a hash of its bytes.
 struct PackFile {
   ContentId name;
   uint64_t bytes = 0;
   friend bool operator==(const PackFile&, const PackFile&) = default;
 };
 
-/// size of a pack's head: "SGMP" and the version, 4 bytes each
+/// size of a pack's header in bytes: "SGMP" and the version, 4 bytes each
 inline constexpr uint64_t kPackHead = 8;
 inline constexpr uint32_t kPackVersion = 1;
 std::vector<std::byte> packHead();
@@ -42,16 +42,16 @@ struct TileRecord {
 
   TileKey key;
   std::pmr::vector<PackFile> packs;
-  /// the different contents, in the order in which chunks and parts first use them
+  /// the distinct contents of the tile's chunk parts, in the order of their first use
   std::pmr::vector<StoredContent> contents;
   std::pmr::vector<std::byte> inlined;
-  /// By chunk and part: index into `contents` plus one; 0 if the part was not baked.
+  /// for each chunk and part: index into `contents` plus one; 0 if the part was not baked
   std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
-  uint32_t chunks = 0;       ///< number of baked chunks
-  uint64_t plain_bytes = 0;  ///< total size of all parts, if each were stored separately and uncompressed
+  uint32_t chunks = 0;          ///< number of baked chunks
+  uint64_t unshared_bytes = 0;  ///< total size of all parts in bytes as stored, if identical contents were not shared
 
-  /// Returns the content of a part; null if it was not baked. chunk: its number in the tile.
+  /// Returns the content of a part; null if the part was not baked. chunk: index of the chunk in the tile.
   const StoredContent* contentOf(size_t chunk, int part) const {
     const uint16_t number = this->part(chunk, part);
     return number == 0 ? nullptr : &contents[number - 1u];
@@ -61,7 +61,8 @@ struct TileRecord {
 };
 
 std::vector<std::byte> encodeTile(const TileRecord& record);
-/// Decodes a record. Accepts any bytes; nullopt if encodeTile cannot have made them, or an index in them is invalid.
+/// Decodes a record. Accepts arbitrary bytes; nullopt if they are not a result of encodeTile, or contain an invalid
+/// index.
 std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes,
                                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

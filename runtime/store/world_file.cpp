@@ -49,7 +49,7 @@ Result<void> WorldFile::forRecords(std::pmr::memory_resource* memory,
 void WorldSummary::add(const TileRecord& record) {
   ++tiles;
   chunks += record.chunks;
-  plain_bytes += record.plain_bytes;
+  unshared_bytes += record.unshared_bytes;
   measured.add(record.measured);
   for (const StoredContent& content : record.contents) contents += contents_.insert(content.id).second;
   for (const PackFile& pack : record.packs) {

@@ -1,5 +1,5 @@
 #pragma once
-// Opens the file of a world's index.
+// Reads the index file of a world in a store.
 
 #include <filesystem>
 #include <functional>
@@ -11,27 +11,27 @@
 namespace sgm::store {
 
 struct WorldFile {
-  std::string name;  ///< name of the file, for messages
+  std::string name;  ///< name of the index file, for messages
   WorldIndex index;
-  /// the file as it was when it was opened, even if it has been replaced since
+  /// the open index file; keeps its old content even if another file replaces it
   std::shared_ptr<const StoredFile> file;
 
-  /// Opens an index. Errors: io, and those of readIndex; messages contain the file's name and say what to do.
+  /// Opens an index. Errors: io, and those of readIndex; messages contain the file's name and what the user can do.
   static Result<WorldFile> open(const std::filesystem::path& path);
   static Result<WorldFile> of(std::string name, std::shared_ptr<const StoredFile> file,
                               std::pmr::memory_resource* memory = std::pmr::get_default_resource());
   /// Reads the record of a tile. Errors: same as open. Throws std::bad_alloc.
   Result<TileRecord> record(const TileEntry& tile, std::pmr::memory_resource* memory) const;
-  /// Calls f for every record, until reading or f returns an error. Throws std::bad_alloc.
+  /// Calls f for every record, until reading fails or f returns an error. Throws std::bad_alloc.
   Result<void> forRecords(std::pmr::memory_resource* memory, const std::function<Result<void>(TileRecord&&)>& f) const;
 };
 
 /// Totals over all tiles of a world.
 struct WorldSummary {
   uint64_t tiles = 0, chunks = 0;
-  uint64_t contents = 0;  ///< number of different contents, including inlined ones
+  uint64_t contents = 0;  ///< number of distinct contents of chunk parts, including inlined ones
   uint64_t packs = 0, pack_bytes = 0;
-  uint64_t plain_bytes = 0;  ///< total size if each part were stored separately and uncompressed
+  uint64_t unshared_bytes = 0;  ///< total size of all parts in bytes as stored, if identical contents were not shared
   measure::SurfaceSums measured;
 
   void add(const TileRecord& record);
@@ -40,9 +40,10 @@ struct WorldSummary {
   std::set<ContentId> contents_, packs_;
 };
 
-/// Adds up the totals of a world. Errors: those of reading its records.
+/// Computes the totals of a world. Errors: those of reading its records.
 Result<WorldSummary> summaryOf(const WorldFile& world, std::pmr::memory_resource* memory);
-/// True if the store has all packs of the world in their right sizes. Errors: same as above.
+/// True if the store contains all packs of the world, and they have the expected sizes. Errors: those of reading the
+/// world's records.
 Result<bool> hasPacks(const Folder& store, const WorldFile& world, std::pmr::memory_resource* memory);
 
 /// Returns the paths of the indexes in a store, sorted by name. Error: io.

@@ -14,7 +14,7 @@ store::TileRecord randomRecord(std::mt19937& random) {
   record.key = {static_cast<int>(random() % 8),
                 {static_cast<int>(random() % 9) - 4, static_cast<int>(random() % 9) - 4, 3}};
   record.chunks = static_cast<uint32_t>(random() % 513);
-  record.plain_bytes = random();
+  record.unshared_bytes = random();
   record.inlined.resize(random() % 400);
   for (std::byte& byte : record.inlined) byte = static_cast<std::byte>(random());
   for (size_t i = random() % 4; i > 0; --i) record.packs.push_back({keyNumber(random()), 1000 + random() % 100000});
@@ -43,7 +43,7 @@ store::TileRecord randomRecord(std::mt19937& random) {
 
 bool same(const store::TileRecord& a, const store::TileRecord& b) {
   return a.key == b.key && a.packs == b.packs && a.contents == b.contents && a.inlined == b.inlined &&
-         a.parts == b.parts && a.chunks == b.chunks && a.plain_bytes == b.plain_bytes &&
+         a.parts == b.parts && a.chunks == b.chunks && a.unshared_bytes == b.unshared_bytes &&
          a.measured.triangles == b.measured.triangles && a.measured.area == b.measured.area &&
          a.measured.defects == b.measured.defects;
 }
