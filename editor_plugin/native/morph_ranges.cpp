@@ -7,24 +7,21 @@ namespace {
 
 constexpr float kNever = 1e9f;
 
-/// Distances in metres from the nearest viewer to the nearest and to the farthest point of a chunk's box.
-std::pair<float, float> distances(const sgm_chunk_key& key, const std::vector<Units>& viewers, int32_t cell_units) {
+/// Distance in metres from the nearest viewer to the farthest point of a chunk's box.
+float farthest(const sgm_chunk_key& key, const std::vector<Units>& viewers, int32_t cell_units) {
   const double edge = std::ldexp(static_cast<double>(cell_units) * SGM_CHUNK_CELLS, key.level);
   const double corner[3] = {key.x * edge, key.y * edge, key.z * edge};
-  double nearest = INFINITY, farthest = INFINITY;
+  double least = INFINITY;
   for (const Units& viewer : viewers) {
-    double near = 0, far = 0;
+    double far = 0;
     for (size_t axis = 0; axis < 3; ++axis) {
       const double low = corner[axis] - viewer[axis], high = low + edge;
-      const double inside = std::max({low, -high, 0.0}), outside = std::max(std::abs(low), std::abs(high));
-      near += inside * inside;
+      const double outside = std::max(std::abs(low), std::abs(high));
       far += outside * outside;
     }
-    nearest = std::min(nearest, near);
-    farthest = std::min(farthest, far);
+    least = std::min(least, far);
   }
-  return {static_cast<float>(std::sqrt(nearest) / SGM_UNITS_PER_METRE),
-          static_cast<float>(std::sqrt(farthest) / SGM_UNITS_PER_METRE)};
+  return static_cast<float>(std::sqrt(least) / SGM_UNITS_PER_METRE);
 }
 
 }  // namespace
@@ -38,7 +35,7 @@ MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vec
   std::array<float, SGM_MAX_LEVEL + 2> finer_ends{};
   for (const Picture::Shown& chunk : shown) {
     if (chunk.seams == 0) continue;
-    const auto [near, far] = distances(chunk.key, viewers, cell_units);
+    const float far = farthest(chunk.key, viewers, cell_units);
     const auto level = static_cast<size_t>(chunk.key.level);
     ranges.end[level] = std::min(ranges.end[level], far);
     finer_ends[level + 1] = std::max(finer_ends[level + 1], far);

@@ -1,10 +1,10 @@
 #version 450
-// A vertex of the library's to the picture. Integers up to the last step: chunks that share a vertex, of whatever level,
-// come to the same three numbers, and so nothing shows between them.
+// Transforms a vertex of the library's format to clip space. Positions stay integers until the last step: chunks of any
+// level that share a vertex compute the same three numbers, so that no gap shows between them.
 layout(location = 0) in ivec4 place;       // x, y, z in 1/256 of the chunk's cell edge, from its origin; material
 layout(location = 1) in vec2 octahedral;   // the normal
-layout(location = 2) in ivec4 chunk;       // its origin less the camera's place, and its cell edge, in units
-layout(location = 0) out vec3 position;    // metres from the camera's place
+layout(location = 2) in ivec4 chunk;       // the chunk's origin minus the camera's position, and the chunk's cell edge, in units
+layout(location = 0) out vec3 position;    // metres from the camera
 layout(location = 1) out vec3 normal;
 layout(location = 2) flat out uint material;
 layout(push_constant) uniform View { mat4 view_projection; };
