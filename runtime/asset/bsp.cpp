@@ -8,10 +8,11 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kSamePlane = 1e-12;  ///< two normals are the same if their cosine is at least 1 minus this value
+constexpr double kSamePlane = 1e-12;  ///< two planes count as parallel if the cosine of their normals is at least 1
+                                      ///< minus this value
 constexpr size_t kMaxCandidates = 24;
 
-/// A part of a face, within a cell that is not completely divided yet.
+/// The part of a polyhedron's face that lies within a cell that is still to be split.
 struct Fragment {
   Loop loop;
   uint32_t plane = 0;
@@ -40,9 +41,10 @@ std::optional<int> crossing(Point from, Point along, Point a, Point b, Point c) 
   return facing > 0 ? 1 : -1;
 }
 
-/// Returns the winding number of the surface around a point that does not lie on it; nullopt if no ray can decide it.
+/// Returns the winding number of the surface around a point off the surface; nullopt if every test ray passes too close
+/// to an edge.
 std::optional<int> windingAt(const Polyhedron& solid, Point p) {
-  // Directions that are not parallel to edges or faces decide best; the axes often are parallel.
+  // Ray directions that are unlikely to be parallel to edges or faces; models often have edges parallel to the axes.
   constexpr Point kRays[] = {{0.3713906763541037, 0.7427813527082074, 0.5570860145311556},
                              {-0.6123724356957945, 0.3535533905932738, 0.7071067811865475},
                              {0.8137334712067349, -0.4650, 0.34874291623145787},
@@ -123,16 +125,16 @@ class CellCutter {
   void close(OpenCell cell) {
     BspCell leaf{std::move(cell.body), std::move(cell.sides), {}, 0, false};
     leaf.middle = leaf.body.middle();
-    // If no ray can decide, the cell is as thin as the tolerance, and counts as void.
+    // If every test ray is ambiguous, the cell is as thin as the tolerance and counts as void.
     leaf.winding = windingAt(solid_, leaf.middle).value_or(0);
     leaf.solid = leaf.winding > 0;
     out_.cells.push_back(std::move(leaf));
   }
 
-  /// Returns the plane that cuts the fewest other face fragments of the cell; among equals, the one with the largest
-  /// area.
+  /// Returns the plane that cuts the fewest face fragments of the cell; among equals, the plane with the largest area
+  /// of fragments.
   uint32_t splitter(const OpenCell& cell) const {
-    // pairs of negated area and plane, so that sorting puts the largest area first
+    // (negated area, plane), so that sorting puts the largest area first
     std::vector<std::pair<double, uint32_t>> candidates;
     for (const Fragment& f : cell.fragments) {
       const auto known =
@@ -177,7 +179,7 @@ class CellCutter {
       for (const Fragment& f : cell.fragments) {
         if (f.plane == number) continue;
         Fragment rest{clippedLoop(f.loop, side, out_.tolerance), f.plane, 0};
-        // A fragment that has only an edge in the plane does not lie in it.
+        // A fragment that touches the plane only along an edge does not count as lying in the plane.
         bool inside = false;
         for (const Point& p : rest.loop) inside = inside || side.distance(p) < -out_.tolerance;
         if (rest.loop.size() < 3 || !inside) continue;

@@ -9,17 +9,18 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kShortest = 0.01;  ///< the shortest allowed edge, relative to its original length
-constexpr double kParallel = 1e-4;  ///< if the determinant of three normals is smaller, they do not determine a corner
-/// Weight of corners' targets relative to that of edge lengths: positions the parts that no constraint determines.
+constexpr double kShortest = 0.01;  ///< minimum length of a fitted edge, relative to its original length
+constexpr double kParallel = 1e-4;  ///< minimum determinant of three face normals that determine a corner
+/// Weight of the corners' target positions relative to the weight of edge lengths. It is small, but determines the
+/// positions of parts that no other constraint determines.
 constexpr double kPlaceWeight = 1e-4;
 
-/// A corner's position as a function of the moves of its faces along their normals.
+/// A vertex of the polyhedron, whose displacement is a linear function of its faces' displacements along their normals.
 struct Corner {
-  std::vector<uint32_t> faces;   ///< all faces that meet in the corner
-  std::array<uint32_t, 3> by{};  ///< three of these faces that determine the corner's position
-  std::array<Point, 3> moves{};  ///< the corner's move per unit move of each of the three faces
-  bool sharp = false;            ///< true if there are three such faces
+  std::vector<uint32_t> faces;   ///< indices of all faces that meet in the corner
+  std::array<uint32_t, 3> by{};  ///< three of `faces`, whose planes determine the corner's position
+  std::array<Point, 3> moves{};  ///< displacement of the corner per unit displacement of each face in `by`
+  bool sharp = false;            ///< true if three of `faces` determine the position
 };
 
 class FaceMover {
@@ -38,8 +39,8 @@ class FaceMover {
   }
 
  private:
-  /// Applies the maps to all points. The result keeps every face's normal if no face is slanted; nullopt if a normal
-  /// would change.
+  /// Applies the maps to every point. This keeps the normals of axis-aligned faces; returns nullopt if any other face
+  /// would change its normal.
   std::optional<Polyhedron> byMaps() const {
     Polyhedron out = solid_;
     out.points = wanted_;
@@ -47,7 +48,8 @@ class FaceMover {
     for (size_t t = 0; t < out.triangles.size(); ++t)
       for (const uint32_t corner : out.triangles[t]) {
         const uint32_t f = out.face_of[t];
-        // A corner lies in its plane only up to the tolerance of the file: the map must not move it farther off.
+        // In the file, a corner may be off its face's plane by up to the tolerance: keep that distance, so that mapping
+        // does not add to it.
         const double was = solid_.faces[f].plane.distance(solid_.points[corner]);
         const double offset = dot(out.faces[f].plane.normal, out.points[corner]) - was;
         if (known[f] && std::fabs(out.faces[f].plane.offset - offset) > 4 * tolerance_) return std::nullopt;
@@ -91,7 +93,7 @@ class FaceMover {
         }
   }
 
-  /// Returns the move of a corner in a direction, as a linear form of the faces' moves.
+  /// Returns the displacement of a corner along a direction, as a linear form of the faces' displacements.
   LinearForm moveOf(uint32_t corner, Point direction, double times = 1) const {
     LinearForm form;
     for (size_t m = 0; m < 3; ++m)
@@ -99,7 +101,7 @@ class FaceMover {
     return form;
   }
 
-  /// Finds the edges between two faces; each leads from one sharp corner to another.
+  /// Finds the straight edges between two faces; each edge joins two sharp corners and may pass through other vertices.
   void findEdges() {
     using Half = std::pair<std::pair<uint32_t, uint32_t>, uint32_t>;
     std::vector<Half> halves;
@@ -107,8 +109,8 @@ class FaceMover {
       for (size_t k = 0; k < 3; ++k)
         halves.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, solid_.face_of[t]});
     std::sort(halves.begin(), halves.end());
-    // next[(corner, face)]: the corner that follows on the face's border, if the first corner is not sharp.
-    std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;  // (corner, face), corner
+    // The half-edges on borders between faces: (start corner, face) and end corner, sorted.
+    std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;
     for (const Half& half : halves) {
       const auto& [ends, face] = half;
       const std::pair back{ends.second, ends.first};
@@ -129,7 +131,7 @@ class FaceMover {
         if (on == next.end() || on->first != std::pair{b, face}) break;
         b = on->second;
       }
-      // An edge lies on the borders of two faces, in opposite directions; it is added only once.
+      // Both adjacent faces list the edge, in opposite directions: add it only in the direction with a < b.
       if (corners_[b].sharp && a < b && dot(normalised(solid_.points[b] - solid_.points[a]), along) > 0.999)
         edges_.emplace_back(a, b);
     }
@@ -194,7 +196,8 @@ class FaceMover {
     return out;
   }
 
-  /// Moves a point of an edge or a face (not a corner) into the planes of these faces; it may move along them.
+  /// Projects a vertex that is not sharp (it lies within an edge or a face) into the planes of its faces, after these
+  /// have moved.
   static Point onto(const std::vector<uint32_t>& faces, const Polyhedron& out, Point p) {
     Point first;
     for (const uint32_t f : faces) {
@@ -213,7 +216,7 @@ class FaceMover {
   const Polyhedron& solid_;
   const std::array<AxisMap, 3>& maps_;
   double edge_, tolerance_;
-  std::vector<Point> wanted_;  ///< target position of each point
+  std::vector<Point> wanted_;  ///< target position of each vertex: its mapped original position
   std::vector<Corner> corners_;
   std::vector<std::pair<uint32_t, uint32_t>> edges_;
 };

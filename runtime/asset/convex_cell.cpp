@@ -7,7 +7,7 @@ namespace sgm::asset {
 
 namespace {
 
-/// Returns the part of a cell behind a plane, with the facet that the cut creates.
+/// Returns the part of a cell behind a plane; the cut becomes a new facet.
 ConvexCell partBehind(const ConvexCell& cell, const Plane& plane, double tolerance) {
   ConvexCell part;
   for (const ConvexCell::Facet& facet : cell.facets)
@@ -38,8 +38,8 @@ Loop clippedLoop(const Loop& loop, const Plane& plane, double tolerance) {
     const Point a = loop[i], b = loop[(i + 1) % loop.size()];
     const double from = plane.distance(a), to = plane.distance(b);
     if (from <= tolerance) out.push_back(a);
-    // The intersection is computed from the same end regardless of the edge's direction, so that neighbours get the
-    // same point.
+    // Compute the intersection always from the same end of the edge, regardless of its direction, so that both adjacent
+    // polygons get the same point.
     if ((from < -tolerance && to > tolerance) || (from > tolerance && to < -tolerance))
       out.push_back(from < 0 ? a + (from / (from - to)) * (b - a) : b + (to / (to - from)) * (a - b));
   }

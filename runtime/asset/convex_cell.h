@@ -1,5 +1,5 @@
 #pragma once
-// Convex polygons and bodies that are split by planes. BSP trees are built from them.
+// Convex polygons and convex polyhedra that are split by planes, for building BSP trees.
 
 #include <cstdint>
 #include <optional>
@@ -13,14 +13,15 @@ namespace sgm::asset {
 /// A convex polygon in a plane; empty if it has fewer than three vertices.
 using Loop = std::vector<Point>;
 
-/// Returns the part of a polygon behind a plane. Vertices closer to the plane than the tolerance count as in it.
+/// Returns the part of a convex polygon behind a plane. Vertices closer to the plane than the tolerance count as lying
+/// in it.
 Loop clippedLoop(const Loop& loop, const Plane& plane, double tolerance);
-/// Returns a square in the plane. Its middle is the point of the plane nearest to `about`.
+/// Returns a square in the plane, centred on the point of the plane nearest to `about`.
 Loop squareIn(const Plane& plane, Point about, double half_edge);
 double areaOf(const Loop& loop);
 Point middleOf(const Loop& loop);
 
-/// A convex body: the intersection of the half-spaces behind its facets' planes.
+/// A convex polyhedron: the intersection of the half-spaces behind its facets' planes.
 struct ConvexCell {
   struct Facet {
     Plane plane;
@@ -36,7 +37,7 @@ struct ConvexCell {
   std::pair<double, double> range(const Plane& plane) const;
 };
 
-/// The parts of a cell behind and in front of a plane; nullopt if a part is thinner than the tolerance.
+/// The parts of a cell behind and in front of a plane. A part is nullopt if it is thinner than the tolerance.
 struct SplitCell {
   std::optional<ConvexCell> behind, before;
 };

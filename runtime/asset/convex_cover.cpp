@@ -1,11 +1,14 @@
-// How it works. A BSP tree of the faces' planes divides the inside into convex cells. For a point where several cells
-// meet, all of them solid, take the sides of all those cells except the sides whose planes pass through the point: the
-// intersection of these sides is convex, contains the point strictly, and is solid. (Take the segment from the point to
-// any other in it. Near the point the segment lies in one of the cells, and it leaves none of that cell's sides: it
-// cannot cross those through the point again, and all others hold at both ends.) All points within a cell, within a
-// face that two cells share, and within an edge between corners of such faces meet the same cells, so covering these
-// features suffices. A piece then loses every side that is not needed to exclude a void cell, which makes it large and
-// lets it cover many features: a wall with m by n windows takes m + n + 2 pieces.
+// How the cover is found. A BSP tree of the faces' planes divides the polyhedron's inside into convex cells. Consider a
+// point where several cells meet, all of them solid. Take the half-spaces that bound those cells, except the
+// half-spaces whose planes pass through the point. Their intersection is convex, contains the point strictly, and is
+// solid. (Proof: take the segment from the point to any other point of the intersection. Near the first point, the
+// segment lies in one of the cells. It cannot leave that cell through a plane of the first point, because it began
+// there; nor through another plane, because both ends lie on the inner side of it.)
+//
+// All points within a cell, within a face that two cells share, and within an edge between corners of such faces meet
+// the same cells; so covering one point of each of these features covers the whole inside. Each piece is then enlarged:
+// it loses every half-space that is not needed to exclude a void cell. A large piece covers many features: a wall with
+// m by n windows takes m + n + 2 pieces.
 
 #include "asset/convex_cover.h"
 
@@ -18,7 +21,7 @@ namespace sgm::asset {
 
 namespace {
 
-/// A set of points, strictly between corners of cells, that all touch the same cells.
+/// A cell, a face that two cells share, or a part of such a face's border: all its inner points touch the same cells.
 struct Feature {
   Loop corners;
   Point middle;
@@ -58,7 +61,8 @@ class CoverFinder {
   double tolerance() const { return cells_.tolerance; }
   size_t planeCount() const { return cells_.planes.size(); }
 
-  /// Finds, for each plane, the void cells that lie entirely on one side of it; and the bounding box of each cell.
+  /// Finds, for each half-space of each plane, the void cells that lie entirely in it; also the bounding box of each
+  /// cell.
   void relateCells() {
     for (uint32_t c = 0; c < cells_.cells.size(); ++c) {
       const BspCell& cell = cells_.cells[c];
@@ -81,19 +85,19 @@ class CoverFinder {
       }
   }
 
-  /// Returns the void cells that a piece with this side excludes.
+  /// Returns the void cells that a piece excludes if it is bounded by this side.
   const std::vector<uint32_t>& leftOut(Side side) const { return outside_[2 * side.plane + (side.before ? 1 : 0)]; }
 
-  /// Removes sides that are not needed to exclude a void cell.
+  /// Enlarges a piece: removes the sides that are not needed to exclude a void cell.
   std::vector<Side> grown(std::vector<Side> sides) const {
     std::vector<uint32_t> count(void_.size(), 0);
     for (const Side side : sides)
       for (const uint32_t v : leftOut(side)) ++count[v];
-    // If a cell is excluded only by two sides together, no side is removed: that is rare, and a smaller piece is also
-    // correct.
+    // If no single side excludes some void cell (only several sides together), keep all sides: that is rare, and a
+    // smaller piece is also correct.
     if (std::find(count.begin(), count.end(), 0u) != count.end()) return sides;
-    // Removal starts with the sides that exclude the most and, among these, were cut last. They lie farthest inside:
-    // without them, sides farther outside may suffice.
+    // Try to remove the sides first that exclude the most void cells and, among these, those that were cut last. They
+    // lie farthest inside: without them, sides farther outside may suffice.
     std::reverse(sides.begin(), sides.end());
     std::stable_sort(sides.begin(), sides.end(), [&](Side a, Side b) { return leftOut(a).size() > leftOut(b).size(); });
     std::vector<Side> kept;
@@ -117,8 +121,8 @@ class CoverFinder {
     return true;
   }
 
-  /// Adds a feature to the list and, if no piece covers it, a piece for it. sides: the sides of that piece before it
-  /// grows.
+  /// Adds a feature to the list, and a new piece if no piece covers the feature. sides: the sides of the new piece
+  /// before it is enlarged.
   void addFeature(Feature feature, std::vector<Side> sides) {
     features_.push_back(std::move(feature));
     for (const GrownPiece& piece : pieces_)
@@ -139,7 +143,7 @@ class CoverFinder {
     }
   }
 
-  /// Returns the sides of the meeting cells, except those whose planes pass through `at`.
+  /// Returns the half-spaces that bound the cells `meeting`, except those whose planes pass through the point `at`.
   std::vector<Side> sidesAt(const std::vector<uint32_t>& meeting, Point at) const {
     std::vector<Side> sides;
     for (const uint32_t c : meeting)
@@ -156,7 +160,7 @@ class CoverFinder {
     return true;
   }
 
-  /// Finds the faces that two solid cells share (portals).
+  /// Finds the portals: the faces that two solid cells share.
   void findPortals() {
     struct FacetOf {
       uint32_t cell;
@@ -188,7 +192,8 @@ class CoverFinder {
         }
   }
 
-  /// Finds the edges of the portals, cut at the corners of other portals, and the corners.
+  /// Adds features for the corners and edges of the portals (faces that two solid cells share); an edge is split where
+  /// corners of other portals lie on it.
   void findEdges() {
     std::vector<Point> corners;
     for (const Loop& loop : portals_) corners.insert(corners.end(), loop.begin(), loop.end());
@@ -227,7 +232,7 @@ class CoverFinder {
     }
   }
 
-  /// Adds a feature where more than two cells may meet, unless one of these cells is void.
+  /// Adds a corner or a part of an edge of a face that two solid cells share, unless a void cell also touches it.
   void meetingPoint(Feature feature) {
     for (const GrownPiece& piece : pieces_)
       if (covers(piece.sides, feature)) {
@@ -249,7 +254,7 @@ class CoverFinder {
     if (!meeting.empty()) addFeature(std::move(feature), sidesAt(meeting, middle));
   }
 
-  /// Removes redundant pieces. Later pieces were added for smaller features, so they are removed first.
+  /// Removes redundant pieces. The last pieces cover the smallest features, so they are tried first.
   void dropSuperfluous() {
     std::vector<uint32_t> count(features_.size(), 0);
     for (GrownPiece& piece : pieces_)
@@ -260,7 +265,7 @@ class CoverFinder {
         }
     for (size_t i = pieces_.size(); i-- > 0;) {
       const std::vector<uint32_t>& covers = pieces_[i].covers;
-      // A piece that covers no listed feature is thin, but was added for some feature, so it is kept.
+      // A piece that covers no feature by the test of covers() is very thin; it was added for some feature, so keep it.
       if (covers.empty() || !std::all_of(covers.begin(), covers.end(), [&](uint32_t f) { return count[f] > 1; }))
         continue;
       for (const uint32_t f : covers) --count[f];
@@ -281,9 +286,10 @@ class CoverFinder {
     return piece;
   }
 
-  /// Returns the material of the polyhedron's faces in the plane of a side, by area.
+  /// Returns the material of the polyhedron's faces in the plane of a side; of several materials, the one with the
+  /// largest area within the piece.
   uint32_t materialOf(Side side, const std::vector<Side>& sides) const {
-    // areas of each material: within the piece, and in the whole plane
+    // for each material: area of its faces within the piece, and in the whole plane
     std::map<uint32_t, std::pair<double, double>> areas;
     for (const uint32_t t : triangles_[2 * side.plane + (side.before ? 1 : 0)]) {
       const uint32_t face = solid_.face_of[t];
@@ -310,9 +316,9 @@ class CoverFinder {
   const CoverLimits& limits_;
   std::vector<std::pair<Point, Point>> boxes_;  ///< bounding box of each cell
   std::vector<uint32_t> void_;                  ///< indices of the void cells
-  /// for each side of each plane: indices into void_ of the cells on that side
+  /// for each half-space of each plane: the void cells in it, as indices into void_
   std::vector<std::vector<uint32_t>> outside_;
-  /// for each plane and direction: the triangles in the plane that face that way
+  /// for each plane and direction: the polyhedron's triangles in that plane that face in that direction
   std::vector<std::vector<uint32_t>> triangles_;
   std::vector<Feature> features_;
   std::vector<Loop> portals_;

@@ -1,7 +1,7 @@
 #pragma once
-// Covers a polyhedron by overlapping convex pieces: every point inside it lies strictly inside one of them. The pieces
-// must overlap, because a field is solid only below 0: samples in a common face of two pieces that merely touch would
-// be 0, and so void.
+// Covers a polyhedron with overlapping convex pieces: every point inside the polyhedron lies strictly inside at least
+// one piece. The pieces must overlap, because a field value of exactly 0 counts as void: samples in a common face of
+// two pieces that merely touch would be 0.
 
 #include <cstdint>
 #include <vector>
@@ -12,12 +12,12 @@
 
 namespace sgm::asset {
 
-/// A side of a piece: the plane of one of the polyhedron's faces. The piece lies behind it.
+/// A bounding plane of a convex piece, and the plane of at least one face of the polyhedron. The piece lies behind it.
 struct PieceSide {
   Plane plane;
-  uint32_t number = 0;  ///< identifies the plane and its direction: the same number in all pieces
-  /// The material of the polyhedron's face in that plane. If faces with two materials share the plane, the material of
-  /// the larger area within the piece.
+  uint32_t number = 0;  ///< identifies the plane and its direction; the same in all pieces
+  /// The material of the polyhedron's faces in that plane. If they have several materials, the one with the largest
+  /// area within the piece.
   uint32_t material = kNoMaterial;
 };
 
@@ -27,8 +27,8 @@ struct CoverLimits {
   size_t cells = kMaxCells, pieces = 4096, features = 65536;
 };
 
-/// Returns pieces of maximal size, none of them redundant. Errors: limit if the polyhedron is too intricate; bad_input
-/// if it intersects itself so that its inside faces out.
+/// Returns the pieces: each as large as possible, none redundant. Errors: limit if the polyhedron is too intricate;
+/// bad_input if it intersects itself so that a part is inside out.
 Result<std::vector<ConvexPiece>> coverWithPieces(const Polyhedron& solid, const CoverLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -20,8 +20,8 @@ class Repeater {
     double from = -kEnd, moved = 0;
     for (const Stretch& zone : zones) {
       part(from, zone.from, moved);
-      // Triangles in a plane between two parts belong to the beginning or the end of the zone; inside the zone they
-      // would be repeated.
+      // Triangles that lie exactly in the plane at the start or end of the zone are added once here; as a part of the
+      // zone, they would be repeated.
       faceAt(zone.from, moved);
       for (size_t i = 0; i < count; ++i) {
         part(zone.from, zone.to, moved + static_cast<double>(i) * (zone.to - zone.from));
@@ -101,7 +101,7 @@ class Repeater {
   Polyhedron out_;
   std::vector<Point> points_;
   std::vector<std::array<uint32_t, 3>> triangles_;
-  std::vector<uint32_t> faces_;  ///< index into out_.faces of each triangle
+  std::vector<uint32_t> faces_;  ///< for each triangle: index of its face in out_.faces
   std::map<std::pair<uint32_t, double>, uint32_t> copies_;
 };
 

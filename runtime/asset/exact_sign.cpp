@@ -10,8 +10,8 @@ constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kSpaceError = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kPlaneError = (3 + 16 * kHalfUlp) * kHalfUlp;
 
-/// An exact value as a sum of non-overlapping doubles, the smallest first. The sum is on the stack, because on flat
-/// ground almost every pair of neighbouring triangles needs some.
+/// An exact value, represented as the sum of non-overlapping doubles, the smallest first. It lives on the stack, since
+/// allocation would be slow: on flat ground almost every pair of neighbouring triangles needs such values.
 template <size_t kMost>
 struct Expansion {
   double parts[kMost];
@@ -25,13 +25,14 @@ void twoSum(double a, double b, double& sum, double& error) {
   error = (a - (sum - bb)) + (b - bb);
 }
 
-/// Returns the upper half of the digits, so that the remainder is a double with half as many digits.
+/// Returns the upper half of the mantissa's bits, so that the remainder is also a double with half as many bits.
 double upperHalf(double v) {
   const double large = 134217729 * v;
   return large - (large - v);
 }
 
-/// Computes a * b and its rounding error, which is itself a double (Dekker, 1971; without a fused operation).
+/// Computes a * b and its rounding error, which is representable as a double (Dekker, 1971; without fused
+/// multiply-add).
 void twoProduct(double a, double b, double& product, double& error) {
   product = a * b;
   const double a_high = upperHalf(a), b_high = upperHalf(b), a_low = a - a_high, b_low = b - b_high;
@@ -57,7 +58,7 @@ Expansion<2> difference(double a, double b) {
   return result;
 }
 
-/// Adds sign * a * b to sum.
+/// Adds the product sign * a * b to `sum`, exactly.
 template <size_t kMost, size_t kA, size_t kB>
 void addProduct(Expansion<kMost>& sum, const Expansion<kA>& a, const Expansion<kB>& b, double sign) {
   for (size_t i = 0; i < a.size; ++i) {
@@ -71,7 +72,7 @@ void addProduct(Expansion<kMost>& sum, const Expansion<kA>& a, const Expansion<k
 }
 
 int signOf(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
-/// Returns the sign of the largest component, which decides that of the sum.
+/// Returns the sign of the largest component: the components do not overlap, so it is the sign of the sum.
 template <size_t kMost>
 int signOf(const Expansion<kMost>& e) {
   return e.size == 0 ? 0 : signOf(e.parts[e.size - 1]);
@@ -84,7 +85,7 @@ int exactOrientation(Point a, Point b, Point c, Point d) {
     v[axis] = difference(b[axis], d[axis]);
     w[axis] = difference(c[axis], d[axis]);
   }
-  // Capacity: each product of two components adds two components.
+  // Capacity 192: each product of two components adds at most two components.
   Expansion<192> determinant;
   for (int axis = 0; axis < 3; ++axis) {
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
@@ -107,7 +108,7 @@ int orientation(Point a, Point b, Point c, Point d) {
                       std::fabs(u.y) * (std::fabs(vw_y) + std::fabs(wv_y)) +
                       std::fabs(u.z) * (std::fabs(vw_z) + std::fabs(wv_z));
   if (std::fabs(determinant) > kSpaceError * size) return signOf(determinant);
-  if (size == 0) return 0;  // every term is 0, as for planes perpendicular to an axis
+  if (size == 0) return 0;  // all terms of the determinant are 0, as for planes perpendicular to an axis
   return exactOrientation(a, b, c, d);
 }
 

@@ -21,10 +21,10 @@ Error refused(std::string message) { return {Code::bad_input, std::move(message)
 
 std::string along(int axis) { return std::string(" along ") + kAxes[axis]; }
 
-/// The zones along one axis.
+/// The stretching and the repeating zones along one axis.
 struct AxisPlan {
-  std::vector<Stretch> stretches, repeats;  ///< sorted from the low end
-  double length = 0;                        ///< length of the asset along the axis
+  std::vector<Stretch> stretches, repeats;  ///< sorted by `from`
+  double length = 0;                        ///< length of the asset along the axis, in metres
 
   static double sum(const std::vector<Stretch>& zones) {
     double total = 0;
@@ -34,7 +34,7 @@ struct AxisPlan {
 
   size_t leastCopies() const { return stretches.empty() || length - sum(repeats) <= 0 ? 1 : 0; }
 
-  /// Returns the number of copies whose total length comes nearest to a size.
+  /// Returns the number of copies of the repeating zones for which the asset's length comes nearest to `size`.
   size_t copiesFor(double size) const {
     if (repeats.empty()) return 1;
     const double fixed = length - sum(repeats), one = sum(repeats);
@@ -43,7 +43,7 @@ struct AxisPlan {
     return static_cast<size_t>(std::clamp(nearest, least, kMaxCopies));
   }
 
-  /// Returns the plan without its repeating zones, for zero copies.
+  /// Returns the plan of the asset after its repeating zones were removed (zero copies).
   AxisPlan without() const {
     AxisPlan out;
     out.length = length - sum(repeats);
@@ -56,8 +56,8 @@ struct AxisPlan {
     return out;
   }
 
-  /// Returns the map that the asset with each repeating zone once must follow, so that the result with all copies has
-  /// the size.
+  /// Returns the map for the asset in which each repeating zone occurs once. After this map and then the repetition of
+  /// the zones, the asset has the length `size`.
   AxisMap map(double size, size_t copies) const {
     const std::vector<Stretch>& free = stretches.empty() ? repeats : stretches;
     const double count = static_cast<double>(copies);
@@ -87,7 +87,7 @@ struct AxisPlan {
 class Fitter {
  public:
   Fitter(const Polyhedron& asset, std::span<const FitZone> zones) : asset_(asset), zones_(zones) {
-    // From here on, positions are measured from the asset's low end, as zones are.
+    // Move the asset so that positions count from the low end of its bounding box, as those of zones do.
     for (Point& p : asset_.points) p = p - asset.low;
     for (Face& face : asset_.faces) face.plane.offset -= dot(face.plane.normal, asset.low);
     asset_.findBox();
@@ -132,7 +132,7 @@ class Fitter {
       for (const FitZone& zone : zones_) {
         if (zone.axis != axis) continue;
         Stretch part{zone.from, zone.to};
-        // A zone that ends at the asset's end up to the millimetre, as zones are written, ends there exactly.
+        // Zones are written to the millimetre: a zone that ends within 1 mm of the asset's end ends exactly there.
         if (std::fabs(part.to - plan.length) <= 1e-3) part.to = plan.length;
         const std::string name = "the zone " + metresText(zone.from) + "m.." + metresText(zone.to) + "m" + along(axis);
         if (!(part.from >= 0 && part.to <= plan.length && part.to - part.from >= 1e-3))
@@ -156,7 +156,7 @@ class Fitter {
     return refused("a repeated zone" + along(axis) + " does not join: its sections at both ends differ");
   }
 
-  /// For each axis, the number of copies of its repeating zones.
+  /// For each axis: the number of copies of its repeating zones.
   using Copies = std::array<size_t, 3>;
 
   Copies copiesFor(Point size) const {
@@ -166,14 +166,15 @@ class Fitter {
     return out;
   }
 
-  /// Returns the counts with one copy less along an axis: the nearest count may leave too little length for the rest.
+  /// Returns `copies` with one copy fewer along an axis, to try if the number of copies nearest to the size leaves too
+  /// little length for the stretching zones.
   Copies oneFewer(Copies copies, size_t axis) const {
     if (!plans_[axis].repeats.empty() && copies[axis] > plans_[axis].leastCopies()) --copies[axis];
     return copies;
   }
 
-  /// Returns the asset with each repeating zone once, fitted so that all copies together have the size; nullopt if that
-  /// is impossible.
+  /// Returns the asset in which each repeating zone occurs once, resized so that it has the given size after the
+  /// repetition; nullopt if that is impossible.
   Result<std::optional<Polyhedron>> fitted(Point size, const Copies& copies) const {
     std::array<AxisMap, 3> maps;
     Polyhedron taken;

@@ -7,12 +7,13 @@ namespace sgm::asset {
 
 namespace {
 
-/// For coefficients of about 1: a hard constraint whose remainder after elimination by earlier ones is this small
-/// consists of the rounding of a file's floats, and does not determine an unknown.
+/// If all coefficients of a hard constraint are at most this large after elimination by earlier constraints, they are
+/// rounding errors of the file's floats: the constraint then depends on the earlier ones. Assumes coefficients of about
+/// 1.
 constexpr double kNothing = 1e-5;
 
-/// Solves a symmetric, positive definite system in place by Cholesky decomposition. Unknowns that it does not determine
-/// become 0.
+/// Solves the symmetric, positive semidefinite system a x = b in place, by Cholesky decomposition; b becomes x.
+/// Unknowns that the system does not determine become 0.
 void solvePositive(std::vector<double>& a, std::vector<double>& b) {
   const size_t n = b.size();
   double largest = 0;
@@ -85,7 +86,7 @@ std::vector<double> LeastSquares::solve() const {
   std::vector<size_t> free;
   for (size_t i = 0; i < count_; ++i)
     if (!bound[i]) free.push_back(i);
-  // The solutions of the hard constraints are x = start + basis * y, where y are the free unknowns.
+  // All solutions of the hard constraints have the form x = start + basis * y, where y are the free unknowns.
   const size_t n = free.size();
   std::vector<double> start(count_, 0), basis(count_ * n, 0);
   for (size_t k = 0; k < n; ++k) basis[free[k] * n + k] = 1;

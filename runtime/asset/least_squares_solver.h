@@ -1,6 +1,6 @@
 #pragma once
-// Linear least squares with soft constraints (wishes), subject to hard linear constraints (demands). Uses dense
-// matrices, a fixed order, and + - * / and sqrt alone, so that every machine computes the same bits.
+// Linear least squares with soft constraints, subject to hard linear constraints. It uses dense matrices, a fixed order
+// of operations, and + - * / and sqrt alone, so that every machine computes the same bits.
 
 #include <cstddef>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace sgm::asset {
 
-/// A linear combination of unknowns: pairs of an unknown's index and its coefficient. All other coefficients are 0.
+/// A linear combination of unknowns: pairs (index of the unknown, coefficient). All other coefficients are 0.
 using LinearForm = std::vector<std::pair<size_t, double>>;
 
 class LeastSquares {
@@ -20,7 +20,7 @@ class LeastSquares {
   bool hardConstraint(const LinearForm& form, double value, double tolerance);
   /// Adds the soft constraint weight * (form - value)^2.
   void softConstraint(const LinearForm& form, double value, double weight);
-  /// Returns the values of the unknowns; 0 for those that no constraint determines.
+  /// Returns the values of the unknowns; the value is 0 for an unknown that no constraint determines.
   std::vector<double> solve() const;
 
  private:
@@ -33,7 +33,7 @@ class LeastSquares {
 
   size_t count_;
   std::vector<Row> rows_;
-  std::vector<double> squares_;  ///< normal matrix of the soft constraints: count_ x count_
+  std::vector<double> squares_;  ///< normal matrix of the soft constraints, with count_ rows and columns
   std::vector<double> right_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Points and directions of assets, in metres, in double precision. They use + - * / and sqrt alone, so every machine
-// computes the same bits.
+// Points and directions of assets, in metres and double precision. The functions use + - * / and sqrt alone, so every
+// machine computes the same bits.
 
 #include <cmath>
 
@@ -21,13 +21,13 @@ struct Point {
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
-/// Returns a vector of length 1 with the same direction; 0 for the vector 0.
+/// Returns the vector scaled to length 1; the zero vector stays 0.
 inline Point normalised(Point a) {
   const double size = length(a);
   return size > 0 ? (1.0 / size) * a : Point{};
 }
 
-/// A plane with a direction: the solid lies behind it, where the signed distance is negative.
+/// An oriented plane: the solid lies behind it, where the signed distance is negative.
 struct Plane {
   Point normal;
   double offset = 0;

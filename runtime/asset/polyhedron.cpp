@@ -10,11 +10,13 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr double kThinnest = 1e-3;  ///< metres: the least extent of an asset
-/// triangles of one face have at least this cosine between their normals; the distances of corners decide the rest
+constexpr double kThinnest = 1e-3;  ///< minimum size of an asset along each axis, in metres
+/// Minimum cosine between the normals of two triangles of one face. This is a coarse test; the distances of corners
+/// from the plane decide.
 constexpr double kAlike = 0.99;
 
-/// Makes a normal that is perpendicular or parallel to an axis up to the rounding of a file's floats exactly so.
+/// Sets components of a unit normal that are as small as the rounding of a file's floats to 0, so that faces
+/// perpendicular or parallel to an axis are exactly so.
 Point straightened(Point normal) {
   constexpr double kRounding = 4e-6;
   for (int axis = 0; axis < 3; ++axis)
@@ -32,7 +34,7 @@ class FaceFinder {
     for (uint32_t t = 0; t < count; ++t)
       for (size_t k = 0; k < 3; ++k) edges_.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, t});
     std::sort(edges_.begin(), edges_.end());
-    // The largest triangle of a face determines its plane best.
+    // Start each face with its largest triangle, which determines the plane most precisely.
     std::vector<uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
@@ -91,7 +93,7 @@ class FaceFinder {
 
   Polyhedron& solid_;
   const std::vector<uint32_t>& materials_;
-  std::vector<Point> crosses_;  ///< one per triangle: the cross product of two sides, whose length is twice the area
+  std::vector<Point> crosses_;  ///< for each triangle: the cross product of two sides, whose length is twice the area
   std::vector<EdgeOf> edges_;
 };
 
@@ -123,7 +125,7 @@ Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh) {
                      std::to_string(kMaxTriangles),
                  0, 0};
   Polyhedron solid;
-  // Only points that triangles use determine the box.
+  // Points that no triangle uses do not count for the bounding box.
   for (const auto& t : mesh.triangles)
     for (const uint32_t corner : t) solid.points.push_back(mesh.points[corner]);
   solid.findBox();

@@ -1,5 +1,5 @@
 #pragma once
-// A closed mesh with planar faces, which `fit` stretches.
+// A closed mesh with planar faces, which `fit` resizes.
 
 #include <array>
 #include <cstdint>
@@ -15,35 +15,35 @@ namespace sgm::asset {
 
 inline constexpr size_t kMaxTriangles = 4096, kMaxFaces = 256;
 
-/// The tolerance of an asset whose longest edge has this length: points closer to each other count as one point.
+/// Returns the tolerance in metres for an asset with this longest edge: points closer together count as one point.
 constexpr double toleranceOf(double longest_edge) { return 2e-6 * longest_edge; }
 
-/// Connected coplanar triangles of one material.
+/// A maximal set of connected, coplanar triangles of one material.
 struct Face {
-  Plane plane;  ///< its normal points out of the solid
+  Plane plane;  ///< plane of the face; its normal points out of the solid
   uint32_t material = kNoMaterial;
 };
 
-/// A mesh in which every edge has equally many triangles on both sides. Parts of it may touch and overlap.
+/// A closed mesh: every edge has equally many triangles in each direction. Parts of the mesh may touch and overlap.
 struct Polyhedron {
   std::vector<Point> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint32_t> face_of;  ///< index of each triangle's face
+  std::vector<uint32_t> face_of;  ///< for each triangle: index of its face
   std::vector<Face> faces;
   Point low, high;  ///< corners of the bounding box
 
   double longestEdge() const;
   double tolerance() const { return toleranceOf(longestEdge()); }
   void findBox();
-  /// The sum of the volumes of its parts; overlaps count twice.
+  /// Returns the sum of the volumes of the mesh's parts in cubic metres; overlaps count several times.
   double volume() const;
 };
 
-/// The advice in errors about meshes that are too large for makePolyhedron.
+/// The advice in error messages about meshes that are too large for makePolyhedron.
 inline constexpr std::string_view kSimplifyAdvice = "simplify it in the modelling tool, or fit it in several parts";
 
-/// Makes a polyhedron of a mesh. Errors: bad_input (the mesh is open, inside out or flat), limit (too many triangles or
-/// faces).
+/// Makes a polyhedron from a mesh. Errors: bad_input if the mesh is open, inside out or flat; limit if it has too many
+/// triangles or faces.
 Result<Polyhedron> makePolyhedron(const TriangleMesh& mesh);
 
 }  // namespace sgm::asset

@@ -13,7 +13,7 @@ namespace {
 using Triangle = std::array<uint32_t, 3>;
 using DirectedEdge = std::pair<uint32_t, uint32_t>;
 
-/// Returns for each point the index of the point that it is merged with.
+/// Returns, for each point, the index of the point with which it is merged (possibly itself).
 std::vector<uint32_t> merged(const std::vector<Point>& points, double tolerance) {
   std::vector<uint32_t> order(points.size()), into(points.size(), static_cast<uint32_t>(points.size()));
   std::iota(order.begin(), order.end(), 0u);
@@ -86,8 +86,7 @@ class Welder {
   }
   bool isOpen(uint32_t a, uint32_t b) const { return countOf(a, b) != countOf(b, a); }
 
-  /// Splits triangles at corners of open edges that lie on the triangles' own open edges. Returns true if any was
-  /// split.
+  /// Splits open edges of triangles where corners of other open edges lie on them. Returns true if any edge was split.
   bool splitEdges() {
     sortEdges();
     std::vector<uint32_t> corners;
@@ -124,8 +123,8 @@ class Welder {
     return any;
   }
 
-  /// Returns, among the corners that lie within the edge from a to b, the one nearest to a; nullopt if there is none.
-  /// corners: sorted by x.
+  /// Returns, of the corners that lie on the edge strictly between a and b, the one nearest to a; nullopt if there is
+  /// none. corners: sorted by x.
   std::optional<uint32_t> cornerBetween(uint32_t a, uint32_t b, const std::vector<uint32_t>& corners) const {
     const Point from = out_.points[a], along = out_.points[b] - from;
     const double size = length(along);

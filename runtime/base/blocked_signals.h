@@ -1,5 +1,5 @@
 #pragma once
-// Keeps signals away from the library's threads, so that the threads of the host program handle them.
+// Keeps signals away from the library's threads, so that the threads of the host program receive and handle them.
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <pthread.h>
@@ -9,10 +9,10 @@
 
 namespace sgm {
 
-/// Blocks signals on the constructing thread for the lifetime of the object. Threads that are started meanwhile inherit
-/// the signal mask and keep it. Signals that a thread's own fault raises, such as SIGSEGV, stay unblocked: if they were
-/// blocked, the fault would end the process without calling the program's handler. The destructor restores the previous
-/// mask.
+/// Blocks signals on the constructing thread for the lifetime of the object. Threads started meanwhile inherit the
+/// signal mask and keep it. Synchronous signals such as SIGSEGV, which a thread's own fault raises, are not blocked: if
+/// they were, the fault would end the process without calling the program's handler. The destructor restores the
+/// previous mask.
 class BlockedSignals {
  public:
 #if defined(__unix__) || defined(__APPLE__)

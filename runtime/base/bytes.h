@@ -1,5 +1,6 @@
 #pragma once
-// Converts numbers to bytes and back, little-endian on every supported machine.
+// Serialises numbers to little-endian bytes and deserialises them; the byte order is the same on every supported
+// machine.
 
 #include <cstddef>
 #include <cstring>
@@ -25,8 +26,8 @@ class ByteWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Reads numbers in order from bytes, which it does not own. Reading past the end returns 0, and failed() is true from
-/// then on.
+/// Deserialises numbers from bytes, one after another; does not own the bytes. Reading past the end returns 0, and
+/// failed() is true from then on.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -1,6 +1,6 @@
 #include "base/checksum.h"
 
-// xxHash is compiled in, so that programs that link the library do not need it.
+// xxHash is compiled in (header-only), so that programs that link this library do not have to link xxHash.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Checksums of bytes read from a disk or a network.
+// Checksums that detect damage of bytes read from a disk or a network.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace sgm {
 
-/// XXH64 with seed 0; every machine computes the same value. It detects accidental damage, but not malicious changes.
+/// XXH64 with seed 0; the value is the same on every machine. It detects accidental damage, but not malicious changes.
 uint64_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace sgm

@@ -34,7 +34,8 @@ Result<platform::File> openForReading(const std::filesystem::path& path, Readabl
   return file;
 }
 
-/// Reads up to `bytes` bytes and appends them to content. Returns false, with the reason in errno, if reading fails.
+/// Reads at most `bytes` bytes from the descriptor `file` and appends them to `content`. Returns false, with the reason
+/// in errno, if reading fails.
 bool append(int file, std::string& content, size_t bytes) {
   const size_t before = content.size();
   content.resize(before + bytes);
@@ -57,7 +58,8 @@ Result<std::string> readOpenFile(int file, const std::string& name, uint64_t max
   const uint64_t reported = status.isRegular() ? status.bytes : 0;
   if (reported > max_bytes) return tooLarge(name, max_bytes);
   std::string content;
-  // Read one byte more than the file's reported size, to detect whether the file has ended there.
+  // Read one byte more than the reported size: if that byte does not exist, the file has ended, and no second read is
+  // needed.
   size_t next = std::max(static_cast<size_t>(reported) + 1, reported > 0 ? 0 : kPiece);
   for (;;) {
     const size_t before = content.size();

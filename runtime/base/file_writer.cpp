@@ -22,7 +22,8 @@ Error writeError(const fs::path& target, const std::string& reason) {
 
 Error writeError(const fs::path& target, int code) { return writeError(target, systemMessage(code)); }
 
-/// The path with symbolic links at its end resolved, even if the file to which the last link points does not exist yet.
+/// Returns the path with symbolic links in its last component resolved. The file at the end of the links need not
+/// exist.
 Result<std::string> followed(const fs::path& target) {
   fs::path place = target;
   for (int links = 0; links < kMaxLinks; ++links) {
@@ -40,7 +41,8 @@ std::string folderOf(const std::string& place) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// The path of unfinished file `number` beside the target. The name has at most the 255 bytes that file systems allow.
+/// Returns the path of temporary file `number` in the folder of the target. File systems limit a name to 255 bytes, so
+/// the target's name is cut to 200.
 std::string nameBeside(const std::string& place, int number) {
   const fs::path path(place);
   return (path.parent_path() / path.filename().string().substr(0, 200)).string() + ".sgm-part" + std::to_string(number);
@@ -51,8 +53,8 @@ bool isAt(int file, const std::string& name) {
   return platform::statusOf(file, ours) == 0 && platform::statusAt(name, there, false) == 0 && ours.isSameFile(there);
 }
 
-/// Removes the file if no process holds its lock. Only the holder of the lock may remove an unfinished file: this is
-/// the process that writes it or, after that process has ended, the first process that gets the lock.
+/// Removes the temporary file if no process holds its lock. Only the holder of the lock may remove a temporary file:
+/// this is the process that writes it or, after that process has ended, the first process that gets the lock.
 void removeIfLeft(const std::string& name) {
   const platform::File file(platform::openFile(name, platform::kWrite | platform::kNoFollow));
   if (file && platform::lockFile(file.number()) == 0 && isAt(file.number(), name)) platform::removeFile(name);
@@ -94,7 +96,8 @@ Result<FileWriter> FileWriter::create(const fs::path& target, UnfinishedFiles* u
   if (!replaces && errno != ENOENT) return writeError(target, errno);
   if (replaces && there.kind == platform::FileStatus::Kind::folder) return writeError(target, "it is a folder");
   if (replaces && !there.isRegular()) return writeError(target, "it is not a regular file");
-  // The rename at the end would succeed on a write-protected target, so the protection is checked here.
+  // commit() renames over the target, which would succeed even if the target is write-protected; so check the
+  // protection here.
   if (replaces && !platform::isWritable(*place)) return writeError(target, errno);
 
   removeLeft(*place);
@@ -132,7 +135,7 @@ FileWriter::~FileWriter() {
   close();
 }
 
-/// Returns 0, or the errno if no file could be opened.
+/// Creates a temporary file that has a name from the beginning. Returns 0, or errno if no file could be created.
 int FileWriter::openNamed() {
   for (int number = 0; number < kMaxNames; ++number) {
     temporary_ = nameBeside(place_, number);
@@ -141,8 +144,8 @@ int FileWriter::openNamed() {
     if (file_ < 0 && errno == EEXIST) continue;
     if (file_ < 0) break;
     announce();
-    // Until this process holds the lock, another process may mistake the new file for one of a killed process and
-    // remove it.
+    // Until this process holds the lock, another process may take the new file for a leftover of a killed process and
+    // remove it; so check that the file still exists.
     if (platform::lockFile(file_) == 0 ? isAt(file_, temporary_) : errno != EWOULDBLOCK) return 0;
     forgetName();
     close();
@@ -152,7 +155,7 @@ int FileWriter::openNamed() {
   return errno;
 }
 
-/// Gives the nameless file a name beside the target. Returns 0, or the errno of the failure.
+/// Gives the nameless temporary file a name in the target's folder. Returns 0, or errno on failure.
 int FileWriter::nameNameless() {
   for (int number = 0; number < kMaxNames; ++number) {
     std::string name = nameBeside(place_, number);
@@ -213,7 +216,7 @@ Error FileWriter::errorFrom(int code) const { return writeError(target_, code); 
 Result<void> FileWriter::finish() {
   if (first_error_ == 0 && file_ >= 0) {
     flush();
-    // Some file systems report a full disk only when the file is synchronised.
+    // Some file systems report a full disk only when the file is synchronised (fsync).
     if (first_error_ == 0 && platform::syncFile(file_) != 0 && errno != EINVAL) first_error_ = errno;
     if (first_error_ == 0 && temporary_.empty()) first_error_ = nameNameless();
   }
@@ -232,7 +235,7 @@ Result<void> FileWriter::commit() {
 Result<void> FileWriter::commitReversibly() {
   if (Result<void> done = finish(); !done) return done;
   if (platform::exchangeFiles(temporary_, place_) == 0) {
-    undo_ = Undo::exchange;  // the file beside the target is now the replaced one
+    undo_ = Undo::exchange;  // temporary_ now names the file that was replaced
     return {};
   }
   platform::FileStatus there;

@@ -1,5 +1,6 @@
 #pragma once
-// World positions: int32 in units of 1/1024 m on each axis, about +-2,097 km (arithmetic contract, runtime/README.md).
+// World positions: int32 coordinates in units of 1/1024 m, so the world reaches to about +-2,097 km on each axis
+// (arithmetic contract, runtime/README.md).
 
 #include <algorithm>
 #include <compare>
@@ -11,7 +12,7 @@ namespace sgm {
 inline constexpr int32_t kUnitsPerMetre = 1024;
 inline constexpr double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
 
-/// A world position or an offset, in units.
+/// A world position or an offset, in units of 1/1024 m.
 struct Int3 {
   int32_t x = 0, y = 0, z = 0;
   friend auto operator<=>(const Int3&, const Int3&) = default;
@@ -34,7 +35,7 @@ inline Int3 saturatingSub(Int3 a, Int3 b) {
   return {saturate(int64_t{a.x} - b.x), saturate(int64_t{a.y} - b.y), saturate(int64_t{a.z} - b.z)};
 }
 
-/// A closed box of world positions: lo and hi belong to the box. Empty if lo > hi on an axis.
+/// An axis-aligned box of world positions, closed: lo and hi belong to the box. It is empty if lo > hi on any axis.
 struct IntBox {
   Int3 lo{1, 1, 1};
   Int3 hi{0, 0, 0};
@@ -52,12 +53,12 @@ struct IntBox {
     return !empty() && !b.empty() && lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y &&
            lo.z <= b.hi.z && b.lo.z <= hi.z;
   }
-  /// The box grown by margin units on every side, saturating at the ends of the world.
+  /// Returns the box enlarged by `margin` units on every side, clamped to the int32 range of the world.
   IntBox grown(int32_t margin) const {
     if (empty()) return *this;
     return {saturatingSub(lo, {margin, margin, margin}), saturatingAdd(hi, {margin, margin, margin})};
   }
-  /// The smallest box that contains both boxes.
+  /// Returns the smallest box that contains this box and b.
   IntBox joined(const IntBox& b) const {
     if (empty()) return b;
     if (b.empty()) return *this;

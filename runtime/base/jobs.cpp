@@ -30,7 +30,7 @@ struct Job {
 class ThreadPool final : public JobSystem {
  public:
   ThreadPool(const Profiler& profiler, const char* names) : profiler_(profiler), names_(names) {}
-  /// Must be called once, before any other function. Returns an error if no thread starts.
+  /// Starts the pool's threads. Must be called once, before any other function. Returns an error if no thread starts.
   Result<void> start(unsigned workers) {
     const unsigned wanted = std::max(1u, workers - 1);
     try {
@@ -104,8 +104,8 @@ class ThreadPool final : public JobSystem {
   std::vector<std::thread> threads_;
 };
 
-// The state of one loop, shared by the caller and the jobs that it has submitted. A job may run long after the call of
-// parallelFor has returned; it then finds no iterations left.
+// The state of one parallelFor() loop, shared by the caller and the jobs that it has submitted. A job may start long
+// after parallelFor() has returned; it then finds no iterations left.
 struct ForState {
   const std::function<void(size_t)>* body;
   size_t count;
@@ -160,11 +160,11 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
       share.release();
     }
   } catch (const std::bad_alloc&) {
-    // A job could not be submitted: fewer threads share the loop. The jobs already submitted still read the body, so
-    // this call must not throw before they end.
+    // There is no memory to submit a further job: continue with fewer threads. Do not throw, because the jobs that
+    // are already submitted read the caller's `body`.
   }
   state->run();
-  // All iterations have started; those on other threads must end before the caller destroys the body.
+  // All iterations have started. Iterations that other threads still run must end before the caller destroys the body.
   std::unique_lock lock(state->mutex);
   helpUntil(jobs, lock, state->done, [&state] { return state->active.load() == 0; });
   if (state->error) std::rethrow_exception(state->error);

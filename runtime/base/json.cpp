@@ -40,7 +40,7 @@ void writeNumber(std::string& out, T value) {
   out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-/// indent: the number of spaces before the next line; nullopt if everything is on one line.
+/// Starts a new line. indent: number of spaces at its beginning; nullopt writes nothing, for output on a single line.
 void newLine(std::string& out, std::optional<size_t> indent) {
   if (!indent) return;
   out += '\n';

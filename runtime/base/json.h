@@ -1,5 +1,5 @@
 #pragma once
-// Writes JSON for the commands' option --json. This is a small writer of our own, because the command only writes JSON,
+// Writes JSON for the command's option --json. This is a small writer of our own, because the command only writes JSON,
 // and a large library would take longer to compile than the rest of the command.
 
 #include <concepts>
@@ -16,8 +16,8 @@
 
 namespace sgm {
 
-/// A JSON value. Braces make an object if they contain only pairs that begin with a text, {{"a", 1}, {"b", 2}}, and an
-/// array otherwise. Objects keep the order in which members were added.
+/// A JSON value. A brace list makes an object if it contains only pairs that begin with a string, as {{"a", 1}, {"b",
+/// 2}} does, and an array otherwise. Objects keep the order in which members were added.
 class Json {
   using Array = std::vector<Json>;
   using Object = std::vector<std::pair<std::string, Json>>;
@@ -42,21 +42,21 @@ class Json {
   static Json array();
   static Json object();
 
-  /// A member of an object, added if it is missing. A null value becomes an object first.
+  /// Returns the named member of an object, and adds it if it is missing. A null value becomes an object first.
   Json& operator[](std::string_view key);
-  /// Appends to an array. A null value becomes an array first.
+  /// Appends a value to this array. A null value becomes an array first.
   void push_back(Json value);
-  /// Adds the other object's members, or replaces them.
+  /// Copies all members of `object` into this object; members of the same name are replaced.
   void update(Json object);
 
-  /// The text on several lines, indented by two spaces. It is always UTF-8: U+FFFD replaces invalid bytes. NaN and
-  /// infinity become null.
+  /// Serialises the value on several lines, indented by two spaces. The text is always valid UTF-8: U+FFFD replaces
+  /// invalid bytes. NaN and infinity become null.
   std::string text() const;
-  /// The text on one line, without spaces; otherwise as text().
+  /// Serialises the value on one line, without spaces; otherwise same as text().
   std::string line() const;
 
  private:
-  /// indent: nullopt writes everything on one line.
+  /// Appends the serialised value. indent: current indentation in spaces; nullopt writes everything on one line.
   void write(std::string& out, std::optional<size_t> indent) const;
 
   std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::string, Array, Object> value_;

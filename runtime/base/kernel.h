@@ -1,5 +1,5 @@
 #pragma once
-// Marks functions that also run on a GPU.
+// Macros that mark functions compiled for both CPU and GPU.
 
 #ifdef __CUDACC__
 #define SGM_KERNEL __host__ __device__ inline

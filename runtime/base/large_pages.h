@@ -1,5 +1,5 @@
 #pragma once
-// Memory for large arrays, such as the vertices of a mesh.
+// Allocates memory for large arrays, such as the vertices of a mesh, in large pages.
 
 #include <cstddef>
 #include <memory_resource>
@@ -15,9 +15,10 @@ namespace sgm {
 
 inline constexpr size_t kLargePage = size_t{1} << 21;
 
-/// Allocates from a memory resource, which must outlive it, and requests pages of 2 MB: the first access to small pages
-/// takes longer than most measured work, and ten times as long on a virtual machine. If the system has no large pages,
-/// it acts as std::pmr::polymorphic_allocator, except that a moved container keeps its memory.
+/// An allocator that takes its memory from a memory resource, which must outlive it, and requests pages of 2 MB: page
+/// faults of small pages take longer than most of the work on the data, and ten times as long on a virtual machine. If
+/// the system has no large pages, it behaves as std::pmr::polymorphic_allocator, except that moving a container moves
+/// its memory resource, too.
 template <class T>
 class LargePages {
  public:
@@ -34,8 +35,8 @@ class LargePages {
     const size_t bytes = count * sizeof(T);
     void* const memory = memory_->allocate(bytes, alignmentOf(bytes));
 #ifdef MADV_HUGEPAGE
-    // The last part, less than a large page, keeps small pages: a large page there would waste memory. If the system
-    // rejects the request, the memory simply has small pages.
+    // Only whole large pages are requested: a large page for the remainder would waste memory. If the system rejects
+    // the request, the memory simply has small pages.
     if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);

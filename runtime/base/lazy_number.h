@@ -1,13 +1,13 @@
 #pragma once
-// A number that is computed only if somebody asks for it.
+// A number that is computed on its first use.
 
 #include <atomic>
 #include <cstdint>
 
 namespace sgm {
 
-/// Keeps the number of its first request. A copy begins without one. Thread-safe: threads that ask concurrently may
-/// compute it several times, and must get the same.
+/// Caches a number when it is first requested. A copy of the object begins without the cached number. Thread-safe:
+/// several threads may compute the number concurrently, and must get the same result.
 class LazyNumber {
  public:
   LazyNumber() = default;
@@ -17,7 +17,7 @@ class LazyNumber {
     return *this;
   }
 
-  /// compute: gives the number, which is computed at each request if it is 0.
+  /// compute: returns the number. A result of 0 is not cached, so it is computed again at each request.
   template <class Compute>
   uint64_t get(const Compute& compute) const {
     uint64_t value = value_.load(std::memory_order_relaxed);

@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <limits>
 
-// Every step below is one correctly rounded IEEE double operation, so the source alone determines the bits.
-// Coefficients are rounded Taylor coefficients: the reduced arguments are small enough that a minimax fit would save
-// one or two terms only.
+// Every step below is one correctly rounded IEEE double operation, so the source alone determines the bits of the
+// results. Coefficients are rounded Taylor coefficients: the reduced arguments are so small that a minimax polynomial
+// would save only one or two terms.
 
 namespace sgm {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Pi/2 and ln 2 as sums of parts (Cody and Waite's reduction). The leading 33 (pi/2) or 32 (ln 2) bits are short enough
-// that their product with the whole number that the reduction subtracts is exact.
+// pi/2 and ln 2, each as a sum of parts (Cody and Waite's argument reduction). The leading parts have only 33 (pi/2) or
+// 32 (ln 2) bits, so that their product with the whole number n of the reduction is exact.
 constexpr double kHalfPi1 = 0x1.921fb544p+0;
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
 constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
@@ -25,7 +25,7 @@ constexpr double kPiLow = 0x1.1a62633145c07p-53;
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 constexpr double kInverseLn2 = 0x1.71547652b82fep+0;
 
-/// Sum of c[i] x^i by Horner's rule.
+/// Evaluates the sum of c[i] x^i by Horner's rule.
 template <size_t N>
 double polynomial(const std::array<double, N>& c, double x) {
   double sum = c[N - 1];
@@ -51,7 +51,7 @@ constexpr std::array<double, 8> kCosTerms{1.0 / 24,
                                           1.0 / 20922789888000.0,
                                           -1.0 / 6402373705728000.0};
 
-/// x = quarter * pi/2 + value + tail; |value| is at most slightly above pi/4.
+/// The reduced argument of x: x = quarter * pi/2 + value + tail, where |value| is at most slightly above pi/4.
 struct Reduced {
   int64_t quarter;
   double value, tail;
@@ -62,7 +62,7 @@ Reduced reduceAngle(double x) {
   const double high = x - n * kHalfPi1;
   const double middle = n * kHalfPi2;
   const double value = high - middle;
-  // The rounding error of the subtraction above, minus the product of n and the last part of pi/2.
+  // The rounding error of `high - middle`, minus the product of n and the last part of pi/2.
   const double tail = ((high - value) - middle) - n * kHalfPi3;
   return {static_cast<int64_t>(n), value, tail};
 }
@@ -106,7 +106,7 @@ constexpr std::array<double, 9> kAtanEighths{0.0,
                                              0.64350110879328438680,
                                              0.71882999962162450542,
                                              0.78539816339744830962};
-// The rounding errors of the constants in kAtanEighths.
+// The parts of atan(i / 8) that the doubles in kAtanEighths cannot represent.
 constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 -3.1253241424539383e-18,
                                                 1.0698755618734451e-17,
@@ -118,8 +118,8 @@ constexpr std::array<double, 9> kAtanEighthsLow{0,
                                                 3.061616997868383e-17};
 constexpr std::array<double, 7> kAtanTerms{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-/// atan(numerator / denominator). Requires 0 <= numerator <= denominator and denominator > 0. Small quotients use the
-/// series alone, because the tabulated value and the series would cancel.
+/// Computes atan(numerator / denominator). Requires 0 <= numerator <= denominator and denominator > 0. Quotients below
+/// 3/32 use the series alone, since a tabulated value plus the series would cancel.
 double atanUnit(double numerator, double denominator) {
   const double quotient = numerator / denominator;
   const int index = static_cast<int>(quotient * 8.0 + 0.5);
@@ -137,7 +137,7 @@ constexpr std::array<double, 12> kExpTerms{1.0 / 2,       1.0 / 6,        1.0 / 
 
 double powerOfTwo(int64_t n) { return std::bit_cast<double>(static_cast<uint64_t>(n + 1023) << 52); }
 
-/// exp(x + tail), where |tail| is small compared with 1.
+/// Computes exp(x + tail), where |tail| is small compared with 1.
 double expWithTail(double x, double tail) {
   if (x > 709.8) return kInfinity;
   if (x < -745.2) return 0.0;
@@ -147,13 +147,13 @@ double expWithTail(double x, double tail) {
   const double r = high - low;
   const double lost = (high - r) - low;
   const double value = 1.0 + (r + (lost + r * r * polynomial(kExpTerms, r)));
-  // The power of two is applied as two factors, so that neither overflows unless the result does, and a subnormal
-  // result is rounded only once.
+  // Multiply by 2^k as two factors, so that neither factor overflows unless the result does, and a subnormal result is
+  // rounded only once.
   const int64_t k = static_cast<int64_t>(n), half = k / 2;
   return value * powerOfTwo(half) * powerOfTwo(k - half);
 }
 
-/// x = (1 + f) * 2^exponent with 1 + f in [sqrt(1/2), sqrt(2)); x positive and finite.
+/// A positive, finite x as x = (1 + f) * 2^exponent, with 1 + f in [sqrt(1/2), sqrt(2)).
 struct Split {
   double f;
   double exponent;
@@ -176,7 +176,7 @@ Split splitFloat(double x) {
   return {m - 1.0, static_cast<double>(exponent)};
 }
 
-// 2/3, 2/5, ...: the coefficients of log((1 + s) / (1 - s)) = 2s + s (2/3 s^2 + 2/5 s^4 + ...)
+// Coefficients 2/3, 2/5, ... of the series log((1 + s) / (1 - s)) = 2s + s (2/3 s^2 + 2/5 s^4 + ...).
 constexpr std::array<double, 11> kLogTerms{2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11, 2.0 / 13,
                                            2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23};
 
@@ -195,7 +195,8 @@ DoubleDouble twoSum(double a, double b) {
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// Dekker's exact product, which splits both factors at 27 bits, because fused multiply-add is forbidden here.
+/// Computes a * b as product plus rounding error (Dekker's exact product). It splits both factors into halves, because
+/// the arithmetic contract forbids fused multiply-add.
 DoubleDouble twoProduct(double a, double b) {
   const double product = a * b;
   const double split_a = 134217729.0 * a, split_b = 134217729.0 * b;
@@ -204,8 +205,8 @@ DoubleDouble twoProduct(double a, double b) {
   return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// Log x with about 12 bits more than a double has: detPow multiplies the logarithm, and with it its error, by the
-/// exponent.
+/// Computes log x with about 12 bits more than a double has: detPow multiplies the logarithm, and thus also its error,
+/// by the exponent.
 DoubleDouble logExtended(double x) {
   const Split split = splitFloat(x);
   const DoubleDouble denominator = fastTwoSum(2.0, split.f);

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays that are filled once: the arrays of mesh handles, and large scratch memory.
+// Arrays without initialization, filled once: the arrays of mesh handles, and large scratch memory.
 
 #include <algorithm>
 #include <cstddef>
@@ -31,14 +31,14 @@ class RawArray {
     if (data_ != nullptr) pages_.deallocate(data_, room_);
   }
 
-  /// Call once, on an empty array. Throws std::bad_alloc.
+  /// Allocates the elements. Call once, on an empty array. Throws std::bad_alloc.
   void allocate(size_t size) {
     if (size == 0) return;
     data_ = pages_.allocate(size);
     size_ = room_ = size;
   }
   /// Enlarges the array to at least `size` elements and keeps the first `used` elements. The size at least doubles, so
-  /// that many calls copy little. Throws std::bad_alloc and then leaves the array unchanged.
+  /// that repeated growth copies little. Throws std::bad_alloc and then leaves the array unchanged.
   void grow(size_t used, size_t size) {
     if (size > size_) resize(used, std::max(size, 2 * size_));
   }
@@ -52,7 +52,7 @@ class RawArray {
     std::swap(size_, other.size_);
     std::swap(room_, other.room_);
   }
-  /// Keeps only the first `size` elements, but all of the memory.
+  /// Reduces the array to its first `size` elements, without freeing memory.
   void cut(size_t size) { size_ = std::min(size, size_); }
   T* data() { return data_; }
   const T* data() const { return data_; }

@@ -1,6 +1,5 @@
 #pragma once
-// Vectors whose new elements are not cleared: resize() allocates the elements, and the caller then writes them in
-// order.
+// Vectors whose resize() leaves new elements uninitialized; the caller then writes them in order.
 
 #include <memory_resource>
 #include <type_traits>
@@ -22,7 +21,7 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   struct rebind {
     using other = RawAllocator<Other>;
   };
-  /// As std::pmr::polymorphic_allocator does: the memory of a copied container comes from the default resource.
+  /// As for std::pmr::polymorphic_allocator, a copy of a container allocates from the default memory resource.
   RawAllocator select_on_container_copy_construction() const { return {}; }
 
   template <class... Arguments>
@@ -31,7 +30,7 @@ class RawAllocator : public std::pmr::polymorphic_allocator<T> {
   }
 };
 
-/// resize() leaves new elements uninitialized: write them before reading them.
+/// A vector whose resize() leaves new elements uninitialized: write them before reading them.
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 

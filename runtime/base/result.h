@@ -10,19 +10,20 @@
 namespace sgm {
 
 enum class Code {
-  invalid_argument,  ///< the caller broke the function's contract
-  range,             ///< beyond the integer grid: a position outside the world, a cell too large
-  bad_input,         ///< text or data from outside is wrong; line and column say where
-  limit,             ///< a cap (count, depth, memory, time, threads) was reached
+  invalid_argument,  ///< the call violated the function's contract
+  range,             ///< a value beyond the integer grid: a position outside the world, a cell too large
+  bad_input,         ///< text or data from outside is invalid; Error::line and column give the place
+  limit,             ///< a limit (on count, depth, memory, time or threads) was reached
   out_of_memory,
   io,           ///< a file could not be read or written
-  unsupported,  ///< no such backend, device or feature here
+  unsupported,  ///< this machine or build lacks the backend, device or feature
   cancelled,
-  busy,         ///< a resource in use prevents the operation
-  device_lost,  ///< the GPU has failed; objects made with it are no longer usable
+  busy,         ///< the resource is in use, so the operation is not possible now
+  device_lost,  ///< the GPU has failed; objects created on it are no longer usable
 };
 
-/// One clear message that says what to do. line and column count from 1; 0 if the error has no place in a text.
+/// An error code with one message that states the problem and its remedy. line and column count from 1; they are 0 if
+/// the error has no place in a text.
 struct Error {
   Code code = Code::invalid_argument;
   std::string message;

@@ -1,5 +1,5 @@
 #pragma once
-// Memory that devices of two APIs (Vulkan and CUDA) on one GPU share.
+// GPU memory that devices of two APIs (Vulkan and CUDA) share.
 
 #include <array>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace sgm {
 /// Identifies a GPU; the same value in every API (VkPhysicalDeviceIDProperties::deviceUUID, cuDeviceGetUuid).
 using DeviceId = std::array<uint8_t, 16>;
 
-/// One allocation of the device that draws, which the other API imports as a whole. Lives as long as any object in its
-/// memory.
+/// One memory allocation of the rendering device (Vulkan), which the other API (CUDA) imports as a whole. It lives as
+/// long as any object in its memory.
 class SharedBlock {
  public:
   SharedBlock() = default;
@@ -23,12 +23,13 @@ class SharedBlock {
   SharedBlock& operator=(const SharedBlock&) = delete;
 
   virtual uint64_t bytes() const = 0;
-  /// True if the other API must import the memory as dedicated to one buffer.
+  /// True if the importing API must treat the memory as dedicated to a single buffer.
   virtual bool dedicated() const = 0;
-  /// A file descriptor of the memory, which the caller closes. Errors: out_of_memory, limit, unsupported, device_lost.
+  /// Exports the memory as a file descriptor, which the caller must close. Errors: out_of_memory, limit, unsupported,
+  /// device_lost.
   virtual Result<int> descriptor() const = 0;
   std::mutex importing;            ///< guards `imported`
-  std::shared_ptr<void> imported;  ///< the other API's latest import; destroyed with the block
+  std::shared_ptr<void> imported;  ///< the importing API's latest import object; destroyed with this block
 };
 
 }  // namespace sgm

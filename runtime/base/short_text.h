@@ -1,5 +1,5 @@
 #pragma once
-// Texts for moments when no memory may be allocated, such as messages about memory that has run out.
+// Strings of fixed capacity, for code that must not allocate memory, such as messages about running out of memory.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-/// Owns a text of fewer than N bytes; more is cut off.
+/// Stores a string of fewer than N bytes; a longer string is truncated.
 template <size_t N>
 class ShortText {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Names of threads, as debuggers and the system's tools show them.
+// Names threads for debuggers and the system's tools.
 
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Names the calling thread; the name is cut after 15 bytes. Has no effect on systems other than Linux.
+/// Names the calling thread; the name is truncated to 15 bytes. Has no effect on systems other than Linux.
 inline void nameThread(const std::string& name) {
 #if defined(__linux__)
   pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());

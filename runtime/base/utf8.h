@@ -1,5 +1,5 @@
 #pragma once
-// Checks whether text from outside is UTF-8, and writes UTF-8.
+// Validates UTF-8 in text from outside, and encodes code points as UTF-8.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// The number of bytes of the first character; 0 if the text is empty or does not begin with a valid UTF-8 character
-/// (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF).
+/// Returns the number of bytes of the first character; 0 if the text is empty or does not begin with a valid UTF-8
+/// character (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF).
 inline size_t utf8Size(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0);

@@ -1,6 +1,6 @@
 #pragma once
-// Points and directions in double precision, by components, for meshes and queries. These functions use + - * / alone,
-// so that all machines compute the same bits.
+// Points and directions in double precision, for meshes and queries. The functions use + - * / alone, so that all
+// machines compute the same bits.
 
 #include <array>
 

@@ -11,7 +11,8 @@ MaterialBlend materialBlend(const MaterialMix& a, const MaterialMix& b, const Ma
     std::copy(corners[i]->begin(), corners[i]->end(), all.begin() + static_cast<std::ptrdiff_t>(i * kMaterialSamples));
   }
   std::sort(all.begin(), all.end());
-  // Among equal counts, the materials with the lower numbers are chosen.
+  // A material and the number of its occurrences at a triangle's corners. Among equal counts, the lower material
+  // numbers are chosen.
   struct Counted {
     uint16_t material;
     size_t count;
@@ -47,7 +48,7 @@ std::array<uint8_t, 3> planeShares(const std::array<double, 3>& normal) {
   for (size_t axis = 0; axis < 3; ++axis) power[axis] = normal[axis] * normal[axis] * normal[axis] * normal[axis];
   const double whole = power[0] + power[1] + power[2];
   std::array<uint8_t, 3> shares{};
-  // The remainder of rounding is added to the largest share, where it is least visible.
+  // Add the rounding remainder to the largest share, where it is least visible.
   int left = 255;
   size_t largest = 0;
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -41,8 +41,8 @@ SweepPlace SweepLine::at(Vec3 p) const {
   }
   const Vec3 off = p - nearest->from;
   double t = dot(off, nearest->tangent);
-  // Before its start, a segment is clamped, because the previous one continues there; the first one extends beyond the
-  // line's end.
+  // The first segment extends beyond the line's start. Any other segment is clamped at its start, since the previous
+  // segment continues there.
   if (nearest != &segments_.front()) t = std::max(t, 0.0);
   if (nearest != &segments_.back()) t = std::min(t, nearest->length);
   SweepPlace place;

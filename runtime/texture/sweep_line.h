@@ -1,5 +1,5 @@
 #pragma once
-// Coordinates along and around a bent tube (a sweep).
+// Coordinates along and around a bent tube (a sweep along a polyline).
 
 #include <span>
 #include <vector>
@@ -9,24 +9,24 @@
 
 namespace sgm {
 
-/// The position of a point relative to a line.
+/// The position of a point relative to a polyline.
 struct SweepPlace {
-  /// units along the line from its first point; negative before it, more than length() beyond the last
+  /// arc length along the line in units (1/1024 m); negative before its start, above length() beyond its end
   double along = 0;
-  double side = 0, up = 0;  ///< distances across the line in units: towards cross(tangent, up), and towards up
-  Vec3 outward;             ///< from the line to the point; any length
-  Vec3 tangent;             ///< direction of the line, of length 1
+  double side = 0, up = 0;  ///< signed distances from the line in units: towards cross(tangent, up), and towards up
+  Vec3 outward;             ///< vector from the line to the point, of any length
+  Vec3 tangent;             ///< direction of the nearest segment, of length 1
 };
 
-/// A polyline with a frame that is transported without twist (framesAlong).
+/// A polyline with a rotation-minimising frame along it (framesAlong).
 class SweepLine {
  public:
-  /// points: at least two, consecutive ones distinct. up: the up vector at the first point.
+  /// points: at least two, consecutive points distinct. up: the frame's up vector at the first point.
   explicit SweepLine(std::span<const Int3> points, Vec3 up = {0, 1, 0});
 
   double length() const { return length_; }
-  /// Returns the position relative to the nearest segment; of several, the first. p: relative to the first point, in
-  /// units.
+  /// Returns the position of a point relative to the nearest segment; if several are equally near, the first one. p:
+  /// relative to the first point of the line, in units (1/1024 m).
   SweepPlace at(Vec3 p) const;
 
  private:

@@ -10,18 +10,20 @@
 namespace sgm {
 namespace {
 
-/// flag in a chart's number: the void is on the inner side, so u is mirrored
+/// flag in a chart's number: u is mirrored, because the surface bounds a cavity (the void is inside the shape)
 constexpr Chart kMirrored = 0x8000;
-// charts of a line (side, far end, near end) and of round shapes (side, top, bottom)
+// charts of sweeps (side, far end, near end) and of round shapes (side, top, bottom)
 constexpr int kSide = 0, kTop = 1, kBottom = 2;
-constexpr Chart kFirstSide = 2;  ///< number of a prism's first side chart, after the charts of its two ends
+constexpr Chart kFirstSide = 2;  ///< number of a prism's first side chart; the charts of its two ends have lower
+                                 ///< numbers
 
 size_t largestAxis(const TexturePoint& v) {
   const double x = std::fabs(v[0]), y = std::fabs(v[1]), z = std::fabs(v[2]);
   return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-/// Returns the face of a cube that a direction hits: twice the axis, plus one on its negative side.
+/// Returns the face of an axis-aligned cube that a direction from its centre hits: twice the axis, plus 1 on the
+/// negative side.
 int faceOf(const TexturePoint& v) {
   const size_t axis = largestAxis(v);
   return 2 * static_cast<int>(axis) + (v[axis] < 0 ? 1 : 0);
@@ -52,7 +54,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     origin_ = pointAt(points[0]);
     const Shape& piece = s.child_count > 0 ? chunk.shapes[chunk.children[s.first_child]] : s;
     square_ = piece.kind == ShapeKind::box;
-    // The sides of a beam follow the orientation of its pieces, regardless of the scope's rotation.
+    // The flat sides of a beam follow the axes of its pieces, so take `up` from its first piece, not from the scope.
     const std::array<float, 9>& rows = piece.frame.rows;
     const Vec3 up = square_ ? Vec3{double{rows[3]}, double{rows[4]}, double{rows[5]}} : Vec3{0, 1, 0};
     line_ = std::make_shared<const SweepLine>(points, up);
@@ -105,7 +107,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       kind_ = Kind::prism;
       for (const Int3& corner : points) corners_.push_back({double(corner.x), double(corner.z)});
       break;
-    case ShapeKind::morph_power:  // no coordinates, because its radii vary from place to place
+    case ShapeKind::morph_power:  // such a shape gets no coordinates, because its radii vary from place to place
     case ShapeKind::voxels:
     case ShapeKind::unite:
     case ShapeKind::meet:
@@ -117,7 +119,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     case ShapeKind::morph:
     case ShapeKind::displace:
     case ShapeKind::warp:
-      break;  // combinations of shapes, and voxels, have no coordinates of their own
+      break;  // combinations of shapes, and voxels, have no texture coordinates of their own
   }
 }
 
@@ -140,7 +142,7 @@ double TextureSpace::tilesAroundLine() const {
 double TextureSpace::turnOf(const SweepPlace& place) const {
   const double side = place.side, up = place.up;
   if (!square_ || (side == 0 && up == 0)) return detAtan2(side, up) / (2 * kPi);
-  // Each side counts as a quarter turn; the position on the side is added.
+  // On each of a beam's four flat sides, the result changes linearly by a quarter turn.
   if (std::fabs(up) < std::fabs(side)) return (side > 0 ? 0.25 : -0.25) - up / side / 8;
   if (up > 0) return side / up / 8;
   return side / up / 8 + (side > 0 ? 0.5 : -0.5);
@@ -184,8 +186,8 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
   if (kind_ == Kind::line) {
     const SweepPlace place = line_->at({middle[0] - origin_[0], middle[1] - origin_[1], middle[2] - origin_[2]});
     const double ahead = product(place.tangent, normal);
-    // A triangle belongs to an end if it faces along the line and lies near the end: on a rough side, triangles may
-    // face so, too.
+    // A triangle belongs to an end if it faces along the line and lies near that end. Facing alone does not suffice: on
+    // a rough side, some triangles also face along the line.
     const bool far_end = place.along > line_->length() - size_[0] / 2, near_end = place.along < size_[0] / 2;
     if ((far_end || near_end) && 2 * ahead * ahead > product(normal, normal)) {
       const bool is_far = far_end && !(near_end && place.along < line_->length() / 2);
@@ -203,13 +205,14 @@ Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& norm
       return side(faceOf(outward), product(outward, n));
     }
     case Kind::round: {
-      // The side is inclined, so a point belongs to an end if it is nearer to the end's plane than to the side.
+      // The side of a truncated cone is inclined, so a point belongs to an end if it is nearer to the end's plane than
+      // to the side.
       const double lean = (size_[0] - size_[1]) / (2 * size_[2]);
       const TexturePoint radial = outwardAt(q);
       const double wide = std::sqrt(product(radial, radial)), whole = std::sqrt(product(n, n));
       const double out = wide > 0 ? (product(radial, n) / wide + lean * n[1]) / std::sqrt(1 + lean * lean) : 0;
       if (std::fabs(n[1]) > std::fabs(out) && std::fabs(n[1]) > 0.5 * whole) {
-        // The chart of the end also says whether the void is inside.
+        // The second argument is positive if the normal points out of the shape; otherwise the chart is mirrored.
         const int end = q[1] > 0 ? kTop : kBottom;
         return side(end, end == kTop ? n[1] : -n[1]);
       }
@@ -240,8 +243,9 @@ Chart TextureSpace::prismChart(const TexturePoint& q, const TexturePoint& n) con
     if (x * x + z * z >= least) continue;
     least = x * x + z * z;
     nearest = i;
-    // If the corners are counter-clockwise seen from +y, the outer side of an edge (dx, dz) is (-dz, dx). Otherwise
-    // that is the inner side, but the edge also runs the other way along u, so that nothing is mirrored.
+    // If the corners are counter-clockwise seen from +y, the outward normal of an edge (dx, dz) is (-dz, dx). Otherwise
+    // this is the inward normal, but the edge also runs in the opposite direction along u, so the texture is not
+    // mirrored.
     outside = -dz * n[0] + dx * n[2] >= 0;
   }
   const size_t chart = kFirstSide + nearest;

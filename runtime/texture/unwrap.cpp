@@ -11,7 +11,7 @@
 namespace sgm {
 namespace {
 
-/// Identifies a wedge of a vertex: wedges with equal keys are merged.
+/// Identifies a wedge (a copy of a vertex with its own texture coordinates): corners with equal keys share a wedge.
 struct WedgeKey {
   uint32_t vertex = 0, label = 0;
   Chart chart = 0;
@@ -29,7 +29,7 @@ struct WedgeKeyHash {
   }
 };
 
-/// Returns the number of whole steps to add to x so that it is closest to `to`.
+/// Returns the whole number n for which x + n * step is nearest to `to`.
 int32_t stepsTo(double x, double to, double step) {
   return static_cast<int32_t>(std::clamp(std::floor((to - x) / step + 0.5), -1e9, 1e9));
 }
@@ -38,7 +38,6 @@ TexturePoint difference(const TexturePoint& a, const TexturePoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Returns the cross product.
 TexturePoint crossed(const TexturePoint& a, const TexturePoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -77,8 +76,8 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
     for (size_t corner = 0; corner < 3; ++corner) {
       const uint32_t vertex = corners[corner];
       TextureCoordinates at = space.at(mesh.positions[vertex], chart);
-      // Periodic coordinates are shifted so that the corners of the triangle are near each other; the others are moved
-      // near 0 together.
+      // Shift periodic coordinates so that the triangle's corners are close to each other; shift the other coordinates
+      // of all corners together so that they are near 0.
       const auto steps = [](double x, double to, double step) {
         return step > 0 ? stepsTo(x, to, step) : stepsTo(to, 0, kTilesKept);
       };
@@ -108,7 +107,7 @@ Unwrapped pairMaterials(std::span<const uint32_t> indices, std::span<const Mater
   Unwrapped out(memory);
   out.corners.reserve(indices.size());
   out.wedges.reserve(materials.size());
-  // Nearly all vertices have only one wedge. Further ones are in a linked list (`next`).
+  // For each vertex, its first wedge; nearly all vertices have only one. Further wedges are in a linked list (`next`).
   std::pmr::vector<uint32_t> first(materials.size(), kNone, memory), next(memory);
   next.reserve(materials.size());
   for (size_t t = 0; t + 2 < indices.size(); t += 3) {

@@ -1,5 +1,5 @@
 #pragma once
-// A mesh with texture coordinates, the result of unwrap.h.
+// A mesh with texture coordinates, as unwrap.h computes it.
 
 #include <array>
 #include <cstdint>
@@ -8,19 +8,21 @@
 
 namespace sgm {
 
-/// A vertex in one chart and with one pair of materials.
+/// A copy of a vertex for one chart and one pair of materials.
 struct Wedge {
-  uint32_t vertex = 0;                  ///< index of the mesh's vertex, which has the position, normal and label
+  uint32_t vertex = 0;                  ///< index of the mesh's vertex, which has the position, normal and label of the
+                                        ///< wedge
   float u = 0, v = 0;                   ///< texture coordinates in tiles
-  std::array<uint16_t, 2> materials{};  ///< materials of its triangles, ascending; equal if there is only one
+  std::array<uint16_t, 2> materials{};  ///< material numbers of the wedge's triangles, ascending; equal if there is
+                                        ///< only one
   uint8_t share = 0;                    ///< share of the second material at this vertex, in 255ths
-  /// planeShares() if the texture is mapped along the world's axes, otherwise all 0
+  /// triplanar weights (planeShares()) if the texture is mapped along the world's axes, otherwise all 0
   std::array<uint8_t, 3> plane_shares{};
   friend bool operator==(const Wedge&, const Wedge&) = default;
 };
 
 struct Unwrapped {
-  std::pmr::vector<Wedge> wedges;      ///< in the order in which triangles first use them
+  std::pmr::vector<Wedge> wedges;      ///< in the order of their first use by triangles
   std::pmr::vector<uint32_t> corners;  ///< indices of wedges, three per triangle, parallel to the mesh's indices
 
   explicit Unwrapped(std::pmr::memory_resource* memory = std::pmr::get_default_resource())

@@ -14,13 +14,13 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// Corners closer to the plane than this value, times the polygon's size, count as in the plane.
+/// If all corners are closer to the plane than this value times the polygon's size, the polygon counts as planar.
 constexpr double kFlatness = 1e-6;
 
 }  // namespace
 
-/// Projects the corners to the plane. If the polygon is planar, two of the three coordinates are used, exactly;
-/// otherwise corners are projected along the normal. Returns false if there is no plane.
+/// Projects the corners to a plane. A planar polygon is projected by dropping one of the three coordinates, which is
+/// exact; any other polygon is projected along its normal. Returns false if the polygon has no normal.
 bool EarClipping::project(std::span<const Point> corners) {
   Point normal, low = corners[0], high = corners[0];
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -42,8 +42,8 @@ bool EarClipping::project(std::span<const Point> corners) {
     if (std::fabs(n.z) >= std::fabs(n[drop_])) drop_ = 2;
     sign_ = n[drop_] > 0 ? 1 : -1;
   } else {
-    // Makes two directions perpendicular to the normal. The first is also perpendicular to the axis of the normal's
-    // smallest component.
+    // Choose two directions perpendicular to the normal. The first one is also perpendicular to the axis along which
+    // the normal is smallest.
     int least = std::fabs(n.x) < std::fabs(n.y) ? 0 : 1;
     if (std::fabs(n.z) < std::fabs(n[least])) least = 2;
     Point axis;
@@ -65,9 +65,10 @@ int EarClipping::side(uint32_t a, uint32_t b, uint32_t c) const {
   return sign_ * orientationAlong(drop_, points_[a], points_[b], points_[c]);
 }
 
-/// True if the fan around corner 0 is correct: its triangles go around the corner at most once, and each has area.
+/// True if the triangle fan around corner 0 is a correct triangulation: its triangles turn around the corner at most
+/// once, and none of them is degenerate.
 bool EarClipping::fanHolds() const {
-  bool half = false;  // true after more than half a turn from the first direction
+  bool half = false;  // true once the fan has turned by half a turn from its first direction
   for (uint32_t i = 2; i < points_.size(); ++i) {
     if (side(0, i - 1, i) <= 0) return false;
     const int turned = side(0, 1, i);
@@ -101,7 +102,8 @@ void EarClipping::makeRing() {
   buildTree(order_.data(), order_.data() + count, 1, leaves_, 0);
 }
 
-/// Builds the k-d tree: node 1 is the root; 2 n and 2 n + 1 are the children of n.
+/// Builds the k-d tree of the corners as an implicit tree: node 1 is the root; nodes 2 n and 2 n + 1 are the children
+/// of n.
 void EarClipping::buildTree(uint32_t* first, uint32_t* last, size_t node, size_t leaves, int axis) {
   if (first == last) return;
   if (leaves == 1) {
@@ -134,7 +136,7 @@ void EarClipping::removeFromTree(uint32_t corner) {
   while ((node /= 2) > 0) mergeBoxes(node);
 }
 
-/// True if a box certainly has no point in common with the ear; may be false for a box that is only near it.
+/// True if the box and the ear are certainly disjoint. May be false for a disjoint box that is close to the ear.
 bool EarClipping::isApart(const Box& box, const std::array<uint32_t, 3>& ear) const {
   const Point* const p[3] = {&points_[ear[0]], &points_[ear[1]], &points_[ear[2]]};
   const int axes[2] = {u_, v_};
@@ -146,7 +148,7 @@ bool EarClipping::isApart(const Box& box, const std::array<uint32_t, 3>& ear) co
   for (int k = 0; k < 3; ++k) {
     const Point &a = *p[k], &b = *p[(k + 1) % 3];
     const double across_u = -sign_ * (b[v_] - a[v_]), across_v = sign_ * (b[u_] - a[u_]);
-    // The corner of the box that is farthest towards the inner side of the ear's edge.
+    // Take the corner of the box that lies farthest towards the inner side of this edge of the ear.
     const double u = (across_u > 0 ? box.high[0] : box.low[0]) - a[u_];
     const double v = (across_v > 0 ? box.high[1] : box.low[1]) - a[v_];
     const double inward = across_u * u + across_v * v;
@@ -155,8 +157,8 @@ bool EarClipping::isApart(const Box& box, const std::array<uint32_t, 3>& ear) co
   return false;
 }
 
-/// True if a corner lies within the ear or, by the strict rule, on its new side, where later triangles would have no
-/// area.
+/// True if a corner prevents the ear from being clipped: it lies inside the ear or, by the strict rule, on its diagonal
+/// c-a, where later triangles would be degenerate.
 bool EarClipping::blocks(uint32_t corner, const std::array<uint32_t, 3>& ear, Rule rule) const {
   const auto [a, b, c] = ear;
   const int across = side(c, a, corner);
@@ -193,7 +195,8 @@ void EarClipping::wake(uint32_t corner) {
     enqueue(waiting_[w].corner);
 }
 
-/// Clips ears until there is none, or a single triangle is left. Returns false if that takes too many steps.
+/// Clips ears until none is left, or the rest of the polygon is one triangle. Returns false if that takes too many
+/// steps.
 bool EarClipping::clip(Rule rule, std::vector<std::array<uint32_t, 3>>& out) {
   for (uint32_t i = 0; i < points_.size(); ++i) enqueue(i);
   for (size_t head = 0; head < queue_.size() && left_ > 3; ++head) {

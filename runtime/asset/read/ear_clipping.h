@@ -1,6 +1,6 @@
 #pragma once
-// Triangulates arbitrary polygons by ear clipping in the best-fitting plane. Every decision uses the exact sign of an
-// area, so that no rounding lets triangles overlap.
+// Triangulates any simple polygon by ear clipping in its best-fitting plane. Every decision uses the exact sign of an
+// area, so rounding errors cannot make triangles overlap.
 
 #include <array>
 #include <cstdint>
@@ -13,30 +13,31 @@ namespace sgm::asset {
 
 enum class Clipped {
   done,
-  crossed,     ///< the polygon crosses itself or has no area, so no triangulation is correct
-  over_limit,  ///< the polygon needs more steps than are left of kMaxSteps
+  crossed,     ///< the polygon is self-intersecting or has no area, so no triangulation is correct
+  over_limit,  ///< the step limit kMaxSteps, which all polygons share, is exceeded
 };
 
-/// Triangulates one polygon after another, and reuses its memory. An ear is clipped if no other corner of the polygon
-/// lies in it; a k-d tree over the remaining corners finds such corners. A blocked ear is tested again when the corner
-/// that blocks it is gone: n log n steps for typical polygons.
+/// Triangulates one polygon after another, and reuses its memory. An ear is clipped if it contains no other corner of
+/// the polygon; a k-d tree of the remaining corners finds such corners. If a corner blocks an ear, the ear is tested
+/// again when that corner has been clipped. Takes n log n steps for typical polygons.
 class EarClipping {
  public:
-  /// The maximum number of boxes of k-d trees that are visited for all polygons together; they take some seconds.
+  /// Limit on the number of visits to k-d tree nodes, for all polygons together; so many visits take some seconds.
   static constexpr uint64_t kMaxSteps = uint64_t{1} << 29;
 
   explicit EarClipping(uint64_t max_steps = kMaxSteps) : max_steps_(max_steps) {}
 
-  /// Replaces `out` by the triangles, two fewer than there are corners, as indices of corners. Uses the fan around
-  /// corner 0 if it is correct. Projects along Newell's normal. Requires at least four corners.
+  /// Replaces `out` by the triangles of one polygon, as indices into `corners`; there are two fewer triangles than
+  /// corners. Uses the fan around corner 0 if it is correct. Projects along Newell's normal. Requires at least four
+  /// corners.
   Clipped run(std::span<const Point> corners, std::vector<std::array<uint32_t, 3>>& out);
 
  private:
   struct Box {
     double low[2], high[2];
   };
-  /// Which triangles are clipped as ears. strict: with area, and without another corner inside or on the new side;
-  /// touching: other corners may lie on the new side; flat: triangles without area.
+  /// Which triangles may be clipped as ears. strict: not degenerate, with no other corner inside or on the diagonal;
+  /// touching: other corners may lie on the diagonal; flat: degenerate triangles, too.
   enum class Rule { strict, touching, flat };
   struct Waiting {
     uint32_t corner, next;
@@ -57,10 +58,10 @@ class EarClipping {
   void wake(uint32_t corner);
   bool clip(Rule rule, std::vector<std::array<uint32_t, 3>>& out);
 
-  std::vector<Point> points_;  ///< two of the three coordinates are used
+  std::vector<Point> points_;  ///< corners of the polygon; only the coordinates u_ and v_ are used
   int drop_ = 2, sign_ = 1, u_ = 0, v_ = 1;
   std::vector<uint32_t> next_, previous_, queue_, waiting_first_;
-  /// place_: the tree node of each corner; corner_in_: the corner in each leaf
+  /// place_: for each corner, its leaf node in the k-d tree; corner_in_: for each leaf, its corner
   std::vector<uint32_t> order_, place_, corner_in_;
   std::vector<Waiting> waiting_;
   std::vector<bool> queued_, gone_;

@@ -8,8 +8,9 @@ namespace {
 
 constexpr size_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
                  kFloat = 5126;
-constexpr size_t kNowhere = SIZE_MAX;  ///< stands for an offset that is not an integer: lies beyond every end
-/// The maximum number of elements of an accessor without bytes, for which the file's size sets no limit.
+constexpr size_t kNowhere = SIZE_MAX;  ///< replaces an invalid byteOffset: larger than every buffer, so it is rejected
+                                       ///< later
+/// The maximum number of elements of an accessor without a buffer view, whose size the file's size does not limit.
 constexpr size_t kMaxZeros = size_t{1} << 24;
 
 std::string numbered(std::string_view what, size_t number) {
@@ -42,14 +43,14 @@ size_t componentBytes(size_t component) {
   }
 }
 
-/// True if `count` elements of `size` bytes each, `stride` bytes apart from `offset` on, lie within `available` bytes.
-/// Avoids products and sums that may overflow.
+/// True if `count` elements of `size` bytes, `stride` bytes apart and beginning at `offset`, lie within `available`
+/// bytes. Uses no products or sums that could overflow. Requires count >= 1.
 bool liesWithin(size_t offset, size_t count, size_t size, size_t stride, size_t available) {
   if (offset > available || size > available - offset) return false;
   return count - 1 <= (available - offset - size) / stride;
 }
 
-/// Reads a little-endian value; all supported machines are little-endian.
+/// Reads a little-endian value; it is copied as it is, since all supported machines are little-endian.
 template <class Value>
 Value valueAt(const std::byte* at) {
   Value value;
@@ -74,9 +75,9 @@ double numberAt(const std::byte* at, size_t component, bool normalized) {
   }
 }
 
-/// Appends triangles. Returns the index of the first corner that is not a point of the primitive; nullopt if all are
-/// valid. stride and the type of indices are compile-time constants, because this loop dominates the time of reading a
-/// large file.
+/// Appends triangles. Returns the position of the first index that is not below the number of points; nullopt if all
+/// are valid. The type of indices is a template parameter, so that the stride is constant: this loop dominates the time
+/// of reading a large file.
 template <class Index>
 std::optional<size_t> appendTriangles(const std::byte* first, size_t count, const GlbCorners& corners,
                                       std::vector<std::array<uint32_t, 3>>& out) {
@@ -135,8 +136,8 @@ GlbAccessors::Accessor GlbAccessors::accessorIn(const JsonValue& value) {
 
 GlbAccessors::GlbAccessors(const JsonValue& root, const GlbContainer& file, bool quantized)
     : buffers_(root, file), quantized_(quantized) {
-  // Accessors are parsed once: members are looked up by name, and a small file may refer to the same accessor a million
-  // times.
+  // Parse all accessors once: JSON members are looked up by name, which is slow, and a small file may refer to the same
+  // accessor a million times.
   for (const JsonValue& value : root.list("accessors")) accessors_.push_back(accessorIn(value));
 }
 
@@ -159,8 +160,8 @@ bool GlbAccessors::mayHold(const Accessor& a, Holds holds) const {
   return false;
 }
 
-/// Returns the bytes of elements in a buffer view. packed: the elements are contiguous, regardless of the view's
-/// stride.
+/// Returns the bytes of an accessor's elements in a buffer view. packed: the elements are contiguous, regardless of the
+/// view's stride.
 Result<GlbAccessors::Elements> GlbAccessors::elementsIn(size_t number, std::string_view member, size_t view,
                                                         size_t offset, size_t count, size_t size, bool packed) const {
   const auto joined = [&](std::string_view name) {
@@ -214,8 +215,9 @@ Result<void> GlbAccessors::asManyAs(size_t a, size_t count) const {
   return wrongIn(a, "count", " does not hold as many elements as there are positions");
 }
 
-/// Passes each element with its index to `put`; elements that sparse storage replaces are passed a second time, with
-/// their final value. put: returns false to reject the numbers. complaint: describes the problem of rejected numbers.
+/// Calls `put` with the index and the numbers of each element. Elements that sparse storage replaces are passed twice,
+/// the second time with their final numbers. put: returns false to reject the numbers. complaint: the text of the error
+/// about rejected numbers.
 template <size_t N, class Put>
 Result<void> GlbAccessors::each(size_t number, const Elements& from, std::string_view complaint, const Put& put) const {
   const Accessor& a = accessors_[number];

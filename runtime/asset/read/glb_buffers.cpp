@@ -10,9 +10,10 @@ namespace sgm::asset {
 
 namespace {
 
-constexpr size_t kNoOffset = SIZE_MAX;  ///< stands for an offset that is not an integer: lies beyond every end
+constexpr size_t kNoOffset = SIZE_MAX;  ///< replaces an invalid byteOffset: larger than every buffer, so it is rejected
+                                        ///< later
 
-/// Decodes standard base64 (RFC 4648), with or without padding. nullopt if a character is invalid.
+/// Decodes standard base64 (RFC 4648), with or without padding. Returns nullopt if a character is invalid.
 std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<int, 256> values;
@@ -35,8 +36,7 @@ std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   return out;
 }
 
-/// Returns the stride of a view. A stride of 0 counts as missing, which means contiguous elements: some programs write
-/// it so.
+/// Returns the stride of a buffer view; nullopt means contiguous elements. Some programs write a stride of 0 for that.
 std::optional<size_t> strideIn(const JsonValue& view) {
   if (view.find("byteStride") == nullptr) return std::nullopt;
   const size_t stride = view.count("byteStride").value_or(kNoOffset);

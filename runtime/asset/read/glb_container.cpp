@@ -15,13 +15,13 @@ constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
-  uint32_t word = 0;  // little-endian, as all supported machines are
+  uint32_t word = 0;  // copied as it is: the file and all supported machines are little-endian
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
 }
 
-/// Returns the offset of the next part. Parts must be padded to four bytes, but some programs leave the padding out of
-/// the size.
+/// Returns the offset of the next chunk. Chunks must be padded to four bytes; some programs pad, but do not count the
+/// padding in the chunk's length.
 size_t endOfPart(std::span<const std::byte> bytes, size_t at, size_t size) {
   const size_t end = at + size, padded = at + (size + 3) / 4 * 4;
   const auto holdsPart = [&](size_t from) {
@@ -36,7 +36,7 @@ size_t endOfPart(std::span<const std::byte> bytes, size_t at, size_t size) {
 
 bool beginsAsGltf(std::string_view text) {
   const size_t begin = text.find_first_not_of(" \t\r\n");
-  // Programs write the member `asset` anywhere in the object, often last.
+  // Search the whole text, since programs write the member `asset` anywhere in the object, often last.
   return begin != std::string_view::npos && text[begin] == '{' && text.find("\"asset\"") != std::string_view::npos;
 }
 
@@ -79,7 +79,7 @@ Result<GlbContainer> openGlb(std::span<const std::byte> bytes) {
   }
   if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; out.json.starts_with(kByteOrderMark))
     out.json.remove_prefix(kByteOrderMark.size());
-  // The padding of JSON must be spaces, but some programs write zeroes.
+  // The JSON chunk must be padded with spaces, but some programs pad it with zero bytes.
   if (const size_t end = out.json.find_last_not_of('\0') + 1; end < out.json.size()) {
     out.notes.push_back("its JSON is padded with zero bytes, not with blanks");
     out.json = out.json.substr(0, end);

@@ -10,7 +10,7 @@ namespace {
 
 const JsonValue* find(const JsonValue* of, std::string_view name) { return of == nullptr ? nullptr : of->find(name); }
 
-/// The texture that is most visible, and where it is in the file.
+/// The most visible texture of a material, and its JSON pointer in the file.
 struct Texture {
   const JsonValue* info = nullptr;
   std::string pointer;
@@ -33,7 +33,7 @@ Texture firstTexture(const JsonValue& material) {
 }  // namespace
 
 TextureCoordinates GlbTextureTransform::operator()(const TextureCoordinates& at) const {
-  // The rotation is counter-clockwise in the image, whose second coordinate grows downward.
+  // The rotation is counter-clockwise in image space, where the second coordinate grows downward.
   const double u = scale[0] * double{at[0]}, v = scale[1] * double{at[1]};
   return {static_cast<float>(offset[0] + cosine * u + sine * v), static_cast<float>(offset[1] - sine * u + cosine * v)};
 }

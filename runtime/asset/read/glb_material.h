@@ -1,5 +1,5 @@
 #pragma once
-// Reads the part of a glTF file's materials that a mesh needs: their names, and which texture coordinates they use.
+// Reads what a mesh needs of a glTF file's materials: their names, and which texture coordinates they use.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace sgm::asset {
 
-/// A texture's transform of its coordinates (KHR_texture_transform).
+/// The transform that a texture applies to texture coordinates (KHR_texture_transform).
 struct GlbTextureTransform {
   std::array<double, 2> offset{0, 0}, scale{1, 1};
   double cosine = 1, sine = 0;
@@ -23,7 +23,7 @@ struct GlbTextureTransform {
 
 struct GlbMaterial {
   std::string name;
-  /// n of the TEXCOORD_n that its first texture uses; that is the base colour's, if the material has one
+  /// n of the attribute TEXCOORD_n that the material's most visible texture uses, preferably its base colour texture
   size_t coordinates = 0;
   std::optional<GlbTextureTransform> transform;
 };

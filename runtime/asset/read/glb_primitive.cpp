@@ -8,7 +8,7 @@ namespace sgm::asset {
 namespace {
 
 constexpr size_t kAbsent = SIZE_MAX, kWrong = SIZE_MAX - 1;
-/// Values of a primitive's `mode`.
+/// Values of the member `mode` of a glTF primitive.
 constexpr size_t kLineStrip = 3, kTriangles = 4, kStrip = 5, kFan = 6;
 
 size_t indexIn(const JsonValue* of, std::string_view name) {
@@ -25,7 +25,7 @@ GlbMeshes::GlbMeshes(const JsonValue& root, const GlbAccessors& accessors, std::
                      const MeshLimits& limits)
     : accessors_(accessors), materials_(std::move(materials)), limits_(limits), skins_(root, accessors) {
   for (const GlbMaterial& material : materials_) mesh_.material_names.push_back(material.name);
-  // Meshes are parsed once, since nodes may use the same mesh many times.
+  // Parse all meshes once, since many nodes may use the same mesh.
   for (const JsonValue& value : root.list("meshes")) {
     Mesh& mesh = meshes_.emplace_back();
     for (const JsonValue& primitive : value.list("primitives")) mesh.primitives.push_back(primitiveIn(primitive));
@@ -59,8 +59,8 @@ GlbMeshes::Primitive GlbMeshes::primitiveIn(const JsonValue& value) const {
   return out;
 }
 
-/// Reserves memory for all used meshes at once, because growing vectors need twice the memory. Never reserves more than
-/// the bytes in the file can fill.
+/// Reserves memory for all used meshes at once, because growing a vector needs old and new memory at the same time.
+/// Reserves at most as many elements as the file has bytes for, since the declared counts are untrusted.
 void GlbMeshes::makeRoom() {
   size_t points = 0, corners = 0;
   bool normals = false, coordinates = false;
@@ -90,7 +90,7 @@ Error GlbMeshes::wrong(const Here& here, std::string_view what, std::string_view
   return wrongInJson("mesh " + std::to_string(here.mesh) + std::string(what), pointerOf(here) + std::string(member));
 }
 
-/// Returns an error if an accessor of the primitive does not exist.
+/// Returns an error if the primitive refers to an accessor that does not exist.
 Result<void> GlbMeshes::areThere(const Here& here) const {
   const Primitive& p = here.primitive;
   const auto missing = [&](size_t accessor) { return accessor != kAbsent && accessor >= accessors_.size(); };
@@ -154,8 +154,8 @@ Result<void> GlbMeshes::primitive(const Here& here, const GlbShown& shown) {
   return {};
 }
 
-/// Adds the primitive's points with normals and texture coordinates. pose: receives the transform of each point if the
-/// mesh has a skin.
+/// Adds the primitive's points, with their normals and texture coordinates. pose: output; if the mesh has a skin, the
+/// transform of each point.
 Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::vector<GlbTransform>& pose) {
   const Primitive& p = here.primitive;
   const size_t first = mesh_.points.size();
@@ -185,7 +185,8 @@ Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::
   const std::span<Point> added = std::span(mesh_.points).subspan(first);
   const bool moved = !pose.empty() || !shown.place.rests();
   for (size_t i = 0; moved && i < count; ++i) added[i] = pose.empty() ? shown.place(added[i]) : pose[i](added[i]);
-  // The transform of each node is limited, but the product of a chain of nodes may exceed the limit.
+  // Check positions after the transform: each node's transform is limited, but the product of a chain of nodes may be
+  // large.
   for (size_t i = 0; (moved || !p.targets.empty()) && i < count; ++i)
     if (!limits_.isPlace(added[i].x, added[i].y, added[i].z))
       return wrong(here, " has a position " + noPlaceWithin(limits_) + ", once it is moved", "");
@@ -196,12 +197,12 @@ Result<void> GlbMeshes::addPoints(const Here& here, const GlbShown& shown, std::
     if (laid) at = (*materials_[p.material].transform)(at);
     if (!isFloat(double{at[0]}) || !isFloat(double{at[1]}))
       return wrong(here, " has texture coordinates that are not finite, once they are transformed", "");
-    at[1] = 1 - at[1];  // image rows go down, but texture coordinates up
+    at[1] = 1 - at[1];  // glTF's second texture coordinate grows downward, this library's upward
   }
   return {};
 }
 
-/// Adds the displacements of the morph targets that have a weight.
+/// Adds the displacements of all morph targets with a non-zero weight.
 Result<void> GlbMeshes::morph(const Here& here, const GlbShown& shown, size_t first) {
   const std::vector<Attributes>& targets = here.primitive.targets;
   const Attributes& own = here.primitive.own;
@@ -253,7 +254,8 @@ Result<void> GlbMeshes::addTriangles(const Here& here, const GlbCorners& corners
   return {};
 }
 
-/// Adds the triangles of a strip or fan. Triangles with a repeated corner are left out: strips use them as connections.
+/// Adds the triangles of a strip or fan. Degenerate triangles with a repeated corner are left out: they only connect
+/// strips.
 Result<void> GlbMeshes::addStripOrFan(const Here& here, const GlbCorners& corners) {
   const Primitive& p = here.primitive;
   std::vector<uint32_t> list;
@@ -267,13 +269,14 @@ Result<void> GlbMeshes::addStripOrFan(const Here& here, const GlbCorners& corner
   const auto isTriangle = [&](size_t i) {
     return list[i] != list[i + 1] && list[i + 1] != list[i + 2] && list[i + 2] != list[i];
   };
-  // If all triangles with area are at odd positions, the strip consists of separate triangles that were joined against
-  // the rule.
+  // If all triangles at even positions are degenerate, the strip is a chain of separate triangles that were joined
+  // without regard to the alternating orientation: then no triangle is reversed.
   bool unruly = p.mode == kStrip;
   for (size_t i = 0; unruly && i + 2 < list.size(); i += 2) unruly = !isTriangle(i);
   const size_t before = mesh_.triangles.size();
   for (size_t i = 0; i + 2 < list.size(); ++i) {
-    // The order of corners follows the specification (section 3.7.2.1).
+    // The order of corners is that of the glTF specification (section 3.7.2.1), which reverses every other triangle of
+    // a strip.
     const size_t odd = unruly ? 0 : i % 2;
     std::array<uint32_t, 3> t{list[i], list[i + 1 + odd], list[i + 2 - odd]};
     if (p.mode == kFan) t = {list[i + 1], list[i + 2], list[0]};

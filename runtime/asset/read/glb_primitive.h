@@ -1,5 +1,5 @@
 #pragma once
-// Primitives of a glTF file's meshes: their points, transformed and morphed, and their triangles.
+// Primitives of a glTF file's meshes: reads, transforms and morphs their points, and reads their triangles.
 
 #include <cstddef>
 #include <span>
@@ -18,12 +18,12 @@
 
 namespace sgm::asset {
 
-/// A use of a mesh by a node of the scene.
+/// One instance of a mesh in the scene, from a node.
 struct GlbShown {
   size_t mesh = 0;
   GlbTransform place;  ///< the node's transform; ignored if the mesh has a skin
   std::optional<size_t> skin;
-  std::vector<double> weights;  ///< weights of morph targets; missing weights are 0
+  std::vector<double> weights;  ///< weight of each morph target; missing weights are 0
 };
 
 class GlbMeshes {
@@ -34,15 +34,15 @@ class GlbMeshes {
   size_t size() const { return meshes_.size(); }
   /// Returns the default weights of a mesh's morph targets.
   const std::vector<double>& weightsOf(size_t mesh) const { return meshes_[mesh].weights; }
-  /// Adds the triangles of a used mesh. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+  /// Adds the triangles of a mesh instance. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
   Result<void> show(const GlbShown& shown);
-  /// Returns all triangles that show() has added. Call once. Error: bad_input if there is no triangle.
+  /// Returns all triangles that show() has added. Call only once. Error: bad_input if there is no triangle.
   Result<TriangleMesh> finish();
 
   TriangleMesh& mesh() { return mesh_; }
 
  private:
-  /// The attributes that the file declares for a primitive, as indices of accessors.
+  /// The attributes of a primitive, as indices of accessors in the file.
   struct Attributes {
     size_t position, normal, coordinates;
   };
@@ -58,7 +58,7 @@ class GlbMeshes {
     std::vector<Primitive> primitives;
     std::vector<double> weights;
   };
-  /// The primitive that is being read, for messages.
+  /// The primitive that is being read; named in error messages.
   struct Here {
     size_t mesh, number;
     const Primitive& primitive;

@@ -19,9 +19,9 @@ namespace sgm::asset {
 
 namespace {
 
-/// Extensions that this reader supports.
+/// glTF extensions that this reader implements.
 constexpr std::string_view kDone[] = {"KHR_mesh_quantization", "KHR_node_visibility", "EXT_mesh_gpu_instancing"};
-/// Prefixes of extensions that can be ignored, because they do not change the triangles.
+/// Name prefixes of glTF extensions that can be ignored, because they do not change the triangles.
 constexpr std::string_view kHarmless[] = {"KHR_materials_",
                                           "KHR_texture_",
                                           "KHR_lights_",
@@ -59,7 +59,8 @@ constexpr std::string_view kHarmless[] = {"KHR_materials_",
                                           "NV_materials_",
                                           "NVIDIA_",
                                           "WEB3D_"};
-/// Extensions that compress data. If a file does not require them, it contains the data uncompressed as well.
+/// glTF extensions that compress data. If a file does not require such an extension, it also contains the data
+/// uncompressed.
 constexpr std::string_view kPacking[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                          "KHR_meshopt_compression"};
 
@@ -68,7 +69,7 @@ bool isHarmless(std::string_view extension) {
                      [&](std::string_view start) { return extension.starts_with(start); });
 }
 
-/// Adds notes about extensions that are ignored. Error: bad_input if the file requires an unsupported extension.
+/// Adds notes about ignored extensions. Error: bad_input if the file requires an unsupported extension.
 Result<void> checkExtensions(const JsonValue& root, std::vector<std::string>& notes) {
   const auto required = root.list("extensionsRequired");
   for (const JsonValue& extension : required)
@@ -97,7 +98,8 @@ bool uses(const JsonValue& root, std::string_view extension) {
 Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const MeshLimits& limits) {
   Result<GlbContainer> file = openGlb(bytes);
   if (!file) return file.error();
-  // In glTF as text, the geometry may be stored in the JSON, too, but in few values; so its size is not limited here.
+  // The size of the JSON is limited only in binary files: glTF as text may store the geometry itself in the JSON, as a
+  // few long strings.
   if (!file->is_text && file->json.size() > limits.json_bytes) return overLimit(limits.json_bytes, "bytes of JSON");
   const Result<JsonValue> root = readJson(file->json, limits.json_bytes / 2 + 1);
   if (!root) return root.error();

@@ -30,7 +30,7 @@ Result<void> GlbScene::show() {
   return {};
 }
 
-/// Pushes the nodes of the scene on the stack. The first node is pushed last, so that it is visited first.
+/// Pushes the root nodes of the scene on the stack, the first node last, so that it is visited first.
 Result<void> GlbScene::openRoots() {
   const auto scenes = root_.list("scenes");
   std::vector<size_t> first;

@@ -1,5 +1,5 @@
 #pragma once
-// Walks the scene of a glTF file: finds the meshes that its nodes use, and their transforms.
+// Traverses the scene of a glTF file to find the meshes that its nodes use, and the transforms of these nodes.
 
 #include <cstddef>
 #include <span>
@@ -16,15 +16,15 @@
 
 namespace sgm::asset {
 
-/// Walks the nodes of the default scene, else of the first scene, else all nodes if the file has no scene, and passes
-/// their meshes to GlbMeshes. Respects KHR_node_visibility and EXT_mesh_gpu_instancing.
+/// Traverses the nodes of the default scene, or of the first scene, or all nodes if the file has no scene, and passes
+/// their meshes to GlbMeshes. Supports KHR_node_visibility and EXT_mesh_gpu_instancing.
 class GlbScene {
  public:
   GlbScene(const JsonValue& root, const GlbAccessors& accessors, GlbMeshes& meshes, const MeshLimits& limits)
       : root_(root), nodes_(root.list("nodes")), accessors_(accessors), meshes_(meshes), limits_(limits) {}
 
-  /// Call once. Notes are added to the mesh. Errors: bad_input, with the JSON pointer or the byte in the message;
-  /// limit.
+  /// Traverses the scene. Call only once. Notes are added to the mesh. Errors: bad_input, with the JSON pointer or the
+  /// byte in the message; limit.
   Result<void> show();
 
  private:

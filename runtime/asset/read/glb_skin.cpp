@@ -27,7 +27,8 @@ GlbSkins::GlbSkins(const JsonValue& root, const GlbAccessors& accessors)
 }
 
 Result<GlbTransform> GlbSkins::nodeInWorld(size_t node) {
-  // Computes transforms downwards from the nearest ancestor whose transform is known.
+  // Collect the ancestors whose world transform is not known yet, then compute the transforms from the topmost one
+  // down.
   std::vector<size_t> above;
   for (size_t at = node; at < nodes_.size() && !in_world_[at]; at = parents_[at]) {
     if (above.size() > nodes_.size())
@@ -103,8 +104,8 @@ Result<std::vector<GlbTransform>> GlbSkins::pose(size_t skin, const GlbBinding& 
     constexpr double kRounding = 0.01;
     if (!(std::fabs(sums[i] - 1) <= kRounding)) unbalanced_.add([&] { return skinPointer(skin) + " of its JSON"; });
     if (sums[i] == 1) continue;
-    // The sum is divided by the total of weights, because they are rounded. A point without weights follows the first
-    // joint.
+    // Divide the sum by the total weight, because weights in the file are rounded. A point without weights follows the
+    // first joint.
     const GlbTransform sum = out[i];
     out[i] = sums[i] > 0 ? kUnmoved : joints[0];
     if (sums[i] > 0) addTo(out[i], 1 / sums[i], sum);

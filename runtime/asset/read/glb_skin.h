@@ -1,5 +1,5 @@
 #pragma once
-// Applies the skins of a glTF file: the joints of a skeleton in its rest pose move a mesh's points.
+// Applies the skins of a glTF file: transforms a mesh's points by the joints of a skeleton in its rest pose.
 
 #include <cstddef>
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace sgm::asset {
 
-/// The accessors that bind a primitive's points to joints: equally many JOINTS_n and WEIGHTS_n.
+/// The accessors that bind a primitive's points to joints: the same number of JOINTS_n and WEIGHTS_n attributes.
 struct GlbBinding {
   std::vector<size_t> joints, weights;
 };
@@ -25,12 +25,12 @@ class GlbSkins {
 
   size_t size() const { return skins_.size(); }
 
-  /// Returns for each point of a primitive the transform from its mesh to the world, as the weighted mean of its
+  /// Returns, for each point of a primitive, the transform from mesh space to world space: the weighted mean of its
   /// joints' transforms. The transform of the node that uses the mesh has no effect (glTF 2.0, section 3.7.3.3).
   /// Errors: bad_input; limit.
   Result<std::vector<GlbTransform>> pose(size_t skin, const GlbBinding& binding, size_t points);
 
-  /// Adds notes about weights that do not sum to one.
+  /// Adds notes about skin weights that do not sum to one.
   void addNotes(std::vector<std::string>& notes) const;
 
  private:
@@ -40,8 +40,9 @@ class GlbSkins {
   std::span<const JsonValue> nodes_, skins_;
   const GlbAccessors& accessors_;
   std::vector<size_t> parents_;
-  std::vector<std::optional<GlbTransform>> in_world_;  ///< transform of each node to the world, once computed
-  /// for each skin that was read: transforms from the mesh to the world, by joint
+  std::vector<std::optional<GlbTransform>> in_world_;  ///< for each node: its transform to world space, if already
+                                                       ///< computed
+  /// for each skin that was read and each of its joints: the transform from mesh space to world space
   std::vector<std::vector<GlbTransform>> joints_;
   NotedPlaces unbalanced_;
 };

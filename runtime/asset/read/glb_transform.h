@@ -1,5 +1,5 @@
 #pragma once
-// The transform of a node of a glTF file.
+// The affine transform of a node of a glTF file.
 
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ struct GlbTransform {
   }
   bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
   bool rests() const { return columns == GlbTransform{}.columns && origin == Point{}; }
-  /// Returns the matrix that transforms normals, up to a factor: the inverse transpose, computed as the cofactors with
-  /// the sign of the determinant. 0 if the transform flattens everything to a line.
+  /// Returns the matrix that transforms normals, up to a positive factor: the inverse transpose, computed as the
+  /// cofactors times the sign of the determinant. The matrix is 0 if the transform maps space to a line.
   std::array<Point, 3> forNormals() const {
     const double sign = mirrors() ? -1 : 1;
     return {sign * cross(columns[1], columns[2]), sign * cross(columns[2], columns[0]),
@@ -33,15 +33,15 @@ struct GlbTransform {
   }
 };
 
-/// Makes a transform of a translation, a rotation as a quaternion x y z w of any length except 0, and a scale.
+/// Makes a transform from a translation, a rotation (a quaternion x y z w of any length except 0) and a scale.
 GlbTransform glbTransformOf(Point translation, const std::array<double, 4>& rotation, Point scale);
-/// Makes a transform of a matrix given column by column; nullopt if the matrix is not affine.
+/// Makes a transform from a column-major 4 x 4 matrix; nullopt if the matrix is not affine.
 std::optional<GlbTransform> glbTransformOf(const std::array<double, 16>& matrix);
 /// Reads the transform of node `number`, from its matrix or from its translation, rotation and scale. Error: bad_input.
 Result<GlbTransform> glbTransformOf(const JsonValue& node, size_t number);
 
-/// Reads an array member with as many numbers as `out` has. Returns false if the member is anything else. If it is
-/// missing, `out` stays unchanged, and the result is true.
+/// Reads an array member with exactly N numbers. Returns false if the member is anything else. If the member is
+/// missing, `out` stays unchanged and the result is true.
 template <size_t N>
 bool readNumbers(const JsonValue& of, std::string_view name, std::array<double, N>& out) {
   if (of.find(name) == nullptr) return true;

@@ -39,7 +39,7 @@ Result<TriangleMesh> readKind(std::span<const std::byte> bytes, MeshFileKind kin
   return Error{Code::invalid_argument, "there is no such kind of mesh file", 0, 0};
 }
 
-/// True if the first line that is not a comment is valid in an OBJ file.
+/// True if the first line that is neither empty nor a comment is valid in an OBJ file.
 bool beginsAsObj(std::string_view text) {
   constexpr std::string_view kFirst[] = {"v", "vt", "vn", "mtllib", "usemtl", "o", "g", "s", "f", "l", "p"};
   TextReader reader(text);
@@ -87,7 +87,7 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits) {
   if (bytes.empty()) return Error{Code::bad_input, "it is empty", 0, 0};
-  // The first bytes or the size of a binary file take precedence: a binary file may also begin like text.
+  // Test for binary formats first (by first bytes or size): a binary file may also begin as a text format does.
   std::optional<MeshFileKind> found = isBinaryStl(bytes) ? std::optional(MeshFileKind::stl) : std::nullopt;
   const DecodedText decoded(found ? std::span<const std::byte>() : bytes);
   const std::span<const std::byte> content = found ? bytes : decoded.bytes();

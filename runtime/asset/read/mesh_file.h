@@ -13,23 +13,24 @@ namespace sgm::asset {
 
 enum class MeshFileKind { glb, obj, ply, stl };
 
-/// Returns the kind by the extension of a path, in upper or lower case; .gltf counts as .glb. Error: invalid_argument,
-/// which lists the supported extensions.
+/// Returns the format by a path's file name extension, in upper or lower case; .gltf counts as .glb. Error:
+/// invalid_argument, with the supported extensions in the message.
 Result<MeshFileKind> meshFileKind(std::string_view path);
-/// Returns the kind by the first bytes or the size of a file; nullopt if the format is unknown.
+/// Returns the format by the content of a file (its first bytes or its size); nullopt if the format is unknown.
 std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes);
 
-/// Returns the advice that follows a problem in a file of this kind.
+/// Returns the advice that follows an error message about a file of this format.
 std::string_view meshFileAdvice(MeshFileKind kind);
 
-/// Reads the triangles of a file by the reader of its kind. The bytes determine the kind if they are unambiguous.
-/// `named` is the kind by the file name or media type, nullopt if unknown; if the bytes contradict it, a note is added.
-/// Text may be in UTF-8 or UTF-16. Linear in the file's size. Errors: bad_input, with the line, the byte or the JSON
-/// pointer in the message; limit. The message ends with a remedy.
+/// Reads the triangles of a file of any supported format. The content determines the format if it is unambiguous.
+/// `named` is the format by file name or media type, nullopt if unknown; if the content contradicts it, a note is
+/// added. Text may be in UTF-8 or UTF-16. Takes time linear in the file's size. Errors: bad_input, with the line, the
+/// byte or the JSON pointer in the message; limit. The message ends with a remedy.
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
                               const MeshLimits& limits = {});
 
-/// Same as readMesh, with messages that state only the problem. `kind` is set to the kind that the bytes show.
+/// Same as readMesh(), but error messages state only the problem, without a remedy. Sets `kind` to the format of the
+/// content.
 Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
                                 const MeshLimits& limits = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Notes of a reader: sentences about parts of a file that it left out, or that violate the format and how it read them.
+// Notes of a mesh reader for the user: sentences about parts of a file that it left out, or that violate the format.
 
 #include <cstddef>
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace sgm::asset {
 
-/// Counts the occurrences of one kind of problem, and stores the place of the first one.
+/// Counts the occurrences of one kind of problem, and stores the place of the first occurrence.
 struct NotedPlaces {
   size_t count = 0;
-  std::string first;  ///< such as "line 12"
+  std::string first;  ///< place of the first occurrence, such as "line 12"
 
-  /// place: a function that returns the place as text. It is called for the first occurrence only.
+  /// Counts one occurrence. place: a function that returns its place as text; called for the first occurrence only.
   template <class Place>
   void add(const Place& place) {
     if (count++ == 0) first = place();
   }
 };
 
-/// Returns a number with its noun: "1 line", "3 lines".
+/// Formats a number with its noun in singular or plural: "1 line", "3 lines".
 inline std::string counted(size_t count, std::string_view one, std::string_view several) {
   return std::to_string(count).append(" ").append(count == 1 ? one : several);
 }
 
-/// Appends a note such as "3 lines are left out, the first at line 9: behind", if `places` has any. one, several: noun
-/// and verb in singular and plural.
+/// Appends a note such as "3 lines are left out, the first at line 9: behind", if `places` has counted any. one,
+/// several: noun and verb of the note in singular and plural; behind: text that ends the note.
 inline void addNote(std::vector<std::string>& notes, const NotedPlaces& places, std::string_view one,
                     std::string_view several, std::string_view behind = {}) {
   if (places.count == 0) return;

@@ -12,7 +12,7 @@ namespace sgm::asset {
 namespace {
 
 constexpr size_t kFarthestIn = size_t{1} << 20;
-/// The keys before the origin: in text formats and the STL header, and in the extras of glTF.
+/// Texts that precede the origin's numbers: in text formats and the STL header, and in the extras of glTF.
 constexpr std::string_view kTextKey = "origin_units ", kJsonKey = "\"sgm\":{\"originUnits\":[";
 
 std::optional<Point> unitsAt(std::string_view text, char between) {

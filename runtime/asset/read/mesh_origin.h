@@ -1,5 +1,5 @@
 #pragma once
-// Reads the origin of the positions from a file that this library exported.
+// Reads the origin of the positions from a mesh file that this library exported.
 
 #include <cstddef>
 #include <span>
@@ -8,8 +8,9 @@
 
 namespace sgm::asset {
 
-/// Returns the origin in metres, which mesh/export/export.h writes into every format: exported positions are relative
-/// to it, because floats are precise near 0. {0, 0, 0} for any other file. Reads only the file's first megabyte.
+/// Returns the world position of the file's origin in metres; {0, 0, 0} for a file of another program. Exported
+/// positions are relative to this origin, because floats are precise near 0; mesh/export/export.h writes the origin
+/// into every format. Reads only the file's first megabyte.
 Point originOf(std::span<const std::byte> bytes);
 
 }  // namespace sgm::asset

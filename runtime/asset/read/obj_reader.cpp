@@ -26,8 +26,8 @@ constexpr std::string_view kIdleWords[] = {
     "con", "ctech", "stech", "shadow_obj", "trace_obj", "bsp",    "bzp",    "cdc",   "cdp",      "res"};
 constexpr std::string_view kCurveWords[] = {"curv", "curv2", "surf"};
 
-/// If all corners of each point have the same value, converts to one value per point; corners and points without a
-/// value get 0.
+/// If all corners of each point have the same value, replaces values per corner by one value per point. Corners and
+/// points without a value get 0.
 template <class Value>
 void settleByPoint(CornerValues<Value>& of, const std::vector<Corners>& triangles, size_t points) {
   if (of.corners.empty()) {
@@ -82,8 +82,8 @@ class ObjReader {
   }
 
  private:
-  /// The highest index that faces have used so far, and its line: the element may be defined later. Also records
-  /// invalid indices.
+  /// The highest index of points (or normals, or texture coordinates) that faces have used so far, and its line: the
+  /// file may define that element later. Also counts invalid indices.
   struct Reach {
     size_t number = 0, line = 0;
     NotedPlaces never;
@@ -146,7 +146,7 @@ class ObjReader {
            !(word[0] >= '0' && word[0] <= '9');
   }
 
-  /// Reads at least `least` and at most `most` numbers of the line. Returns false after an error.
+  /// Reads at least `least` and at most `most` numbers from the line. Returns false after an error.
   bool numbers(double* out, size_t least, size_t most, std::string_view keyword) {
     for (size_t i = 0; i < most; ++i) {
       const std::string_view word = text_.word();
@@ -197,7 +197,7 @@ class ObjReader {
   }
 
   bool face() {
-    // Most faces are triangles, which need no list of corners.
+    // Fast path: most faces are triangles, which need no list of corners.
     std::array<Corner, 3> first;
     std::string_view word;
     const auto more = [&] {
@@ -227,8 +227,8 @@ class ObjReader {
     return bool(cut);
   }
 
-  /// Parses a corner: `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; the part after a
-  /// slash may be empty.
+  /// Parses a corner of a face: `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; the part
+  /// after a slash may be empty.
   [[gnu::always_inline]] bool corner(std::string_view word, Corner& out) {
     out = {};
     const char *at = word.data(), *const end = at + word.size();
@@ -246,11 +246,11 @@ class ObjReader {
     return fail(shown(word) + " is not a corner of a face");
   }
 
-  /// Parses an index, which counts from 1, or backwards from -1 among the `there` elements so far. Returns false if
-  /// there are no digits. Sets out to kNoValue if the index is invalid.
+  /// Parses an index: from 1, or negative, counting backwards from the last of the `there` elements read so far. Sets
+  /// `out` to kNoValue if the index is invalid. Returns false if there are no digits.
   [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
-    // Parsed by hand, because half of a file consists of such numbers. A number that exceeds 32 bits counts as too
-    // large an index.
+    // Parse the digits here rather than by a library function, because half of a file consists of such numbers. A
+    // number beyond 32 bits counts as an index that is too large.
     const bool backwards = at < end && *at == '-';
     if (backwards) ++at;
     const char* const digits = at;
@@ -284,7 +284,8 @@ class ObjReader {
     return true;
   }
 
-  /// Appends the corners of a triangle. The list stays empty until the first face that has such values.
+  /// Appends the normals or texture coordinates of a triangle's corners. The list stays empty until a face first has
+  /// such values.
   [[gnu::always_inline]] void addCorners(std::vector<Corners>& list, const Corners& corners) {
     constexpr Corners kNoCorners{kNoValue, kNoValue, kNoValue};
     if (list.empty() && corners == kNoCorners) return;
@@ -292,7 +293,7 @@ class ObjReader {
     list.push_back(corners);
   }
 
-  /// Corners that refer to values which the file lacks get no value.
+  /// Clears the value of corners that refer to normals or texture coordinates that the file does not contain.
   template <class Value>
   void dropMissing(CornerValues<Value>& of, const Reach& reach, std::string_view what) {
     const size_t there = of.values.size();

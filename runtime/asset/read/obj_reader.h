@@ -10,10 +10,10 @@
 
 namespace sgm::asset {
 
-/// Returns the file's faces, cut into triangles, with the material names of `usemtl`. The points are those of `v`
-/// lines, in their order, even if no face uses them. Objects, groups and `mtllib` files are ignored. Notes report
-/// lines, points and curves that are left out, polygons that cross themselves, and corners that refer to missing
-/// normals or texture coordinates. Errors: bad_input, with the line in the message and in Error::line; limit.
+/// Returns the file's faces, cut into triangles, with the material names of `usemtl` lines. The points are those of the
+/// `v` lines, in their order, even if no face uses them. Objects, groups and `mtllib` files are ignored. Notes report
+/// lines, points and curves that are left out, self-intersecting polygons, and corners that refer to missing normals or
+/// texture coordinates. Errors: bad_input, with the line in the message and in Error::line; limit.
 Result<TriangleMesh> readObj(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file.
+// Parses the header of a PLY file: its format, elements and properties.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,26 +23,26 @@ constexpr size_t sizeOf(PlyType type) {
 struct PlyProperty {
   std::string name;
   PlyType type{};
-  std::optional<PlyType> count;  ///< type of the length of a list; nullopt: the property is a single number
+  std::optional<PlyType> count;  ///< type of the list's length; nullopt if the property is a single number
 };
 
 struct PlyElement {
   std::string name;
-  size_t count = 0;  ///< number of elements that the file declares, unchecked
+  size_t count = 0;  ///< number of elements that the file declares, not yet checked
   std::vector<PlyProperty> properties;
 
-  /// Returns the index of a property; the number of properties if the element does not have it.
+  /// Returns the index of a property by its name; the number of properties if there is none.
   size_t find(std::string_view property) const;
 };
 
 struct PlyHeader {
   PlyFormat format{};
   std::vector<PlyElement> elements;
-  size_t bytes = 0;  ///< offset of the first number after the header
+  size_t bytes = 0;  ///< size of the header in bytes; the body starts there
   size_t lines = 0;
 };
 
-/// Reads the header. Errors: bad_input, with the line in the message.
+/// Reads the header of a PLY file. Errors: bad_input, with the line in the message.
 Result<PlyHeader> readPlyHeader(std::string_view file);
 
 }  // namespace sgm::asset

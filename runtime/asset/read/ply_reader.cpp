@@ -113,7 +113,8 @@ class PlyBodyReader {
     if (!strips && named("face") == header_.elements.end())
       return Error{Code::bad_input, "it has no element `face`", 0, 0};
     vertex_count_ = std::min(vertices->count, limits_.maxPoints());
-    size_t due = 0;  // number of elements up to the last one that has points or triangles; later ones are not read
+    size_t due = 0;  // number of element kinds up to the last one with points or triangles; later kinds need not be
+                     // read
     for (size_t i = 0; i < header_.elements.size(); ++i)
       if (isRead(header_.elements[i])) due = i + 1;
     size_t next = 0;
@@ -142,7 +143,7 @@ class PlyBodyReader {
                            " at most");
     if (element.name == "vertex") return vertices(element);
     if (isRead(element)) return faces(element);
-    // Elements without properties take no bytes, so their number may be arbitrarily large.
+    // Skip elements without properties: they take no bytes, so the declared number may be arbitrarily large.
     for (size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
       values_.beginRecord();
       for (const PlyProperty& p : element.properties)
@@ -158,8 +159,8 @@ class PlyBodyReader {
                          shown(element.name) + ", counted from 0" + perhapsVertices(element));
   }
 
-  /// Returns a hint for errors after the vertices of a text: an invalid line may be a vertex that the header does not
-  /// count.
+  /// Returns a hint for errors after the vertices of a text file: an invalid line may be a vertex that the header does
+  /// not count.
   std::string perhapsVertices(const PlyElement& element) const {
     if (element.name == "vertex" || !values_.hasSpareLines()) return {};
     return ": the file has more lines than the header declares, perhaps more vertices";
@@ -180,7 +181,7 @@ class PlyBodyReader {
   }
 
   static constexpr size_t kNowhere = 8;
-  /// Returns for each property the index of the value that it sets: x y z, nx ny nz, u v, or none.
+  /// Returns, for each property, which of the values x y z nx ny nz u v it sets (0..7); kNowhere if none.
   std::vector<size_t> roles(const PlyElement& element) {
     std::vector<size_t> out(element.properties.size(), kNowhere);
     const auto give = [&](std::initializer_list<std::string_view> names, size_t first) {
@@ -229,7 +230,7 @@ class PlyBodyReader {
     return {};
   }
 
-  /// Reads `face` or `tristrips`.
+  /// Reads all elements `face` or `tristrips`.
   Result<void> faces(const PlyElement& element) {
     if (element.count == 0) return {};
     const size_t count = element.properties.size();
@@ -252,7 +253,7 @@ class PlyBodyReader {
     return {};
   }
 
-  /// Reads a list of corners, which is a face or, with `strips`, triangle strips that are separated by -1.
+  /// Reads a list of point indices: the corners of a face or, if `strips`, triangle strips separated by -1.
   Result<void> face(const PlyElement& element, size_t i, const PlyProperty& list, bool strips) {
     double length = 0;
     if (!takeLength(list, length)) return endsWithin(element, i);
@@ -288,7 +289,8 @@ class PlyBodyReader {
     return corners_.size() == 3 ? Result<void>() : cutter_.add(corners_.size(), values_.place());
   }
 
-  /// Adds the triangles of a strip: every other one is reversed; those with a repeated corner only connect strips.
+  /// Adds the triangles of a strip, every other one reversed. Degenerate triangles with a repeated corner are left out:
+  /// they only connect strips.
   Result<void> strip() {
     size_t begin = 0;
     for (size_t k = 0; k < corners_.size(); ++k) {

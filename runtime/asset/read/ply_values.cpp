@@ -20,7 +20,8 @@ bool PlyTextValues::hasSpareLines() const {
   return all.lines > all.records;
 }
 
-/// Decides, when a line first has more or fewer values than its record, whether lines are records: counts the lines.
+/// Called when a line first has more or fewer values than its record: decides, by counting lines, whether each line is
+/// a record or line ends have no meaning.
 void PlyTextValues::findLayout() {
   if (layout_ != Layout::unknown) return;
   const auto [records, lines] = counts();

@@ -16,8 +16,9 @@
 
 namespace sgm::asset {
 
-/// The numbers of a PLY text. Usually each line is one record (one element); then undeclared values at the end of a
-/// line are skipped. If the text has fewer lines than records, line ends have no meaning.
+/// Reads the numbers of a PLY text file one after another. Usually each line is one record (one element), and
+/// undeclared values at the end of a line are skipped. If the text has fewer lines than records, line ends have no
+/// meaning.
 class PlyTextValues {
  public:
   static constexpr std::string_view kUnit = "line";
@@ -44,19 +45,23 @@ class PlyTextValues {
     out = value.value_or(0);
     return value.has_value();
   }
-  /// Ends a record. Returns false if the line has more values, and their meaning is ambiguous.
+  /// Ends a record. Returns false if the line has further values although an earlier line had too few: their meaning is
+  /// then ambiguous.
   bool endRecord() { return text_.isLineDone() || passSurplus(); }
-  /// Returns an upper bound of the number of records: each number takes at least a digit and a blank.
+  /// Returns an upper bound for the number of elements that the rest of the file can contain: each number takes at
+  /// least a digit and a blank.
   size_t most(const PlyElement& element) const { return (text_.bytesLeft() + 1) / (2 * element.properties.size()); }
   const std::string& problem() const { return problem_; }
   Error wrong(std::string_view what) const { return wrongAtLine(what, header_.lines + text_.line()); }
-  /// The number of the line on which the current record began.
+  /// Returns the number of the line on which the current record began.
   size_t place() const { return place_; }
-  /// True if the total number of values must be counted to know whether they match the header.
+  /// True if all elements must be read, because line ends have no meaning and only the number of values tells whether
+  /// they match the header.
   bool mustReadAll() const { return layout_ == Layout::words; }
-  /// True if the file has more lines than the header declares records.
+  /// True if the body has more lines than the header declares records.
   bool hasSpareLines() const;
-  /// Adds notes at the end. whole: all elements were read. Error: bad_input if ambiguous values are left.
+  /// Adds notes after the last read. whole: all elements were read. Error: bad_input if there are more values than the
+  /// header declares, and their meaning is ambiguous.
   Result<void> end(bool whole, std::vector<std::string>& notes);
 
  private:
@@ -74,7 +79,7 @@ class PlyTextValues {
   const TextReader all_;
   const PlyHeader& header_;
   Layout layout_ = Layout::unknown;
-  bool line_a_record_ = false;  ///< true if there are as many lines as records, so that each line is one
+  bool line_a_record_ = false;  ///< true if the body has as many lines as records, so that each line is one record
   bool begun_ = false, wrapped_ = false;
   size_t place_ = 0;
   std::string problem_;

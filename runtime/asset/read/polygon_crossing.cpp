@@ -23,7 +23,7 @@ class CrossingSweep {
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return isBefore(a, b); });
     for (size_t first = 0, last = 0; first < order.size(); first = last) {
       while (last < order.size() && !isBefore(order[first], order[last])) ++last;
-      // Edges that end at this point are removed before edges that begin here are inserted.
+      // Remove the edges that end at this point before inserting the edges that begin at it.
       const auto here = std::span(order).subspan(first, last - first);
       for (const uint32_t corner : here)
         for (const uint32_t edge : {corner, previous(corner)})
@@ -41,7 +41,7 @@ class CrossingSweep {
   struct Corner {
     uint32_t number;
   };
-  /// The order of non-crossing edges along the sweep line, from bottom to top.
+  /// Orders non-crossing edges by their position along the sweep line, from bottom to top.
   struct Order {
     using is_transparent = void;
     const CrossingSweep& sweep;
@@ -66,8 +66,8 @@ class CrossingSweep {
   double u(uint32_t corner) const { return points_[corner][(drop_ + 1) % 3]; }
   double v(uint32_t corner) const { return points_[corner][(drop_ + 2) % 3]; }
   bool isBefore(uint32_t a, uint32_t b) const { return u(a) != u(b) ? u(a) < u(b) : v(a) < v(b); }
-  /// An edge has the number of the corner at which it starts in the polygon. Its beginning here is the end that the
-  /// sweep reaches first.
+  /// Returns the end of an edge that the sweep line reaches first. Edge i leads from corner i of the polygon to the
+  /// next corner.
   uint32_t begin(uint32_t edge) const { return isBefore(next(edge), edge) ? next(edge) : edge; }
   uint32_t end(uint32_t edge) const { return isBefore(next(edge), edge) ? edge : next(edge); }
   bool isEdge(uint32_t edge) const { return isBefore(edge, next(edge)) || isBefore(next(edge), edge); }
@@ -91,7 +91,7 @@ class CrossingSweep {
     const auto above = std::next(at);
     return (at != status_.begin() && cross(*std::prev(at), edge)) || (above != status_.end() && cross(edge, *above));
   }
-  /// True if the corner lies on an edge, and the two edges of the corner lie on opposite sides of that edge.
+  /// True if the corner lies on another edge, and its neighbouring corners lie on opposite sides of that edge.
   bool passesThrough(uint32_t corner) const {
     for (auto at = status_.lower_bound(Corner{corner}); at != status_.end() && side(*at, corner) == 0; ++at)
       if (side(*at, previous(corner)) * side(*at, next(corner)) < 0) return true;

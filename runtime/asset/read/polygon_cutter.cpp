@@ -10,7 +10,7 @@ namespace {
 
 using Triples = std::vector<std::array<uint32_t, 3>>;
 
-/// Returns corner k of the polygon whose fan begins at triangle `first`.
+/// Returns corner k of a polygon that was added as a fan whose first triangle is `first`.
 uint32_t cornerOf(const Triples& fan, size_t first, size_t k) { return k < 3 ? fan[first][k] : fan[first + k - 2][2]; }
 
 }  // namespace
@@ -24,8 +24,8 @@ Result<void> PolygonCutter::addOther(size_t first, size_t corners, size_t place)
   return cut({first, corners, place});
 }
 
-/// True if all triangles of the fan face the same way and go around its first corner at most once, with a margin above
-/// the rounding error.
+/// Fast test: true if all triangles of the fan face the same way and turn around its first corner at most once, each by
+/// a margin above the rounding error.
 bool PolygonCutter::isPlainFan(const Polygon& polygon) const {
   const Point first = corners_[0];
   Point normal;

@@ -1,6 +1,6 @@
 #pragma once
-// Corrects the triangulation of a file's polygons: a reader adds each polygon as a fan, which is wrong for some of
-// them.
+// Corrects the triangulation of polygons from files: readers add each polygon as a triangle fan, which is wrong for
+// some non-convex polygons.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace sgm::asset {
 
-/// Merges consecutive equal corners of a polygon, unless fewer than three would be left.
+/// Merges consecutive equal corners of a polygon, but always leaves at least three corners.
 template <class Corner, class Same>
 void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   size_t different = corners.empty() || same(corners.front(), corners.back()) ? 0 : 1;
@@ -26,23 +26,23 @@ void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
   if (same(corners.front(), corners.back())) corners.pop_back();
 }
 
-/// Replaces wrong fans. The triangles keep their positions in the mesh's list; the corners of normals and texture
-/// coordinates are changed accordingly.
+/// Replaces wrong triangle fans in a mesh. The new triangles take the fan's positions in the mesh's list; the
+/// per-corner indices of normals and texture coordinates are changed accordingly.
 class PolygonCutter {
  public:
-  /// unit: the unit of places in messages, such as "line".
+  /// unit: the unit of `place` in messages, such as "line".
   PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t max_steps = EarClipping::kMaxSteps)
       : mesh_(mesh), unit_(unit), clipping_(max_steps) {}
 
-  /// Checks the polygon that was read last. The mesh's last triangles must be its fan; it has `corners` corners, at
-  /// least four. A polygon with points that are not read yet is stored for finish(). Error: limit if the polygons are
-  /// too intricate.
+  /// Checks the polygon that was read last, and corrects it. The mesh's last triangles must be its fan. corners: number
+  /// of its corners, at least four. A polygon with points that are not read yet is stored for finish(). Error: limit if
+  /// the polygons are too intricate.
   Result<void> add(size_t corners, size_t place) {
     const size_t first = mesh_.triangles.size() - (corners - 2);
     if (corners == 4 && isPlainQuad(first)) return {};
     return addOther(first, corners, place);
   }
-  /// Checks the stored polygons, and adds a note about polygons that cross themselves. Call once, after all points were
+  /// Checks the stored polygons, and adds a note about self-intersecting polygons. Call once, after all points were
   /// read.
   Result<void> finish();
 
@@ -51,7 +51,7 @@ class PolygonCutter {
     size_t first, corners, place;
   };
 
-  /// True if the two triangles of a quadrangle face the same way. This cheap test settles the most common polygons.
+  /// True if the two triangles of a quadrilateral's fan face the same way. This cheap test suffices for most polygons.
   bool isPlainQuad(size_t first) const {
     const auto& [a, b, c] = mesh_.triangles[first];
     const uint32_t d = mesh_.triangles[first + 1][2];

@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kCountAt = 80, kFacetsAt = 84, kFacetBytes = 50, kNormalBytes = 12;
 
 uint32_t facetCount(std::span<const std::byte> bytes) {
-  uint32_t count = 0;  // little-endian, as all supported machines are
+  uint32_t count = 0;  // copied as it is: the file and all supported machines are little-endian
   std::memcpy(&count, bytes.data() + kCountAt, sizeof count);
   return count;
 }
@@ -76,7 +76,7 @@ class StlTextReader {
   Result<TriangleMesh> run() {
     for (std::string_view word = text_.wordOfAnyLine(); !word.empty(); word = text_.wordOfAnyLine()) {
       if (!isWord(word, "solid")) {
-        // Text after a solid, such as padding, is ignored, unless it contains facets: then the file is damaged.
+        // Text after the last solid, such as padding, is ignored. If it contains facets, the file is damaged.
         const size_t line = text_.line();
         const bool begun = !mesh_.triangles.empty();
         for (std::string_view more = word; begun && !isWord(more, "facet") && !isWord(more, "vertex");) {
@@ -87,7 +87,7 @@ class StlTextReader {
         }
         return wrongAtLine(shown(word) + " stands where `solid` is expected", line);
       }
-      text_.rest();  // the solid's name
+      text_.rest();  // skips the solid's name
       if (Result<void> read = solid(); !read) return read.error();
     }
     return std::move(mesh_);
@@ -119,7 +119,7 @@ class StlTextReader {
   Result<void> facet() {
     if (mesh_.triangles.size() >= maxFacets(limits_)) return overLimit(maxFacets(limits_), "triangles");
     if (auto error = words({"normal"})) return *error;
-    // Normals are skipped without parsing: flat triangles have normals such as "nan nan nan".
+    // Skip the normal without parsing it: degenerate triangles have normals such as "nan nan nan".
     for (int i = 0; i < 3; ++i) text_.wordOfAnyLine();
     if (auto error = words({"outer", "loop"})) return *error;
     Point corners[3];
@@ -146,9 +146,8 @@ class StlTextReader {
   TriangleMesh mesh_;
 };
 
-/// True if the triangles that the header counts are present, and followed by no more bytes than programs may append.
-/// A file with more bytes behind is of some other format, in which the bytes at the place of the count happen to be a
-/// small enough number.
+/// True if the file contains all triangles that its header counts, and after them only as few bytes as some programs
+/// append. With more bytes, the file probably has another format, whose bytes look like a small count.
 bool hasLittleBehind(std::span<const std::byte> bytes) {
   constexpr uint64_t kMaxTrailer = 4096;
   if (bytes.size() < kFacetsAt || facetCount(bytes) == 0) return false;
@@ -170,7 +169,7 @@ Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimi
 }  // namespace
 
 bool isTextStl(std::span<const std::byte> bytes) {
-  // A binary header or count always contains a zero byte, and text never does.
+  // The header or count of binary STL always contains a zero byte; text never does.
   const std::string_view start = textOf(bytes.first(std::min<size_t>(bytes.size(), 512)));
   return isWord(TextReader(start).wordOfAnyLine(), "solid") && start.find('\0') == std::string_view::npos;
 }

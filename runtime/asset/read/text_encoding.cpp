@@ -10,15 +10,15 @@ namespace sgm::asset {
 
 namespace {
 
-/// The width of a code unit in bytes, and its byte order. Width 1: the bytes after the mark (`mark` bytes) stay
-/// unchanged.
+/// The Unicode encoding of a text: the size of a code unit in bytes, its byte order, and the size of the byte order
+/// mark. For code units of 1 byte, the text after the mark stays unchanged.
 struct Encoding {
   size_t width = 1, mark = 0;
   bool big_endian = false;
 };
 
-/// Recognises UTF-16 and UTF-32 without a mark: ASCII letters, blanks and line ends have zero bytes beside them, always
-/// at the same positions.
+/// Recognises UTF-16 and UTF-32 without a byte order mark: the zero bytes of ASCII characters are always at the same
+/// positions within a code unit.
 Encoding encodingWithoutMark(std::string_view text) {
   constexpr size_t kLooked = 64, kLeast = 8;
   const std::string_view start = text.substr(0, std::min(text.size() / 4 * 4, kLooked));

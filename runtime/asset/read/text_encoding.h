@@ -1,5 +1,5 @@
 #pragma once
-// Converts the text of a file from any Unicode encoding.
+// Converts the text of a file from any Unicode encoding to UTF-8.
 
 #include <cstddef>
 #include <span>
@@ -7,9 +7,9 @@
 
 namespace sgm::asset {
 
-/// The content of a text file in UTF-8. A byte order mark is dropped. UTF-16 and UTF-32 of either byte order are
-/// converted; without a mark, they are recognised by the zero bytes in ASCII letters. Other bytes stay unchanged. The
-/// text refers to `bytes` or to this object, which must outlive it.
+/// The content of a text file in UTF-8, without byte order mark. UTF-16 and UTF-32 of either byte order are converted;
+/// without a byte order mark, they are recognised by the zero bytes of ASCII characters. Other bytes stay unchanged.
+/// The text refers to `bytes` or to this object; both must outlive it.
 class DecodedText {
  public:
   explicit DecodedText(std::span<const std::byte> bytes);

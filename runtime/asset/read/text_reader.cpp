@@ -33,7 +33,7 @@ std::optional<double> numberIn(std::string_view word) {
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error != std::errc::result_out_of_range) return value;
-  // Overflow and underflow have the same error code; the exponent's sign tells them apart.
+  // std::from_chars reports overflow and underflow by the same error code; the exponent's sign distinguishes them.
   const bool tiny = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
   return tiny ? 0 : std::numeric_limits<double>::infinity();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Reads words and numbers of an untrusted text, line by line. Lines end in \n, \r\n or \r; the locale has no effect.
+// Reads words and numbers of an untrusted text, line by line. A line ends in \n, \r\n or \r. The locale has no effect.
 
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@ namespace sgm::asset {
 
 class TextReader {
  public:
-  /// continued: a backslash at the end of a line joins it with the next line.
+  /// continued: true if a backslash at the end of a line joins it with the next line.
   explicit TextReader(std::string_view text, bool continued = false)
       : first_(text.data()), at_(first_), end_(first_ + text.size()), continued_(continued) {}
 
@@ -23,28 +23,28 @@ class TextReader {
     return {from, static_cast<size_t>(at_ - from)};
   }
 
-  /// Returns the next word of this or a later line; empty at the end of the text.
+  /// Returns the next word of this line or a later line; empty at the end of the text.
   std::string_view wordOfAnyLine() {
     std::string_view next = word();
     while (next.empty() && nextLine()) next = word();
     return next;
   }
 
-  /// Returns the rest of the line, without blanks at its ends.
+  /// Returns the rest of the line, without blanks at its beginning and end.
   std::string_view rest();
 
-  /// True if the line has no more words.
+  /// True if the line has no further word.
   bool isLineDone() {
     skipBlanks();
     return at_ == end_ || isLineEnd(*at_);
   }
 
-  /// Moves to the beginning of the next line; returns false if there is none. plain: ignores a backslash at the end of
-  /// the line.
+  /// Moves to the beginning of the next line; returns false if there is none. plain: a backslash at the end of the line
+  /// has no meaning.
   bool nextLine(bool plain = false);
 
-  size_t line() const { return line_; }                              ///< number of the current line, from 1
-  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< offset of the next character
+  size_t line() const { return line_; }                              ///< number of the current line, counted from 1
+  size_t byte() const { return static_cast<size_t>(at_ - first_); }  ///< offset of the next character in bytes
   size_t bytesLeft() const { return static_cast<size_t>(end_ - at_); }
 
  private:
@@ -72,14 +72,14 @@ class TextReader {
   size_t line_ = 1;
 };
 
-/// Parses a decimal number with optional sign and exponent; also "nan" and "inf". Infinite if the number is too large
-/// for a double; nullopt if the word is not a number.
+/// Parses a decimal number with optional sign and exponent; also "nan" and "inf". Returns infinity if the number is too
+/// large for a double; nullopt if the word is not a number.
 std::optional<double> numberIn(std::string_view word);
 
-/// Returns a word of a file for a message: in quotes, shortened if it is long, and without control characters.
+/// Formats a word of a file for a message: in quotes, shortened if it is long, and without control characters.
 std::string shown(std::string_view word);
 
-/// Returns a name from a file, with '?' for invalid UTF-8 and control characters.
+/// Returns a name from a file, with '?' in place of invalid UTF-8 and control characters.
 std::string cleanName(std::string_view name);
 
 }  // namespace sgm::asset

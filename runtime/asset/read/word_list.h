@@ -1,5 +1,5 @@
 #pragma once
-// Lists of words of file formats.
+// Constant lists of keywords of file formats.
 
 #include <algorithm>
 #include <cstddef>

@@ -18,7 +18,7 @@ std::string procFile(const char* name) {
   return content ? std::move(*content) : std::string();
 }
 
-/// Returns the time when the machine booted, seconds since 1970.
+/// Returns the time when the machine booted, in seconds since 1970; nullopt if /proc/stat does not tell it.
 std::optional<double> bootTime() {
   std::istringstream in(procFile("/proc/stat"));
   for (std::string word; in >> word;) {
@@ -28,7 +28,8 @@ std::optional<double> bootTime() {
   return std::nullopt;
 }
 
-/// Reads the fields of /proc/self/stat that follow the program's name; the name may contain any characters.
+/// Reads processor time and start time from /proc/self/stat. Fields are counted from the last ')', because the
+/// program's name before it may contain any characters.
 void readTimes(ProcessFigures& figures) {
   const std::string stat = procFile("/proc/self/stat");
   const size_t name_end = stat.rfind(')');
@@ -55,7 +56,7 @@ std::optional<uint64_t> openFiles() {
   uint64_t count = 0;
   std::filesystem::directory_iterator at("/proc/self/fd", error);
   for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) ++count;
-  // One of the counted descriptors is that of the folder itself.
+  // Do not count the descriptor through which this function reads the folder /proc/self/fd.
   return error || count == 0 ? std::nullopt : std::optional(count - 1);
 }
 

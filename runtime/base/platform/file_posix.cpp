@@ -14,7 +14,7 @@ namespace sgm::platform {
 namespace fs = std::filesystem;
 namespace {
 
-/// Repeats a system call as long as signals interrupt it.
+/// Repeats a system call until no signal interrupts it (EINTR).
 template <class Call>
 auto withoutInterruption(const Call& call) {
   for (;;) {
@@ -34,13 +34,13 @@ void fill(const struct stat& from, FileStatus& to) {
   to.number = static_cast<uint64_t>(from.st_ino);
 }
 
-/// Returns a path that refers to an open file, valid while the file is open.
+/// Returns a path under /proc that refers to an open file, valid while the file is open.
 std::string linkOf(int file) { return "/proc/self/fd/" + std::to_string(file); }
 
 }  // namespace
 
 int openFile(const fs::path& path, unsigned flags) {
-  // Without O_NONBLOCK the call waits for a pipe's other end.
+  // Without O_NONBLOCK, opening a pipe blocks until another process opens its other end.
   int how = O_CLOEXEC | ((flags & kWait) != 0 ? 0 : O_NONBLOCK);
   how |= (flags & kWrite) == 0 ? O_RDONLY : (flags & kRead) != 0 ? O_RDWR : O_WRONLY;
   if ((flags & kCreate) != 0) how |= O_CREAT;
@@ -51,7 +51,7 @@ int openFile(const fs::path& path, unsigned flags) {
 
 int openAgain(int file) { return ::open(linkOf(file).c_str(), O_RDONLY | O_CLOEXEC); }
 
-// Not repeated after EINTR: on Linux the descriptor is closed even then.
+// close() is not repeated after EINTR: on Linux the descriptor is closed even then.
 int closeFile(int file) { return ::close(file); }
 
 int statusOf(int file, FileStatus& status) {
@@ -122,7 +122,7 @@ int touchFile(const fs::path& path) { return ::utimensat(AT_FDCWD, path.c_str(),
 int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 #ifdef O_TMPFILE
   const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  // nameFile() links the file through /proc, which some containers lack; then report that such files are unsupported.
+  // nameFile() links the file through /proc, which is missing in some containers; in that case, report ENOTSUP.
   if (file < 0 || ::access(linkOf(file).c_str(), F_OK) == 0) return file;
   ::close(file);
 #endif
@@ -133,7 +133,7 @@ int openNamelessFile([[maybe_unused]] const fs::path& folder) {
 int openScratchFile(const fs::path& folder) {
 #ifdef O_TMPFILE
   const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0400);
-  // If O_TMPFILE fails, try a file with a name, removed at once: if the folder itself is the problem, that fails, too.
+  // If O_TMPFILE fails, create a named file and remove its name at once. If the folder is the cause, this fails, too.
   if (file >= 0) return file;
 #endif
   std::string name = (folder / "sgm_scratch_XXXXXX").string();
@@ -150,7 +150,7 @@ int nameFile(int file, const fs::path& name) {
 int takeRights(int file, const fs::path& from) {
   struct stat of {};
   if (::stat(from.c_str(), &of) != 0) return -1;
-  // Changing the owner may fail; copying the mode is useful even then.
+  // Changing the owner may fail, for lack of permission; copying the mode is useful even then.
   if ((of.st_uid != ::geteuid() || of.st_gid != ::getegid()) && ::fchown(file, of.st_uid, of.st_gid) != 0) errno = 0;
   return ::fchmod(file, of.st_mode & 0777);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Pipes on POSIX systems. Only for process_posix.cpp and process_exchange_posix.cpp.
+// Pipes on POSIX systems, used only by process_posix.cpp and process_exchange_posix.cpp.
 
 #include <fcntl.h>
 #include <sys/socket.h>
@@ -16,16 +16,16 @@
 
 namespace sgm::platform {
 
-/// A pipe, or one end each of a socket pair: bytes written to `to` are read from `from`. Child processes do not inherit
-/// the descriptors.
+/// A pipe or a socket pair: bytes written to `to` are read from `from`. Child processes do not inherit the descriptors.
 struct Pipe {
   File from, to;
 };
 
 inline Error ioError(const char* what) { return {Code::io, std::string(what) + ": " + systemMessage(errno)}; }
 
-/// Moves a descriptor away from the numbers 0 to 2, which are used for a child's standard streams. New descriptors get
-/// these numbers if this process has closed its own standard streams. Error: io, if the descriptor is invalid.
+/// Moves a descriptor away from the numbers 0 to 2, which a child process uses for its standard streams. New
+/// descriptors get these numbers if this process has closed its own standard streams. Error: io, if the descriptor is
+/// invalid.
 inline Result<File> clearOfStreams(File file) {
   constexpr int kFirstFree = 3;
   if (file.number() >= kFirstFree) return file;
@@ -48,8 +48,8 @@ inline Result<Pipe> openPipe() {
   return clearOfStreams(ends);
 }
 
-/// Opens a socket pair instead of a pipe: writing after the reader has closed its end can be made an error
-/// (MSG_NOSIGNAL) instead of a signal.
+/// Opens a socket pair instead of a pipe. With MSG_NOSIGNAL, writing after the reader has closed its end then is an
+/// error instead of the signal SIGPIPE.
 inline Result<Pipe> openSocket() {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return ioError("cannot open a socket");

@@ -10,8 +10,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Intervals at which to test whether the process has ended, since its streams may stay open in its own child
-/// processes.
+/// Intervals at which to test whether the child has ended. Its streams alone do not tell, since the child's own child
+/// processes may keep them open.
 constexpr std::chrono::milliseconds kBetweenLooks{50}, kBetweenLooksAtItsEnd{1};
 
 }  // namespace
@@ -46,9 +46,10 @@ class ProcessExchange {
   }
 
  private:
-  /// Waits until a stream is ready or a cancellation is requested, at most for the time `most`, and handles it.
+  /// Waits, at most for the time `most`, until a stream is ready or a cancellation is requested, and handles that
+  /// event.
   void serve(std::chrono::milliseconds most) {
-    // poll() ignores negative descriptors.
+    // A stream that is closed has descriptor -1, which poll() ignores.
     std::array<pollfd, 4> waited{{{run_.cancellation != nullptr ? run_.cancellation->waiting_.number() : -1, POLLIN, 0},
                                   {process_.output_.number(), POLLIN, 0},
                                   {process_.error_.number(), POLLIN, 0},
@@ -71,7 +72,7 @@ class ProcessExchange {
   }
 
   void readOutput() {
-    // Read one byte more than the limit, to detect that the limit is exceeded.
+    // Read one byte more than the limit: if that byte exists, the output exceeds the limit.
     read(process_.output_, said_.output, run_.max_output + 1);
     if (said_.output.size() > run_.max_output) said_.stop = ProcessOutput::Stop::output_limit;
   }
@@ -85,8 +86,8 @@ class ProcessExchange {
     }
   }
 
-  /// After the child has ended, reads the output that is left in the pipes, without waiting for other processes that
-  /// keep the pipes open.
+  /// After the child has ended, reads the output left in the pipes, without waiting for other processes that keep the
+  /// pipes open.
   void readRest() {
     constexpr int kMaxPieces = 64;
     bool more = true;
@@ -114,8 +115,8 @@ Result<Cancellation> Cancellation::create() {
   return made;
 }
 
-// Wakes waiting threads by a byte rather than by closing this end: a process forked meanwhile may have a copy of this
-// end.
+// Write a byte to wake the waiting threads. Closing the pipe's write end would not suffice: a child process that was
+// forked meanwhile may have a copy of it.
 void Cancellation::request() { static_cast<void>(writeNext(asking_.number(), "", 1)); }
 
 Result<ProcessOutput> runProcess(const ProcessSettings& settings, const RunSettings& run) {

@@ -44,8 +44,8 @@ constexpr bool kMapsWithoutEnd = false;
 
 constexpr int kFirstFree = 3;  // first descriptor after the standard streams
 
-/// A program cannot start while another process has its file open for writing. Usually that is a child process that is
-/// being started and still has a copy of the descriptor, for some microseconds; so starting is tried again.
+/// execve() fails with ETXTBSY while another process has the program's file open for writing. Usually that process is a
+/// child that is being started and holds a copy of the descriptor for some microseconds, so starting is tried again.
 constexpr int kMaxTries = 50;
 constexpr std::chrono::milliseconds kBetweenTries{10};
 
@@ -78,7 +78,7 @@ Result<Ends> endsOf(const Stream& stream, bool is_input) {
   return Ends();
 }
 
-/// Returns the paths to try for a program, in the order of PATH.
+/// Returns the paths at which to search for a program, in the order of PATH.
 std::vector<std::string> candidatesFor(const std::string& program) {
   if (program.find('/') != program.npos) return {program};
   const char* path = std::getenv("PATH");
@@ -86,7 +86,7 @@ std::vector<std::string> candidatesFor(const std::string& program) {
   std::vector<std::string> candidates;
   for (size_t at = 0; at <= folders.size();) {
     const size_t end = std::min(folders.find(':', at), folders.size());
-    // An empty name means the current folder.
+    // An empty entry of PATH means the current folder.
     candidates.push_back((end == at ? "." : folders.substr(at, end - at)) + "/" + program);
     at = end + 1;
   }
@@ -111,11 +111,11 @@ std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   return pointers;
 }
 
-// Functions from here to Launch::becomeProgram neither lock nor allocate: after vfork() they run in a new process that
-// shares this process's memory, where other threads may hold locks that would never be released.
+// Functions from here to Launch::becomeProgram neither lock nor allocate: after vfork() they run in a child that shares
+// this process's memory, where other threads may hold locks that would never be released.
 
-/// Sets a resource limit that cannot be raised again. beyond: how much the hard limit exceeds the soft one, so that the
-/// soft limit's signal can end the process first.
+/// Sets a resource limit that the process cannot raise again. beyond: how much the hard limit exceeds the soft limit,
+/// so that the soft limit's signal can end the process first.
 void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
@@ -124,7 +124,7 @@ void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   setrlimit(what, &now);
 }
 
-/// Ends the process with the thread that started it, and denies it new privileges.
+/// Makes the kernel kill this process when the thread that started it ends, and denies it new privileges.
 void confine() {
 #if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -132,11 +132,11 @@ void confine() {
 #endif
 }
 
-/// Marks all descriptors after the standard streams to be closed when the program starts; the caller may have opened
-/// some without O_CLOEXEC.
+/// Marks all descriptors after the standard streams close-on-exec: the host program may have opened some without
+/// O_CLOEXEC.
 void closeOthersOnExec() {
 #if defined(SYS_close_range)
-  constexpr unsigned kOnExec = 4;  // CLOSE_RANGE_CLOEXEC
+  constexpr unsigned kOnExec = 4;  // value of CLOSE_RANGE_CLOEXEC, which old headers do not define
   if (syscall(SYS_close_range, unsigned{kFirstFree}, ~0u, kOnExec) == 0) return;
 #endif
   rlimit most{};
@@ -145,7 +145,7 @@ void closeOthersOnExec() {
     fcntl(file, F_SETFD, FD_CLOEXEC);
 }
 
-/// Everything that a new process needs until its program starts, prepared before the fork.
+/// Everything that a child process needs until its program starts, prepared before the fork.
 class Launch {
  public:
   Launch(const ProcessSettings& settings, const std::array<int, 3>& streams)
@@ -159,19 +159,20 @@ class Launch {
     environment_ = pointersTo(variables_);
   }
 
-  /// Starts the process and sets `id`. The new process reports failures through the pipe. Returns 0 if its program has
-  /// started, otherwise errno of the failure.
+  /// Starts the child and sets `id`. The child reports a failure through the pipe `report`. Returns 0 if its program
+  /// has started, otherwise errno of the failure.
   int start(Pipe report, pid_t& id) const {
     sigset_t all, before;
     sigfillset(&all);
-    // No signal handler may run in the new process, since it shares this process's memory.
+    // Block all signals: a signal handler that ran in the child would change this process's memory, which the child
+    // shares.
     pthread_sigmask(SIG_SETMASK, &all, &before);
     id = spawn(report.to.number(), before);
     int failure = id < 0 ? errno : 0;
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (failure != 0) return failure;
     report.to = File();
-    // If the program starts, the new process's end of the pipe is closed, and nothing can be read.
+    // When the program starts, the child's end of the pipe is closed (O_CLOEXEC), so this read returns 0 bytes.
     if (readNext(report.from.number(), &failure, sizeof failure) != sizeof failure) return 0;
     while (waitpid(id, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -181,8 +182,8 @@ class Launch {
  private:
   pid_t spawn(int report, const sigset_t& mask) const {
     const pid_t parent = getpid();
-    // vfork(), since fork() would copy the page tables, which is slow for a large process and may fail for lack of
-    // memory; posix_spawn() cannot set limits.
+    // fork() would copy the page tables, which is slow for a large process and may run out of memory; posix_spawn()
+    // cannot set resource limits.
     const pid_t id = vfork();
     if (id == 0) becomeProgram(report, mask, parent);
     return id;
@@ -220,7 +221,7 @@ class Launch {
     }
   }
 
-  /// Tries to run the candidates. Returns only on failure, with the reason as errno value.
+  /// Tries to execute each candidate path in turn. Returns only on failure, with the reason as errno value.
   int execute() const {
     int failure = 0;
     for (const std::string& candidate : candidates_) {
@@ -261,8 +262,8 @@ ProcessExit exitOf(int status, const rusage& used, double cpu_seconds) {
 
 enum class State { runs, ended, forgotten };
 
-/// Returns the state of a child without reaping it, so that its id stays valid, unless the system has already forgotten
-/// the child.
+/// Returns the state of a child without reaping it, so that its id stays valid. `forgotten`: the system has already
+/// reaped the child.
 State stateOf(int id) {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOHANG | WNOWAIT) != 0)
@@ -277,8 +278,8 @@ void limitThisProcess(const ProcessLimits& limits) {
   if (limits.cpu_seconds > 0) limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.cpu_seconds)), 1);
   if (limits.file_bytes > 0) limit(RLIMIT_FSIZE, limits.file_bytes);
   if (limits.open_files > 0) limit(RLIMIT_NOFILE, limits.open_files);
-  // RLIMIT_NPROC stays unlimited: it counts all processes of the user, so on a busy machine this process could not
-  // start threads.
+  // RLIMIT_NPROC is not set: it counts all processes of the user, so on a busy machine this process could not start
+  // threads.
   if (limits.memory_bytes > 0 && !kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory_bytes);
 }
 
@@ -295,7 +296,7 @@ Result<std::string> ownProgram() {
   const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", why);
   if (!why) return path.string();
 #if defined(__linux__)
-  // Fallback for containers without /proc. The program may have been started by a relative path.
+  // Fallback for containers without /proc. The path may be relative, if the program was started by a relative path.
   if (const auto* started_as = reinterpret_cast<const char*>(getauxval(AT_EXECFN)))
     return std::filesystem::absolute(started_as).string();
 #endif
@@ -377,8 +378,8 @@ ProcessExit Process::wait() {
 
 ProcessExit Process::end() {
   if (id_ < 0) return {};
-  // If the system has forgotten the child and its streams are closed, another process may have its id; do not kill
-  // that.
+  // If the system has already reaped the child and its streams are closed, its id may now belong to another process; do
+  // not kill that process.
   const State state = stateOf(id_);
   const bool is_its_own = state != State::forgotten || output_ || error_;
   if (isolated_ ? is_its_own : state == State::runs) kill(isolated_ ? -id_ : id_, SIGKILL);
