@@ -76,7 +76,8 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
   const uint32_t unread = sink.errorCount();
   check.library = libraries && isLibrary(syntax[0]);
   if (unread == 0) {
-    // Printed and hashed before the checker, which rewrites calls while it resolves names.
+    // The canonical text and the hash are made before the checker runs, since it rewrites calls while it resolves
+    // names.
     program->canonical = printModule(*program, syntax[0]);
     program->hash = hashMeaning(*program, syntax);
   }

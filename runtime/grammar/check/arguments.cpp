@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-/// "`rot(axis, angle)`".
+/// Returns the signature of a callee for messages, such as "`rot(axis, angle)`".
 std::string signatureOf(std::string_view callee, const std::vector<std::string_view>& names) {
   std::string out = join({"`", callee, "("});
   for (size_t i = 0; i < names.size(); ++i) out += join({i > 0 ? ", " : "", names[i]});
@@ -22,8 +22,8 @@ std::string signatureOf(const Callee& callee) {
   return signatureOf(callee.name, names);
 }
 
-/// For an argument `salt -3`, which is parsed as a difference: returns the name `salt` if it is a parameter of the
-/// callee and nothing else in scope; otherwise kNoId.
+/// The parser reads the argument `salt -3` as a subtraction. If `salt` is a parameter of the callee and no other
+/// visible name, returns `salt`, since a named argument was probably meant; otherwise returns kNoId.
 NameId meantByDifference(const CheckContext& check, const Symbols& symbols, const Scope& scope, const ArgNode& arg,
                          const std::vector<FormalView>& formals) {
   const ExprNode& value = check.node(arg.value);

@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// A parameter of a callee: of a rule, a let, a field, a built-in function or a primitive.
+/// A parameter of a rule, a let, a field, a built-in function or a primitive.
 struct FormalView {
   std::string_view name;
   ExprId fallback = kNoId;  ///< the default value, bound if the argument is omitted; kNoId: no default
@@ -21,14 +21,15 @@ struct FormalView {
 
 std::vector<FormalView> viewOf(const Program& program, IdRange formals);
 std::vector<FormalView> viewOf(std::span<const BuiltinParam> params);
-/// The types that formals have before any argument is checked: a formal with a declared range has the range's
+/// Returns the types of formals before any argument is checked: a formal with a declared range has the range's
 /// dimension; all others are unknown.
 std::vector<Type> typesOf(const Program& program, IdRange formals);
 
 struct Callee {
   std::string_view name;
   std::vector<FormalView> formals;
-  bool variadic = false;  ///< accepts extra positional arguments after its formals (not named ones)
+  /// the callee accepts extra positional arguments after its formals, such as the corners of a prism
+  bool variadic = false;
 };
 
 /// Returns one expression for each formal, in order, followed by the variadic arguments. kNoId marks an omitted

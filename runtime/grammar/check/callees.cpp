@@ -92,7 +92,7 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     }
     if (!hidden && import == nullptr && reportMissingImport(receiver, scope, shape)) return true;
     if (hidden || import == nullptr || !import->import) return false;
-    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // the imported file could not be read
+    if (import->id == kNoId && mayBeLost(kNoId, n.name)) return true;  // kNoId: the imported file could not be read
     module = import->id;
   }
   const Symbol* const found = find(module, n.name);
@@ -124,7 +124,7 @@ bool Symbols::resolveCallee(ExprId call, const Scope& scope, bool shape) {
     n.id = static_cast<uint32_t>(builtin->id);
     return true;
   }
-  // Mark only the name, without its arguments.
+  // The message marks only the callee's name, not its arguments.
   Span span = n.span;
   span.end = span.begin + static_cast<uint32_t>(check_.text(n.name).size());
   span.end_line = span.line;

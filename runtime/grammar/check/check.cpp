@@ -16,7 +16,8 @@ namespace sgm {
 
 namespace {
 
-/// Requires that all heads of a rule declare the same ranges: callers pass the same values to all heads.
+/// Requires that all heads of a rule declare the same parameter ranges, since a call passes the same values to each
+/// head.
 void checkHeadRanges(CheckContext& check, const Rule& rule, const Alternative& head) {
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     const FormalNode& first = check.program.ast.formals[rule.alternatives[0].formals.first + i];
@@ -62,7 +63,7 @@ void checkHeads(CheckContext& check) {
 /// Checks rules that cannot be reached from any start, and warns of them. This includes rules that are called only by
 /// such rules.
 void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rules, Statements& statements) {
-  // No warnings after errors: the calls in a statement with an error are unknown.
+  // After errors there are no warnings: a call in a statement with an error may be the one that uses the rule.
   const bool warns = check.sink.errorCount() == 0 && symbols.areLayersKnown() && !check.program.layers.empty();
   std::vector<uint32_t> unreached;
   for (uint32_t r = 0; r < check.program.rules.size(); ++r)
@@ -73,7 +74,7 @@ void checkUnreached(CheckContext& check, const Symbols& symbols, RuleTypes& rule
     if (rule.module == 0 && warns)
       check.sink.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", check.text(rule.name), "`"}),
                          "call it in a rule, or remove it");
-    if (rules.isReached(r)) continue;  // called by an unreached rule that was checked before it
+    if (rules.isReached(r)) continue;  // reached meanwhile by a call of another unreached rule
     rules.assume(r, typesOf(check.program, rule.alternatives[0].formals));
     statements.checkRule(r);
     statements.checkWaiting();
@@ -88,7 +89,7 @@ void warnOfCuts(const CheckContext& check, const Overrides& overrides) {
     warnOfIdleCuts(program, program.overrides[o].body, overrides.mayBeInRoom(o), check.sink);
 }
 
-/// Checks rules and overrides. Returns the calls, probes and queries in them.
+/// Checks rules and overrides. Returns their calls of rules, and their accesses to other layers (probes and queries).
 RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   RuleUses uses;
   const uint32_t before = check.sink.errorCount();
@@ -105,7 +106,8 @@ RuleUses checkRules(CheckContext& check, Symbols& symbols, Types& types) {
   checkUnreached(check, symbols, rules, statements);
   types.checkUnused();
   LayerLevel(check).mark();
-  if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);  // after errors, content may be missing
+  // after errors, statements may be missing, so that cuts would wrongly seem to have no effect
+  if (check.sink.errorCount() == 0) warnOfCuts(check, overrides);
   return uses;
 }
 

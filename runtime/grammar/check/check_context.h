@@ -17,7 +17,7 @@ namespace sgm {
 struct CheckContext {
   Program& program;
   NameTable& names;
-  const std::vector<ModuleSyntax>& syntax;  ///< by module; [0] is the root
+  const std::vector<ModuleSyntax>& syntax;  ///< the parsed files, by module index; [0] is the root file
   const CompileLimits& limits;
   DiagnosticSink& sink;
   bool library = false;  ///< the root is meant for import, so it needs no start
@@ -29,7 +29,7 @@ struct CheckContext {
   /// Whether parts of a statement may be missing because its file was not parsed completely.
   bool isLossy(const StmtNode& s) const { return !syntax[s.span.file].complete; }
 
-  /// Appends ids to Ast::ids, and returns their range there.
+  /// Appends ids to Ast::ids, and returns the range that they occupy there.
   IdRange store(const std::vector<uint32_t>& ids) const;
   /// Returns the index of a name in one of the program's string tables (materials, tags, names), adding the name if it
   /// is new. Reports an error at `span` and returns 0 if the table is full.

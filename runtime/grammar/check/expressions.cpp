@@ -69,7 +69,8 @@ void Types::declareLocal(NameId name, const Span& span, const Local& local) {
 
 Type Types::checkExpression(ExprId id) {
   if (id == kNoId) return kUnknownType;
-  // Limits the depth through nested lets, so that the stack depth does not depend on the untrusted text.
+  // Limits the nesting of expressions, also across the lets that they use, so that untrusted text cannot overflow the
+  // stack.
   if (depth_ >= kDeepestExpressions) {
     check_.sink.error(check_.node(id).span, codes::kTooDeep, "lets, fields and expressions are nested too deep",
                       "use fewer levels of lets");

@@ -8,14 +8,15 @@ namespace {
 
 void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first);
 
-/// Checks a block whose statements add to content that precedes the block.
+/// Checks the statements of a block that already contains something before its first statement, so that even a cut as
+/// the first statement has an effect. Warns of idle cuts nested in these statements.
 void cutsIn(const Program& program, DiagnosticSink& sink, StmtId block) {
   const IdRange children = program.stmt(block).children;
   for (uint32_t i = 0; i < children.count; ++i) cutsOf(program, sink, program.idAt(children, i), false);
 }
 
-/// Warns if the statement is a cut with nothing to cut: a cut removes from the content that precedes it in its block.
-/// first: nothing precedes this statement in its block.
+/// Warns if the statement is a cut without effect: a cut removes only from content that precedes it in its block.
+/// first: no content precedes this statement in its block.
 void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first) {
   if (id == kNoId || sink.full()) return;
   const StmtNode& s = program.stmt(id);
@@ -45,11 +46,11 @@ void cutsOf(const Program& program, DiagnosticSink& sink, StmtId id, bool first)
       return;
     }
     case StmtKind::extrude:
-      // The extruded piece precedes the statements of its block.
+      // The extruded piece precedes the statements of the block, so a cut may come first.
       if (s.body != kNoId) cutsIn(program, sink, s.body);
       return;
     case StmtKind::treemap:
-      // The open space of a room or corridor precedes the statements of its block.
+      // The open space of a room or corridor precedes the statements of its block, so a cut may come first.
       for (uint32_t i = 0; i < s.children.count; ++i) {
         const StmtId child = program.idAt(s.children, i);
         const bool open = program.ast.parts[s.parts.first + i].floor != FloorPart::facade;

@@ -6,7 +6,7 @@
 
 namespace sgm {
 
-/// Warns of each cut in `body` without preceding content in its block. follows: content precedes the whole body, so
+/// Warns of each cut in `body` that has no preceding content in its block. follows: content precedes the whole body, so
 /// that even its first cut has an effect. Precondition: the body is checked and StmtNode::layer_level is set.
 void warnOfIdleCuts(const Program& program, StmtId body, bool follows, DiagnosticSink& sink);
 

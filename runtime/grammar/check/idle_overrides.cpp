@@ -15,7 +15,7 @@ constexpr uint32_t kAnyNumber = std::numeric_limits<uint32_t>::max();
 
 uint32_t sum(uint32_t a, uint32_t b) { return a > kAnyNumber - b ? kAnyNumber : a + b; }
 
-/// Returns the maximum number of instances of a part of a split, a comp or a treemap.
+/// Returns the maximum number of copies that one use of a split, a comp or a treemap derives of its part.
 uint32_t timesOf(const StmtNode& s, const PartNode& part) {
   switch (s.kind) {
     case StmtKind::split:
@@ -94,8 +94,8 @@ uint32_t usesInCall(const Program& program, ExprId call, uint32_t rule) {
   return call != kNoId && program.expr(call).ref == Ref::rule && program.expr(call).id == rule ? 1 : 0;
 }
 
-/// Returns an upper bound of the uses of `rule` directly below one use of `parent`. Of the parent's heads, one without
-/// `lod` is derived, and one for each `lod`.
+/// Returns an upper bound of the uses of `rule` directly below one use of `parent`. A use of `parent` derives one of
+/// the heads without `lod`, plus every head with `lod`, each at some level.
 uint32_t usesBelow(const Program& program, const Rule& parent, uint32_t rule) {
   uint32_t plain = 0, by_level = 0;
   for (const Alternative& head : parent.alternatives) {

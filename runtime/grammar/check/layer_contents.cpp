@@ -1,4 +1,5 @@
-// Contents are found bottom-up, so that rules may call each other.
+// Finds the levels of detail that show the content of each rule, from callees to callers. Repeats until nothing
+// changes, since rules may call each other.
 
 #include "grammar/check/layer_contents.h"
 
@@ -14,8 +15,8 @@ namespace sgm {
 namespace {
 
 struct Contents {
-  int32_t coarsest_cell = 0;  ///< as Layer::coarsest_cell; 0: invisible at every level
-  bool by_level = false;      ///< as Layer::by_level
+  int32_t coarsest_cell = 0;  ///< largest cell edge, in units, of a level that shows the content; 0: no level shows it
+  bool by_level = false;      ///< some shapes are visible only at some levels (as Layer::by_level)
   bool anchors = false;
 
   static Contents shape() { return {std::numeric_limits<int32_t>::max(), false, false}; }
@@ -62,8 +63,8 @@ class RuleContents {
   }
 
  private:
-  /// Orders rules so that callees precede callers, except in cycles. Then, without cycles, one pass finds all contents
-  /// and a second pass confirms them.
+  /// Orders rules so that callees precede callers, except in cycles. Without cycles, a single pass in this order finds
+  /// all contents, and a second pass confirms them.
   void orderFrom(ExprId start) {
     if (start == kNoId || program_.expr(start).ref != Ref::rule || ordered_[program_.expr(start).id]) return;
     std::vector<std::pair<uint32_t, size_t>> path{{program_.expr(start).id, 0}};

@@ -10,14 +10,15 @@
 
 namespace sgm {
 
-/// Marks the statements at the top level of layers; stores the overrides whose blocks may be used there.
+/// Marks the statements at the top level of layers, where cuts remove from the domain. Collects the overrides whose
+/// blocks may be used there.
 class LayerLevel {
  public:
   explicit LayerLevel(CheckContext& check) : check_(check) {}
 
   /// Sets StmtNode::layer_level in the start rules of layers and in the overrides that may apply there. Reports an
-  /// `inner` nested in other shapes if its content may contain a cut of the domain. Precondition: all rules and
-  /// overrides are checked.
+  /// error if an `inner`, which stands for the content that an override replaces, is nested in other shapes and this
+  /// content may contain a cut of the domain. Precondition: all rules and overrides are checked.
   void mark();
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kMaxLayers = 256;
 
-/// Sorts the layers so that each comes after those that it uses.
+/// Sorts the layers so that each layer comes after the layers that it uses.
 void sortLayers(CheckContext& check, Symbols& symbols) {
   const uint32_t before = check.sink.errorCount();
   const std::vector<LayerDecl>& decls = check.syntax[0].layers;
@@ -38,8 +38,8 @@ void sortLayers(CheckContext& check, Symbols& symbols) {
         uses[l].push_back(found);
     }
   if (check.sink.errorCount() > before) return;
-  // Repeatedly takes the first layer whose used layers are all placed, so that declaration order is kept where
-  // possible.
+  // Repeatedly takes the first layer for which all layers that it uses are already taken. This keeps the order of
+  // declaration where possible.
   std::vector<uint32_t> order, place(count, kNoId);
   while (order.size() < count) {
     uint32_t next = kNoId;
@@ -91,7 +91,8 @@ void addLayer(CheckContext& check, Types& types, const LayerDecl& l) {
     check.sink.error(check.node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long",
                      "such as reach 8m");
   else if (cell && reach) {
-    // Every chunk loads all cells within reach, so the cost of a sample grows with the cube of reach / cell.
+    // Every chunk loads all cells within the layer's reach, so the cost of a sample grows with the cube of reach /
+    // cell.
     if (*reach > *cell * check.limits.neighbours)
       check.sink.error(
           check.node(l.reach).span, codes::kReachTooLarge,

@@ -9,7 +9,8 @@ namespace sgm {
 
 /// The effect of a list of transforms on the scope.
 struct TransformEffect {
-  /// one of the transforms is `size`; whether the scope really gets smaller is decided by the proof of reach
+  /// one of the transforms is `size`; the proof of reach (checkReach) later decides whether the scope really gets
+  /// smaller
   bool shrinks = false;
   std::vector<ExprId> factors;  ///< the factors of all `scale` transforms in the list
 };
@@ -17,8 +18,8 @@ TransformEffect checkTransforms(CheckContext& check, Symbols& symbols, Types& ty
 
 /// Declares the local name of a `footprint` statement.
 void checkFootprint(CheckContext& check, Types& types, StmtId id, const StmtNode& s);
-/// Checks the `plan` of an extrusion or a roof, if present. body: the block of the rule or override, searched for
-/// hints.
+/// Checks the `plan` of an extrusion or a roof, if present. body: the block of the enclosing rule or override. If the
+/// plan's name is unknown in its place, a footprint of that name elsewhere in this block is suggested.
 void checkPlan(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s, StmtId body);
 void checkRoof(CheckContext& check, Symbols& symbols, Types& types, const StmtNode& s, StmtId body);
 

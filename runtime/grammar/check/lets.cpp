@@ -1,4 +1,4 @@
-// Lets and fields: checked once for each tuple of argument types.
+// Checks lets and fields, once for each tuple of argument types.
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-// Members after a dot that are not calls: parts of vectors, cells, faces and segments. Queries of layers.
+// Checks members after a dot that are not calls (parts of vectors, cells, faces and segments), and queries of layers.
 
 #include <array>
 
@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// One member of a kind of value. A member of a vector has the vector's dimension.
+/// A member that values of the kind `of` have, such as x of a vector. A member of a vector has the vector's dimension.
 struct MemberInfo {
   ValueKind of;
   std::string_view name;
@@ -38,7 +38,7 @@ constexpr std::array kMembers = {
     MemberInfo{ValueKind::segment, "depth", Member::depth, kRatioType},
 };
 
-/// Suggests the intended member, or lists all.
+/// Returns a hint that suggests a similar member of this kind of value, or lists all of them.
 std::string memberHint(std::string_view word, ValueKind of) {
   if (of == ValueKind::faces || of == ValueKind::segments) return "go through the list: for s in ...";
   Suggestion suggestion(word);

@@ -14,8 +14,8 @@ namespace {
 constexpr size_t kDeepestPath = 64;  // DeriveLimits::depth
 constexpr std::string_view kExample = "such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it";
 
-/// Returns the span in the source of a part of an address. Wrong behind an escaped quote, whose text is shorter than
-/// its source.
+/// Returns the span in the source of a part of an address. The span is wrong behind an escaped quote, which is longer
+/// in the source than in the address.
 Span spanIn(const Override& edit, const PathPlace& place) {
   Span span = edit.address_span;
   const uint32_t length = span.end - span.begin - 2;
@@ -160,7 +160,8 @@ bool OverridePaths::findCallee(const Override& edit, const WrittenStep& step, ui
 void OverridePaths::reportUnknown(const Override& edit, const WrittenStep& step, std::string_view who,
                                   const std::vector<std::string>& known) {
   if (check_.lossy) return;
-  // Messages print the step `override` for content that was derived within an override's block; it cannot be written.
+  // In messages, the step `override` stands for content that an override's block has derived. Such a step cannot be
+  // written in a path.
   if (step.name == "override") {
     check_.sink.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `override`"}),
                       "edit the block of that override");

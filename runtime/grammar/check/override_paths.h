@@ -37,7 +37,7 @@ class OverridePaths {
 
   CheckContext& check_;
   const Symbols& symbols_;
-  /// by calling rule: each called rule, and the import alias it is called by (or kNoId)
+  /// by index of the calling rule: each called rule, with the import alias by which it is called (or kNoId)
   std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;
 };
 

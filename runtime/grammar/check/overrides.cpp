@@ -116,7 +116,8 @@ void Overrides::findTags() {
 
 /// Turns the content of each room whose name is overridden as a tag into a block with that tag.
 void Overrides::tagRooms() {
-  std::vector<std::pair<uint32_t, uint16_t>> rooms;  // indices in Ast::ids
+  // the rooms, each as the index of its child in Ast::ids and its tag
+  std::vector<std::pair<uint32_t, uint16_t>> rooms;
   for (const StmtNode& s : check_.program.ast.stmts) {
     forEachRoom(check_.program, s, [&](uint32_t place, uint16_t tag) {
       if (check_.program.overridesOf(tag).count > 0) rooms.emplace_back(place, tag);

@@ -14,7 +14,7 @@ namespace sgm {
 /// treemap.
 class Overrides {
  public:
-  /// uses: of the rules so far; probes and queries in the blocks of overrides are added.
+  /// uses: the calls, probes and queries of all rules. run() adds the probes and queries in the blocks of overrides.
   Overrides(CheckContext& check, Symbols& symbols, const RuleTypes& rules, Statements& statements, RuleUses& uses)
       : check_(check), symbols_(symbols), rules_(rules), statements_(statements), rule_uses_(uses) {}
 
@@ -38,7 +38,8 @@ class Overrides {
   const RuleTypes& rules_;
   Statements& statements_;
   RuleUses& rule_uses_;
-  std::vector<RuleUses> uses_;  ///< what each override's block uses, by index into Program::overrides
+  /// the rules and layers that each override's block uses, by index into Program::overrides
+  std::vector<RuleUses> uses_;
   std::set<uint32_t> in_rooms_;
 };
 

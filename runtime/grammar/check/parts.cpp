@@ -26,7 +26,7 @@ ExprId boxOfScope(const Program& program, StmtId id) {
   return scope ? s.expr : kNoId;
 }
 
-/// Whether the part is a face of a box, or the outer wall of a room.
+/// Whether the part's scope is flat: a face of a box, or the outer wall of a room.
 bool isFlat(const StmtNode& s, const PartNode& part) {
   if (s.kind == StmtKind::treemap) return part.floor == FloorPart::facade;
   return s.kind == StmtKind::comp && part.of != BoxPart::edges && part.of != BoxPart::inside;

@@ -1,4 +1,4 @@
-// Loops, point sets and details.
+// Checks loops, scatters and details.
 
 #include "grammar/check/arguments.h"
 #include "grammar/check/statements.h"
@@ -40,7 +40,7 @@ void checkArea(CheckContext& check, Types& types, ScatterNode& scatter, const Sp
 
 }  // namespace
 
-/// Names declared in a `detail` must not be used after it, since they have no value at levels that skip the detail.
+/// Names declared in a `detail` must not be used after it: they have no value at levels that omit the detail.
 void Statements::checkDetail(const StmtNode& s, bool shrunk) {
   types_.require(s.expr, ValueKind::number, kLength, "the size of a detail");
   const size_t known = types_.scope().locals.size();

@@ -1,4 +1,4 @@
-// Footprints, their extrusions, and roofs.
+// Checks footprints, their extrusions, and roofs.
 
 #include "grammar/check/arguments.h"
 #include "grammar/check/leaf_statements.h"

@@ -29,7 +29,7 @@ class RecursionCheck {
     components();
     for (const RuleCall& call : calls_)
       marked.ast.exprs[call.call].circular = component_[call.from] == component_[call.to];
-    // Every cycle of calls must contain a call that makes progress.
+    // Every cycle of calls must contain a call that certainly makes progress towards an end.
     std::vector<uint8_t> mark(program_.rules.size(), 0);
     for (uint32_t root = 0; root < program_.rules.size(); ++root) {
       if (mark[root] != 0) continue;
@@ -55,7 +55,7 @@ class RecursionCheck {
   }
 
  private:
-  /// Tarjan's strongly connected components, without recursion.
+  /// Finds the strongly connected components of the calls by Tarjan's algorithm, without recursion.
   void components() {
     const size_t count = program_.rules.size();
     std::vector<uint32_t> index(count, kNoId), low(count, 0), path;
@@ -109,14 +109,16 @@ class RecursionCheck {
     double most = 1;
     for (const ScaleAround& scale : call.scales) {
       const double factor = scaleFactor(values_.number(scale.factor, frame)).hi;
-      // In a repeat, copy i is scaled i times: factor^0 for the first copy, unbounded if the factor exceeds 1.
+      // In a repeat, the scale applies i times to copy i: the first copy is not scaled, and the last one is enlarged
+      // without bound if the factor exceeds 1.
       most *= !scale.copied ? factor : factor <= 1 ? 1 : kInfinity;
     }
     return most;
   }
 
-  /// Whether an argument is certainly smaller than the formal in `slot`: a * f or f * a with f below 1, or a / f with f
-  /// above 1. The factor, times `larger`, the factor of enclosing scales, must be at most 0.999.
+  /// Whether an argument is certainly smaller than the formal a in `slot`. Understands the forms a * f and f * a with
+  /// abs(f) * larger <= 0.999, a / f with larger / f <= 0.999, and a - f with f > 0.001 and larger <= 1. larger: upper
+  /// bound of the factor by which enclosing scales enlarge the argument.
   bool shrinks(ExprId id, uint32_t slot, const Alternative& head, double larger = 1) {
     const ExprNode& n = program_.expr(id);
     constexpr double kSurely = 0.999;
@@ -131,8 +133,8 @@ class RecursionCheck {
     return n.binary == BinaryOp::subtract && isSlot(left) && larger <= 1 && values_.number(right, frame).lo > 1e-3;
   }
 
-  /// Whether the condition requires a lower bound for the slot's value, one that does not decrease with that value.
-  /// positive: set if the bound is certainly above 0.
+  /// Whether the condition requires that the value in `slot` exceeds a bound, and this bound is finite for all values
+  /// of the other names. positive: set to whether the bound is certainly above 0.
   bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) {
     const ExprNode& n = program_.expr(id);
     if (n.kind != ExprKind::binary) return false;
@@ -169,13 +171,13 @@ class RecursionCheck {
       bool positive = false;
       const ExprId arg = program_.idAt(n.bound, slot);
       if (!bounds(head.when, slot, positive, head) || !shrinks(arg, slot, head)) continue;
-      // Repeated multiplication may converge to 0 without reaching a bound of 0, so the bound must be positive.
+      // Repeated multiplication may converge to 0 without ever passing a bound of 0, so the bound must be positive.
       if (program_.expr(arg).binary == BinaryOp::subtract || positive) return true;
     }
     return false;
   }
 
-  /// Returns a hint how to bound the recursion.
+  /// Returns a hint how the author can bound the recursion.
   std::string remedy(const RuleCall& call, const std::string& name) const {
     if (call.from != call.to) return join({"bound it: `rule ", name, " ... depth 8 -> Leaf`"});
     const Alternative& head = program_.rules[call.from].alternatives[call.alternative];

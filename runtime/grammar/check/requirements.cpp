@@ -1,4 +1,4 @@
-// Checks that expressions have required types and values (Types::require and similar functions).
+// Checks that expressions have the required types and values (Types::require and similar functions).
 
 #include "grammar/check/type_rules.h"
 #include "grammar/check/types.h"

@@ -1,4 +1,4 @@
-// The statements of the root outside of rules and layers.
+// Checks the statements that only a root file may have, outside of its rules and layers.
 
 #include <cmath>
 

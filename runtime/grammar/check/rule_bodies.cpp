@@ -1,4 +1,4 @@
-// Rules and overrides: their heads, parameters and calls.
+// Checks rules and overrides: their heads, parameters and calls.
 
 #include <algorithm>
 #include <iterator>
@@ -15,8 +15,8 @@ namespace {
 constexpr const char* kWeightHint = "write how often this head is drawn relative to the others, such as weight 2";
 constexpr const char* kShapeHint = "write a shape such as sphere(2m), or a rule";
 
-/// Returns a hint for a function where a shape is expected: other languages combine distance fields with functions such
-/// as mix or min.
+/// Returns a hint for a function that is used where a shape is expected: other languages combine distance fields with
+/// functions such as mix or min.
 std::string_view shapeHint(const ExprNode& call) {
   if (call.ref != Ref::builtin) return kShapeHint;
   switch (static_cast<Builtin>(call.id)) {

@@ -10,24 +10,24 @@ namespace sgm {
 
 /// A `scale` transform that encloses a call.
 struct ScaleAround {
-  ExprId factor = kNoId;  ///< the factor of the `scale`
+  ExprId factor = kNoId;  ///< the expression for the factor of the `scale` transform
   bool copied = false;    ///< in a `repeat`: the factor applies once more for each further copy
 };
 
 /// A call of a rule, for the checks of recursion, layers and reach.
 struct RuleCall {
-  uint32_t from = kNoId;  ///< the calling rule; kNoId: the block of an override
+  uint32_t from = kNoId;  ///< the rule whose body contains the call; kNoId: the block of an override
   uint32_t alternative = 0;
   uint32_t to = 0;
   ExprId call = kNoId;
-  bool escape = false;              ///< the call replaces the rule's body when its `depth` or `minsize` is reached
-  bool shrunk = false;              ///< enclosed by a scope of smaller size: `size`, a split or a part
-  std::vector<ScaleAround> scales;  ///< from the outside in
+  bool escape = false;  ///< the call replaces the rule's body when its `depth` or `minsize` is reached
+  bool shrunk = false;  ///< a `size`, a split or another division around the call has made the scope smaller
+  std::vector<ScaleAround> scales;  ///< the `scale` transforms around the call, outermost first
 };
 
 /// A probe or a query of a layer.
 struct AskedLayer {
-  uint32_t rule = kNoId;  ///< the rule that contains it; kNoId: the block of an override
+  uint32_t rule = kNoId;  ///< the rule that contains the probe or query; kNoId: the block of an override
   uint32_t layer = 0;
   Span span;
   std::string_view verb;  ///< for messages: "probes" or another verb for what the rule does with the layer

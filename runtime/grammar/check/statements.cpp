@@ -16,7 +16,8 @@ bool isRoundOrBox(Primitive p) {
          p == Primitive::superq;
 }
 
-/// Reports the first statement that is not permitted in a sum. Returns whether there is none.
+/// Reports the first statement that is not permitted in the body of a `sum`, which adds fields of primitives. Returns
+/// whether all statements are permitted.
 bool checkSumLeaves(CheckContext& check, StmtId id) {
   const StmtNode& s = check.program.stmt(id);
   switch (s.kind) {
@@ -144,8 +145,8 @@ void Statements::checkStatement(StmtId id, bool shrunk) {
     case StmtKind::fit:
       return checkFit(check_, symbols_, types_, copy);
     case StmtKind::inner:
-    case StmtKind::link:    // checked together with its treemap
-    case StmtKind::border:  // checked together with its wfc
+    case StmtKind::link:    // A link is checked together with its treemap.
+    case StmtKind::border:  // A border is checked together with its wfc.
       return;
   }
 }

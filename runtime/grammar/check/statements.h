@@ -61,9 +61,9 @@ class Statements {
   uint32_t rule_ = kNoId;  ///< the rule being checked; kNoId: the block of an override, or a start call
   uint32_t alternative_ = 0;
   StmtId body_ = kNoId;
-  /// next StmtNode::ordinal and ExprNode::ordinal; continue through all heads of a rule
+  /// next values of StmtNode::ordinal and ExprNode::ordinal; both continue through all heads of a rule
   uint32_t ordinal_ = 0, draws_ = 0;
-  std::vector<ScaleAround> scales_;  ///< scales that enclose the current statement, from the outside in
+  std::vector<ScaleAround> scales_;  ///< the `scale` transforms that enclose the current statement, outermost first
   RuleUses uses_;                    ///< rules and layers used by the body being checked
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Resolves global names: declarations, imports, layers.
+// Resolves global names: names of declarations, imports and layers.
 
 #include <cstdint>
 #include <map>
@@ -32,14 +32,14 @@ class Symbols {
   void collect();
 
   const Table& of(uint32_t module) const { return tables_[module]; }
-  /// nullptr if the module does not declare the name.
+  /// Returns the meaning of a name in a module; nullptr if the module does not declare the name.
   const Symbol* find(uint32_t module, NameId name) const;
 
-  /// Call after the layers are sorted. If sorting failed, unknown layers are not reported, since they may be a
-  /// consequence of that error.
+  /// To be called after the layers are sorted. If sorting failed, it is not called, and unknown layers are not
+  /// reported, since they may be a consequence of that error.
   void setLayersKnown() { layers_known_ = true; }
   bool areLayersKnown() const { return layers_known_; }
-  /// Returns an index into Program::layers; kNoId after reporting an error at `span`.
+  /// Returns the index of a layer in Program::layers; kNoId after reporting an error at `span`.
   uint32_t findLayer(NameId name, const Span& span);
 
   /// Whether an unknown name may be declared in a part of the module that failed to parse. module: kNoId for a file

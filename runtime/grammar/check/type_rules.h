@@ -14,7 +14,7 @@ constexpr Type numberType(Dim dim, bool sample = false) { return {ValueKind::num
 /// it follows from an error that is already reported.
 bool agrees(const Type& type, ValueKind kind, Dim dim);
 
-/// The common type of two values. good: false if the two types do not agree.
+/// The common type of two values. good: the two types agree, so there is one.
 struct Unified {
   Type type;
   bool good = true;

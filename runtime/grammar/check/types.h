@@ -54,7 +54,7 @@ class Types {
                            std::string_view callee);
   /// Requires that the value of a checked expression is known at derivation time.
   void requireDerived(ExprId id, std::string_view what);
-  /// Reports a checked constant expression whose value lies outside of a range.
+  /// Reports an error if a checked expression is constant and its value lies outside of the range.
   void judgeRange(ExprId id, const ValueRange& range);
   /// Returns the value of a checked expression if it is constant.
   std::optional<double> fold(ExprId id) { return constants_.fold(id); }
@@ -76,8 +76,8 @@ class Types {
   Type checkCall(ExprId id);
   Type checkBuiltin(ExprId id);
   Type checkMethod(ExprId id);
-  /// Checks arguments against the parameters of a built-in function, each expression once. Returns the common dimension
-  /// of all arguments for `any_dim` parameters; nullopt if each of these arguments is a literal 0.
+  /// Checks arguments against the parameters of a built-in function, and checks each expression only once. Returns the
+  /// common dimension of all arguments for `any_dim` parameters; nullopt if each of them is a literal 0.
   std::optional<Dim> checkArguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
                                     std::string_view callee);
   Type useValue(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args);
@@ -91,7 +91,7 @@ class Types {
   std::map<Key, Type> known_;                   ///< result types of lets and global fields
   std::map<Key, Type> known_local_;             ///< result types of local fields; cleared by enter()
   std::vector<std::pair<Ref, uint32_t>> open_;  ///< the lets and fields whose bodies are being checked, outermost first
-  int depth_ = 0;                               ///< nesting depth of the current expression
+  int depth_ = 0;                               ///< nesting depth of the expression that is being checked
 };
 
 }  // namespace sgm

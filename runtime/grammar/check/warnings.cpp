@@ -76,7 +76,7 @@ class Unused {
     sink_.warning(span, codes::kUnusedValue, join({"nothing uses the ", what, " `", program_.text(name), "`"}), hint);
   }
 
-  /// Whether an override's path contains a rule of this imported module.
+  /// Whether the path of some override contains a rule of this imported module.
   bool inPaths(uint32_t module) const {
     return std::any_of(program_.path_steps.begin(), program_.path_steps.end(),
                        [&](const PathStep& step) { return program_.rules[step.rule].module == module; });
@@ -100,8 +100,8 @@ class Unused {
   const Uses uses_;
 };
 
-/// The interval of values of an expression for which a guard holds, with open or closed ends. asked: the expression;
-/// kNoId: the guard is not understood.
+/// The interval of values of the expression `asked` for which a guard holds, with open or closed ends. asked: kNoId if
+/// the guard is too complicated to be analysed.
 struct GuardRange {
   ExprId asked = kNoId;
   double low = -kInfinity, high = kInfinity;
@@ -182,7 +182,7 @@ class WholeNumbers {
   }
 
  private:
-  /// A rule head, which owns the slots of the locals in its expressions.
+  /// The rule head whose frame contains the slots of the locals in an expression.
   struct Frame {
     uint32_t rule;
     Span head;
@@ -241,8 +241,9 @@ class WholeNumbers {
 
   const Program& program_;
   std::vector<Frame> frames_;
-  std::map<uint32_t, std::vector<ExprId>> calls_;    ///< calls of each rule, by rule index
-  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< formals under evaluation: rule, index
+  std::map<uint32_t, std::vector<ExprId>> calls_;  ///< all calls of each rule, by rule index
+  /// the formals that are being evaluated, as pairs of rule and index
+  std::set<std::pair<uint32_t, uint32_t>> formals_;
 };
 
 /// Shrinks a range to closed ends that are whole numbers.
@@ -297,15 +298,15 @@ void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
     ++uses[s.extra];
     if (s.span.file == 0) first.emplace(s.extra, s.span);
   }
-  // A name with a higher rank is assumed to be spelt correctly: those in imports, assets and the domain, then the more
-  // frequent one, then the earlier one in the text.
+  // A name with a higher rank is assumed to be spelt correctly. The order: names in imports, assets and the domain;
+  // then names that are used more often; then names that come earlier in the text.
   const auto rank = [&](uint32_t material) {
     const auto place = first.find(material);
     return place == first.end() ? std::pair(SIZE_MAX, int64_t{0})
                                 : std::pair(uses[material], -int64_t{place->second.begin});
   };
   for (const auto& [material, span] : first) {
-    if (material == 0) continue;  // not found in a derived rule
+    if (material == 0) continue;  // only rules that are not derived use this name
     for (uint32_t other = 1; other < program.materials.size(); ++other) {
       const std::string_view name(program.materials[material]), theirs(program.materials[other]);
       if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;

@@ -18,7 +18,7 @@ constexpr size_t kUpright = 4;
 
 size_t opposite(size_t side) { return side < kUpright ? (side + 2) % kUpright : 9 - side; }
 
-/// Whether a socket applies to this side.
+/// Whether a socket of a tile applies to this side.
 bool saysSide(const SocketNode& socket, size_t side) {
   return static_cast<size_t>(socket.of) == side || (socket.of == BoxPart::side && side < kUpright);
 }
@@ -86,7 +86,8 @@ std::string labelsText(const Program& program, IdRange labels) {
   return out;
 }
 
-/// there: labels on the opposite side, one of which may be intended.
+/// Reports a label that no tile has on the opposite side, as this side requires. there: the labels that do occur on
+/// opposite sides, one of which may be intended.
 void reportUnmet(CheckContext& check, const PartNode& part, const SocketNode& socket, size_t side, uint64_t there,
                  const WaveNode& wave) {
   const IdRange meets = socket.meets.count > 0 ? socket.meets : socket.labels;
@@ -114,7 +115,7 @@ void checkAnswers(CheckContext& check, const StmtNode& s) {
   const SideKind* kinds = check.program.ast.side_kinds.data() + wave.kinds.first;
   const auto turnsOf = [](const TileNode& tile, size_t side) { return tile.turns && side < kUpright ? kUpright : 1; };
   const auto turned = [](size_t side, size_t turn) { return side < kUpright ? (side + turn) % kUpright : side; };
-  // A border side without labels matches every side, but is ignored here, since most places do not lie at the border.
+  // A border side without labels matches every side. It is ignored here, since most tiles do not lie at the border.
   std::array<std::vector<SideKind>, kSides> tiles, border;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = check.program.ast.parts[s.parts.first + i];

@@ -49,7 +49,7 @@ class DeclarationReader {
     const size_t first_name = out_.names.size();
     const std::string_view what = word();
     ++next_;
-    size_t head_end = first;  // the token after the head
+    size_t head_end = first;  // index of the token after the declaration's head
     if (what == "import")
       import();
     else if (what == "param")
@@ -137,7 +137,7 @@ class DeclarationReader {
   /// Reads formals in parentheses: (a, b = 3, c).
   void formals() {
     int depth = 0;
-    bool first = false;  // the next word is a name
+    bool first = false;  // the next word is the name of a formal
     for (; kind() != Tok::end && kind() != Tok::open_brace && kind() != Tok::semicolon; ++next_) {
       if (kind() == Tok::open_paren) {
         first = ++depth == 1;
@@ -152,7 +152,7 @@ class DeclarationReader {
     }
   }
 
-  /// Returns the text of a formal with its default and range: from here to the next comma or parenthesis.
+  /// Returns the text of a formal with its default and range: from the current token to the next comma or parenthesis.
   std::string formalText() const {
     size_t last = next_;
     for (int depth = 0; last + 1 < lexed_.tokens.size(); ++last) {
@@ -188,7 +188,7 @@ class DeclarationReader {
     out_.names.back().head = std::move(head);
   }
 
-  /// The text from here to the end of the statement's head.
+  /// Returns the text from the current token to the end of the statement's head.
   std::string statementText() const {
     size_t last = next_;
     while (last + 1 < lexed_.tokens.size() && lexed_.tokens[last + 1].kind != Tok::semicolon &&
@@ -323,7 +323,7 @@ std::optional<WordAt> wordAt(std::string_view text, uint32_t offset) {
       const Span& before = lexed.tokens[dot - 1].span;
       found.qualifier = text.substr(before.begin, before.end - before.begin);
     }
-    // The offset touches both the dot and the word behind it: choose that word.
+    // The offset lies between a dot and a word: the word behind the dot is chosen.
     if (in_word) return found;
   }
   return found;

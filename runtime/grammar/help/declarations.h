@@ -25,16 +25,16 @@ struct TextRange {
 struct DeclaredName {
   NameKind kind = NameKind::local;
   std::string name;
-  TextRange at;      ///< the name itself
-  TextRange whole;   ///< the whole declaration; for a local: the same as `at`
+  TextRange at;      ///< range of the name itself in the text
+  TextRange whole;   ///< range of the whole declaration; for a local: the same as `at`
   TextRange known;   ///< the scope of the name: the enclosing rule for locals, otherwise the whole text
   std::string head;  ///< the declaration up to its block or value, on one line
   std::string doc;   ///< the text constant of a `param`; otherwise the comment directly above the declaration
-  std::string path;  ///< for an import: the path of the file
+  std::string path;  ///< for an import: the path of the imported file
 };
 
 struct Declarations {
-  std::vector<DeclaredName> names;  ///< in order of appearance; each head of a rule is an entry of its own
+  std::vector<DeclaredName> names;  ///< in the order of the text; each head of a rule is a separate entry
 
   /// Finds the declarations that `name` may refer to at this byte offset: a local if one is in scope, otherwise all
   /// global declarations of that name.
@@ -48,7 +48,7 @@ Declarations declarationsOf(std::string_view text);
 struct WordAt {
   TextRange at;
   std::string word;
-  std::string qualifier;  ///< `rock` of rock.fbm, `cell` of cell.point
+  std::string qualifier;  ///< the word before the dot: `rock` in rock.fbm, `cell` in cell.point
   bool behind_dot = false;
 };
 /// Returns nullopt within comments and text constants, and an empty word if there is none at the offset.

@@ -17,7 +17,7 @@ uint64_t hashOfText(const Program& program) {
     copy.path = module.path;
     copy.text = module.text;
   }
-  // The text was within its limits when it was compiled, so limits are not needed here.
+  // The text was within the limits when it was compiled, so parsing it again needs no limits.
   CompileLimits limits;
   limits.nesting = limits.nodes = std::numeric_limits<uint32_t>::max();
   DiagnosticSink sink(limits.diagnostics);

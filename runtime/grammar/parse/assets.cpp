@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-/// Hashes only the content that is used, so that other named objects in the file do not matter.
+/// Hashes only the content that is used, so that changes of other objects in the asset's file do not matter.
 uint64_t hashOf(const asset::Polyhedron& solid, const std::vector<std::string>& materials) {
   uint64_t hash = hashText("asset");
   const auto add = [&](uint64_t value) { hash = hashCombine(hash, value); };

@@ -20,7 +20,8 @@ bool AstBuilder::hasRoom() {
 }
 
 ExprId AstBuilder::addExpr(ExprNode node, const Span& begin) {
-  constexpr uint16_t kDeepestTree = 128;  // limits trees that the parser builds in loops: a + b + c ...
+  // maximum height of an expression tree; the parser builds trees such as that of a + b + c ... in loops
+  constexpr uint16_t kDeepestTree = 128;
   if (!hasRoom()) return kNoId;
   node.span = tokens_.since(begin);
   uint16_t depth = 0;

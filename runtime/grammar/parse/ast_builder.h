@@ -51,8 +51,8 @@ class AstBuilder {
   TokenStream& tokens_;
   uint32_t max_nodes_;
   size_t first_expr_;  ///< the index in Ast::exprs of this file's first expression
-  /// by expression of this file: height of its tree. Limited here since loops such as that for `a + b + ...` build deep
-  /// trees without recursion
+  /// height of the tree of each expression of this file. It is limited, since loops such as the one for `a + b + ...`
+  /// build deep trees without recursion
   std::vector<uint16_t> depth_;
 };
 

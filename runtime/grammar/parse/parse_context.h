@@ -18,11 +18,11 @@
 
 namespace sgm::parse {
 
-/// Everything that the parse functions for one file share.
+/// The state that all parse functions for one file share.
 struct ParseContext {
   TokenStream& tokens;
   AstBuilder& build;
-  Program& program;  ///< receives the declarations
+  Program& program;  ///< receives the parsed declarations
   ModuleSyntax& syntax;
   DiagnosticSink& sink;
   std::map<NameId, uint32_t> rules{};  ///< the rules of this file: index in Program::rules by name

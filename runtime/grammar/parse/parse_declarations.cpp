@@ -15,9 +15,9 @@ namespace {
 
 /// The syntax of a kind of declaration.
 struct DeclarationForm {
-  std::string_view word;  ///< the word that starts it
+  std::string_view word;  ///< the word that starts the declaration
   void (*declare)(ParseContext&);
-  bool may_bound;  ///< if it fails to parse, bounds of other declarations' shapes may be missing
+  bool may_bound;  ///< if the declaration fails to parse, shapes may seem unbounded
 };
 
 constexpr std::array<DeclarationForm, 14> kForms = {{
@@ -37,7 +37,7 @@ constexpr std::array<DeclarationForm, 14> kForms = {{
     {"expect", declareExpectation, true},
 }};
 
-/// Fails, since no declaration starts with the current token.
+/// Reports that no declaration starts with the current token.
 void failAtUnknown(TokenStream& tokens) {
   if (tokens.failIfUnavailable()) return;
   if (tokens.at(Tok::close_brace)) {

@@ -14,7 +14,7 @@ void parseDeclaration(ParseContext& in);
 
 // parse_declarations.cpp
 
-/// The hint for a declaration or clause that occurs twice but is allowed only once.
+/// The hint of the error that a declaration or clause, which is allowed only once, occurs twice.
 inline constexpr const char* kRemoveOne = "remove one of them";
 
 /// Appends an item to ModuleSyntax::items, the declarations in source order. Does nothing in panic mode. begin: the

@@ -1,4 +1,4 @@
-// The domain and the layers of a world.
+// Parses the domain and the layers of a world.
 
 #include <string_view>
 #include <utility>
@@ -11,7 +11,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// A NAME made of x, y and z, behind the word `axes` at the span `word`.
+/// Parses the axes of the domain: a NAME made of x, y and z. word: the span of the word `axes` before it.
 void parseAxes(TokenStream& tokens, DomainDecl& domain, const Span& word) {
   const std::string_view axes = tokens.text();
   bool good = tokens.at(Tok::word) && axes.size() <= 3 && !domain.axes_written;
@@ -31,7 +31,7 @@ void parseAxes(TokenStream& tokens, DomainDecl& domain, const Span& word) {
   domain.axes_written = true;
 }
 
-/// solid [MATERIAL], empty
+/// Parses the filling of the domain: `solid [MATERIAL]` or `empty`.
 void parseFilling(ParseContext& in, DomainDecl& domain) {
   TokenStream& tokens = in.tokens;
   if (domain.solid || domain.empty)

@@ -1,4 +1,4 @@
-// The statements of a grammar about its own world: report and expect.
+// Parses report and expect: the statements of a grammar about its own world.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ bool parseMeasure(TokenStream& tokens, Expectation& e) {
   return true;
 }
 
-/// [ (air), (solid above EXPR) ] [ COMPARISON EXPR ]
+/// Parses the condition behind a measure: [ (air), (solid above EXPR) ] [ COMPARISON EXPR ].
 void parseCondition(ParseContext& in, Expectation& e) {
   TokenStream& tokens = in.tokens;
   if (tokens.accept(Tok::open_paren)) {
@@ -49,7 +49,7 @@ void parseCondition(ParseContext& in, Expectation& e) {
   e.value = parseExpression(in);
 }
 
-/// (CELLS), behind `block`; 0 after an error.
+/// Parses (CELLS), behind the word `block`. Returns 0 after an error.
 int32_t parseBlockSize(TokenStream& tokens) {
   tokens.expect(Tok::open_paren, "`(`");
   const Token& cells = tokens.peek();
@@ -64,7 +64,7 @@ int32_t parseBlockSize(TokenStream& tokens) {
   return size;
 }
 
-/// in block(CELLS), in LOW..HIGH or per RULE
+/// Parses `in block(CELLS)`, `in LOW..HIGH` or `per RULE`.
 void parseScope(ParseContext& in, Expectation& e) {
   TokenStream& tokens = in.tokens;
   const Token& next = tokens.peek(1);

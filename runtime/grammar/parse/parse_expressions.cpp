@@ -56,7 +56,7 @@ ExprNode nodeOf(ExprKind kind) {
   return node;
 }
 
-/// ( a ), the pair ( a, b ) and the vector ( a, b, c ).
+/// Parses ( a ), the pair ( a, b ) or the vector ( a, b, c ).
 ExprId parseParenthesised(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   Nested nested(tokens);
@@ -78,7 +78,7 @@ ExprId parseParenthesised(ParseContext& in) {
   return addOperation(in, nodeOf(ExprKind::vector), parts, begin);
 }
 
-/// query clear of LAYER, query inside RADIUS of LAYER.
+/// Parses `query clear of LAYER` or `query inside RADIUS of LAYER`.
 ExprId parseQuery(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   const Span begin = tokens.here();
@@ -100,7 +100,7 @@ ExprId parseQuery(ParseContext& in) {
   return tokens.hasFailed() ? kNoId : in.build.addExpr(node, begin);
 }
 
-/// true, false, a name, or an expression that a keyword starts.
+/// Parses true, false, a name, or an expression that starts with a keyword.
 ExprId parseWord(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   if (tokens.failIfUnavailable()) return kNoId;
@@ -160,7 +160,7 @@ ExprId parsePrimary(ParseContext& in) {
   }
 }
 
-/// A primary expression with the members and calls behind it.
+/// Parses a primary expression with the members and calls behind it.
 ExprId parsePostfix(ParseContext& in) {
   TokenStream& tokens = in.tokens;
   const Span begin = tokens.here();

@@ -1,5 +1,5 @@
 #pragma once
-// Parses expressions, calls and arguments.
+// Parses expressions, calls and their arguments.
 
 #include <string_view>
 #include <vector>

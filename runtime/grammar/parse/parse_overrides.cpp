@@ -1,4 +1,4 @@
-// Overrides, and `inner` in their blocks.
+// Parses overrides, and `inner` in their blocks.
 
 #include "grammar/parse/parse_declarations.h"
 #include "grammar/parse/parse_statements.h"

@@ -1,4 +1,4 @@
-// Footprints, their extrusions, and roofs.
+// Parses footprints, their extrusions, and roofs.
 
 #include "grammar/parse/parse_expressions.h"
 #include "grammar/parse/parse_statements.h"

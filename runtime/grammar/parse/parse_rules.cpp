@@ -1,4 +1,4 @@
-// Rules and morphic rules.
+// Parses rules and morphic rules.
 
 #include "base/hash.h"
 #include "grammar/parse/parse_declarations.h"
@@ -33,7 +33,7 @@ uint32_t ruleNamed(ParseContext& in, NameId name, bool morphic, const Span& span
   return index;
 }
 
-/// Adds a head to the rule of that name; `begin`: the span of its first word.
+/// Adds a head to the file's rule of that name. begin: the span of the head's first word.
 void addHead(ParseContext& in, NameId name, bool morphic, const Span& name_span, const Alternative& head,
              const Span& begin) {
   if (in.tokens.hasFailed()) return;
@@ -58,7 +58,7 @@ void takeGuard(TokenStream& tokens, Alternative& head, Guard guard) {
   head.guard = guard;
 }
 
-/// LIMIT -> CALL, behind `depth` or `minsize`
+/// Parses LIMIT -> CALL, behind `depth` or `minsize`.
 void parseLimit(ParseContext& in, ExprId& limit, ExprId& call) {
   takeClause(in.tokens, limit != kNoId);
   limit = parseExpression(in);

@@ -19,7 +19,7 @@ void parseSplitGroup(ParseContext& in, Parts& parts, bool repeated) {
   TokenStream& tokens = in.tokens;
   const Span group = tokens.here();
   const size_t first = parts.nodes.size();
-  // The group is parsed even after an error, so that the following text is not misread.
+  // The repeated group is parsed even after an error, so that the following text is not misread.
   if (repeated)
     in.sink.error(group, codes::kSyntax, "a repeated group holds no other group", "split its parts once more instead");
   else if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [](const PartNode& p) { return p.repeated; }))

@@ -116,7 +116,7 @@ void failIfMisspelt(TokenStream& tokens) {
                 suggestion.hint());
 }
 
-/// [smooth WIDTH] BODY
+/// Parses [smooth WIDTH] BODY.
 StmtId parseCombiner(ParseContext& in, StmtKind kind) {
   TokenStream& tokens = in.tokens;
   StmtScope stmt(in, kind);

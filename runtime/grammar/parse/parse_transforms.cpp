@@ -1,4 +1,4 @@
-// Statements that place their body or move its surface: transforms, loops, scatter, displace and warp.
+// Parses statements that place their body or move its surface: transforms, loops, scatter, displace and warp.
 
 #include <vector>
 
@@ -29,7 +29,7 @@ IdRange parseXforms(ParseContext& in) {
   return in.tokens.hasFailed() ? IdRange{} : in.build.addRange(&Ast::xforms, list);
 }
 
-/// EXPR [amp EXPR] BODY
+/// Parses EXPR [amp EXPR] BODY, behind `displace` or `warp`.
 StmtId parseMovedSurface(ParseContext& in, StmtKind kind) {
   StmtScope stmt(in, kind);
   stmt->expr = parseExpression(in);
@@ -38,7 +38,7 @@ StmtId parseMovedSurface(ParseContext& in, StmtKind kind) {
   return stmt.finish();
 }
 
-/// COUNT on AREA(...), poisson(DISTANCE) [on AREA(...)]
+/// Parses the points of a scatter: COUNT on AREA(...), or poisson(DISTANCE) [on AREA(...)].
 void parsePoints(ParseContext& in, ScatterNode& scatter) {
   TokenStream& tokens = in.tokens;
   if (tokens.atWord("poisson") && tokens.peek(1).kind == Tok::open_paren) {
@@ -66,7 +66,7 @@ void parsePoints(ParseContext& in, ScatterNode& scatter) {
   }
 }
 
-/// [up | down] DISTANCE of LAYER [gap NAME within LENGTH]
+/// Parses the probe of a scatter: [up | down] DISTANCE of LAYER [gap NAME within LENGTH].
 void parseProbe(ParseContext& in, ScatterNode& scatter) {
   TokenStream& tokens = in.tokens;
   scatter.probe = tokens.atWord("up") ? 1 : tokens.atWord("down") ? -1 : 0;

@@ -8,7 +8,7 @@ namespace sgm::parse {
 
 namespace {
 
-/// ROOM AREA : BODY, corridor : BODY, facade : BODY
+/// Parses ROOM AREA : BODY, corridor : BODY or facade : BODY.
 void parseRoom(ParseContext& in, Parts& parts) {
   TokenStream& tokens = in.tokens;
   PartNode part;

@@ -12,10 +12,10 @@ namespace sgm::parse {
 
 namespace {
 
-/// The sides of a tile among the parts of a box.
+/// Returns the words for the sides of a tile, which are the first of the words for the parts of a box.
 std::span<const std::string_view> sideWords() { return boxPartTable().first(static_cast<size_t>(BoxPart::side) + 1); }
 
-/// Parses LABEL { or LABEL }; removes duplicates.
+/// Parses LABEL { or LABEL }, and removes duplicates.
 IdRange parseLabels(ParseContext& in) {
   std::vector<NameId> labels;
   do {
@@ -66,7 +66,7 @@ uint32_t addTile(AstBuilder& build, bool turns, const std::vector<SocketNode>& s
   return build.add(&Ast::tiles, tile);
 }
 
-/// NAME WEIGHT [turn] { , SOCKET } : BODY
+/// Parses a tile: NAME WEIGHT [turn] { , SOCKET } : BODY.
 void parseTile(ParseContext& in, Parts& parts) {
   TokenStream& tokens = in.tokens;
   PartNode part;

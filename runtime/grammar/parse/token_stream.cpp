@@ -128,7 +128,7 @@ void TokenStream::exhaust(std::string_view code, std::string message, std::strin
 void TokenStream::failExpecting(std::string_view wanted) {
   if (panic_ || exhausted_ || failIfUnavailable()) return;
   const Token& token = peek();
-  // If the line ends without the wanted token, the error is reported there, behind the last token.
+  // If the wanted token is missing at the end of a line, the error is reported there, behind the last token.
   Span span = token.span;
   if (wanted == "`;`" && (token.kind == Tok::end || token.span.line != last_.end_line)) {
     span = last_;

@@ -26,7 +26,8 @@ class TokenStream {
   TokenStream(std::string_view text, uint32_t file, const CompileLimits& limits, DiagnosticSink& sink,
               std::pmr::memory_resource* memory);
 
-  /// False if the text must not be parsed, for example because it is not UTF-8; the lexer has reported the reason.
+  /// Returns false if the text must not be parsed, for example because it is not UTF-8. The lexer has reported the
+  /// reason.
   bool isReadable() const { return lexed_.readable; }
   const std::pmr::vector<Comment>& comments() const { return lexed_.comments; }
 

@@ -32,7 +32,7 @@ class LinePrinter {
   void statement(std::string& out, StmtId id) const;
   void ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const;
   void overrideHead(std::string& out, const Override& edit) const;
-  /// `morphic R(a) : A -> B by t power;`
+  /// Prints a morphic rule: `morphic R(a) : A -> B by t power;`.
   void morphic(std::string& out, const Rule& rule, const Alternative& alternative) const;
   void field(std::string& out, const Field& field) const;
   void fitZone(std::string& out, const FitZoneNode& zone) const;
@@ -40,7 +40,7 @@ class LinePrinter {
  private:
   void morphOperand(std::string& out, StmtId id) const;
   void footprint(std::string& out, const FootprintNode& node) const;
-  /// before: text to print in front of the first socket.
+  /// Prints the labels of a tile's sides. before: the text to print in front of the first side.
   void sockets(std::string& out, const TileNode& tile, std::string_view before) const;
   void roof(std::string& out, const StmtNode& node) const;
   void fit(std::string& out, const StmtNode& node) const;

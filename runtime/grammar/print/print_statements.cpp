@@ -1,4 +1,4 @@
-// Statements and the heads of rules.
+// Prints statements and the heads of rules.
 
 #include "grammar/print/print_expressions.h"
 #include "grammar/syntax/keywords.h"

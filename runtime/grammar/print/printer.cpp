@@ -13,7 +13,8 @@ namespace sgm {
 namespace {
 
 constexpr size_t kWidth = 110;
-constexpr uint32_t kLongestInline = 400;  // longer source is not tried on one line, which bounds the work
+// maximum length in bytes of a source text for which one line is tried; bounds the work
+constexpr uint32_t kLongestInline = 400;
 
 void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
   out += measureName(e.measure);
@@ -39,7 +40,7 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
-/// Prints the part of a parameter's declaration that affects the world; the rest only concerns hosts.
+/// Prints the part of a parameter's declaration that affects the world; the rest concerns only the host application.
 void paramMeaning(std::string& out, const Program& program, const LinePrinter& line, const Param& param) {
   out += join({"param ", program.text(param.name), " = "});
   line.expr(out, param.value_expr);
@@ -208,7 +209,7 @@ class ModulePrinter {
     }
   }
 
-  /// Prints a pending comment behind the text on its line, if it was written there.
+  /// Prints a pending comment behind the printed text if the source has it at the end of this line.
   void trailing(int line) {
     if (next_ < comments_.size() && !comments_[next_].own_line && comments_[next_].line <= line) {
       out_ += join({"  ", commentText(comments_[next_])});

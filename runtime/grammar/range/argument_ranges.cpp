@@ -14,7 +14,7 @@ namespace sgm {
 
 namespace {
 
-constexpr double kWidening = 1e-9;  ///< tolerance, relative: computed intervals are wider than the exact ranges
+constexpr double kWidening = 1e-9;  ///< relative tolerance, because computed intervals are wider than the exact ranges
 
 /// A unit as written after a number.
 struct Unit {
@@ -23,7 +23,8 @@ struct Unit {
   double value;
 };
 
-/// If the ends of a range do not have the same unit, the first unit of their dimension is used.
+/// All units of numbers. If the ends of a range do not have the same unit, messages use the first unit of their
+/// dimension.
 constexpr Unit kUnits[] = {{"m", kLength, 1},     {"cm", kLength, 0.01},      {"mm", kLength, 0.001},
                            {"km", kLength, 1000}, {"deg", kAngle, kPi / 180}, {"rad", kAngle, 1},
                            {"m2", kArea, 1},      {"m3", kVolume, 1},         {"", kRatio, 1},
@@ -128,8 +129,8 @@ void Misfits::compare(const Program& program, ExprId id, IdRange formals, std::s
     const std::pair key(argument, caller);
     if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
     if (value.lo >= low && value.hi <= high) continue;
-    // Possible misfits are not reported for unbounded values, of which nothing is known, nor for values that the
-    // standard library computes, which the author cannot bound.
+    // An argument that may lie outside, but does not certainly, is not reported if its range is unbounded or
+    // overestimated, or if the standard library computes it, since the author cannot bound it.
     if (!certain && (loose_ > 0 || !value.bounded() || caller != kNoId)) continue;
     const Misfit misfit{argument, id, caller, formals.first + i, value, certain, loose_ > 0};
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
@@ -149,7 +150,8 @@ std::vector<Misfit> Misfits::take() {
   std::set<ExprId> callers;
   for (const Misfit& misfit : misfits_) {
     if (misfit.loose && loosely_fitting_.contains({misfit.argument, misfit.caller})) continue;
-    // Report one misfit for each call into the library: its arguments cause all misfits within.
+    // Misfits within the library have a common cause, the arguments of the author's call, so only one is reported for
+    // each call into the library.
     if (misfit.caller == kNoId || callers.insert(misfit.caller).second) out.push_back(misfit);
   }
   misfits_.clear();

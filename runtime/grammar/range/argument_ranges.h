@@ -18,11 +18,12 @@ namespace sgm {
 struct Misfit {
   ExprId argument = kNoId;
   ExprId call = kNoId;
-  ExprId caller = kNoId;  ///< CallPath::writtenCaller of the call
-  uint32_t formal = 0;    ///< into Ast::formals
-  Interval given;         ///< the possible values of the argument
-  bool certain = false;   ///< no possible value lies within the range: an error, otherwise a warning
-  bool loose = false;     ///< found while scope sizes were overestimated, so `given` may be too wide
+  /// for a call in the standard library: the author's call into it (CallPath::writtenCaller); otherwise kNoId
+  ExprId caller = kNoId;
+  uint32_t formal = 0;   ///< index of the parameter in Ast::formals
+  Interval given;        ///< the possible values of the argument
+  bool certain = false;  ///< no possible value lies within the range, which is an error; otherwise a warning
+  bool loose = false;    ///< found while scope sizes were overestimated, so `given` may be too wide
 };
 
 /// Collects misfits during an analysis, and tracks whether scope sizes are overestimated at the moment.
@@ -34,9 +35,9 @@ class Misfits {
   /// bound arguments. calls: the calls that enclose this one.
   void compare(const Program& program, ExprId call, IdRange formals, std::span<const RangeValue> given,
                const CallPath& calls);
-  /// Mark that scope sizes are overestimated, or that a range is evaluated in pieces. Meanwhile an argument that only
-  /// may lie outside is ignored, and one that certainly lies outside counts only if it does so in all pieces. Calls
-  /// nest.
+  /// Mark that scope sizes are overestimated, or that a range is evaluated in pieces. Meanwhile an argument that may
+  /// lie outside is ignored, and one that certainly lies outside counts only if it does so in all pieces. Pairs of
+  /// calls may be nested.
   void enterLoose() { ++loose_; }
   void leaveLoose() { --loose_; }
   /// Returns and clears the misfits; one for each argument, or, within the standard library, for each of the library's

@@ -10,13 +10,14 @@
 
 namespace sgm {
 
-/// In the order of ca's parameters. voxel: metres; fill, threshold: ratios; rounds and radius are already whole.
+/// The arguments of a call of `ca`, in the order of its parameters. voxel is in metres; fill and threshold are ratios;
+/// rounds and radius are whole numbers.
 struct AutomatonArguments {
   Interval voxel, fill, rounds, threshold, radius;
 };
 
 struct AutomatonFault {
-  uint32_t argument = 0;  ///< index of the argument
+  uint32_t argument = 0;  ///< index of the invalid argument
   std::string message, hint;
 };
 

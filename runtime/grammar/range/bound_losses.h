@@ -13,13 +13,14 @@ namespace sgm {
 /// An expression whose value has no finite bound although its operands may have.
 struct BoundLoss {
   enum class Cause : uint8_t { none, divisor, parameter } cause = Cause::none;
-  ExprId expr = kNoId;    ///< the quotient, or the use of the parameter
-  ExprId caller = kNoId;  ///< for an `expr` in the standard library: CallPath::writtenCaller; otherwise kNoId
+  ExprId expr = kNoId;  ///< the division, or the name of the unbounded parameter
+  /// if `expr` is in the standard library: the author's call into it (CallPath::writtenCaller); otherwise kNoId
+  ExprId caller = kNoId;
   Interval divisor;
 };
 
-/// Stores the losses found so far, and the latest loss: the reason for the latest unbounded value. Indices of losses
-/// start at 1; 0 means no loss.
+/// Stores the losses (expressions without a finite bound) found so far, and the latest one, which is the reason for the
+/// latest unbounded value. Indices of losses start at 1; 0 means no loss.
 class BoundLosses {
  public:
   const BoundLoss& operator[](uint32_t index) const { return losses_[index]; }
@@ -31,13 +32,13 @@ class BoundLosses {
   void add(const BoundLoss& loss);
   /// Returns and clears the latest loss; 0 if all values since the last call are bounded.
   uint32_t takeLatest() { return std::exchange(latest_, 0); }
-  /// Makes an earlier loss the latest one again; does nothing for index 0.
+  /// Makes an earlier entry of the list the latest loss of a bound again; does nothing for index 0.
   void restoreLatest(uint32_t index) {
     if (index != 0) latest_ = index;
   }
 
  private:
-  std::vector<BoundLoss> losses_ = std::vector<BoundLoss>(1);  ///< index 0 is none
+  std::vector<BoundLoss> losses_ = std::vector<BoundLoss>(1);  ///< [0] is unused, since index 0 means no loss
   std::vector<BoundLoss> zeros_;
   uint32_t latest_ = 0;
 };

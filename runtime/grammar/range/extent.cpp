@@ -17,9 +17,10 @@ double boxRadius(const IntervalVector& box) {
   return std::sqrt(sum) * (1 + 1e-12);
 }
 
-/// Returns the largest displacement that a sum of at most `count` shapes permits: far from its leaves the sum's field
-/// is constant, the kernel's threshold divided by the kernel's slope at the largest leaf. The reserve for rounding
-/// grows with the number of shapes, as in derive/bounds.cpp.
+/// Returns the amplitude below which a displacement of a sum of at most `count` shapes stays bounded. Far from its
+/// leaves the sum's field is constant: the kernel's threshold divided by the kernel's slope at the largest leaf; a
+/// larger displacement would cancel it everywhere. The reserve for rounding grows with the number of shapes, as in
+/// derive/bounds.cpp.
 double sumLimit(double inner, double count) {
   constexpr double kInverse = 1 / (kSupport * kSupport), kBase = 1 - kInverse;
   const double left = kBase * kBase * kBase - 1e-6 * (count + 1);
@@ -48,7 +49,8 @@ Hull Hull::everywhere() {
 }
 
 void Hull::merge(const Hull& other) {
-  // Both hulls lie within the smaller ball radius around a core that is grown by the rest of the larger radius.
+  // Both hulls are expressed with the smaller of the two ball radii: the core of the hull with the larger radius grows
+  // by the difference.
   const double least = std::min(ball, other.ball);
   const IntervalVector mine = grown(core, ball - least), theirs = grown(other.core, other.ball - least);
   for (size_t i = 0; i < 3; ++i) {
@@ -125,7 +127,7 @@ Extent Extent::leaf(const IntervalVector& lower, const IntervalVector& upper, do
   for (size_t i = 0; i < 3; ++i) {
     e.at.may[i] = {std::min(lower[i].lo, upper[i].lo), std::max(lower[i].hi, upper[i].hi)};
     e.at.core[i] = {e.at.may[i].lo + ball, e.at.may[i].hi - ball};
-    // Rounding may swap the ends if the core is a single point.
+    // If the core is a single point, rounding may swap its ends.
     if (e.at.core[i].lo > e.at.core[i].hi) e.at.core[i] = Interval::exactly((e.at.may[i].lo + e.at.may[i].hi) / 2);
     e.sure_lo[i] = lower[i].hi;
     e.sure_hi[i] = upper[i].lo;
@@ -144,7 +146,8 @@ double Extent::size() const {
 }
 
 void Extent::attribute(ExprId call) {
-  // For an unbounded extent, messages name the call where it starts; for others, the call in the layer's own rule.
+  // For an unbounded extent, messages name the innermost call, where the bound is lost; for others, the call in the
+  // layer's own rule.
   if (largest_contributor != kNoId && !std::isfinite(contributor_size)) return;
   largest_contributor = call;
   inside = kNoId;
@@ -213,10 +216,11 @@ void Extent::intersect(const Extent& other) {
   IntervalVector both;
   for (size_t i = 0; i < 3; ++i) {
     both[i] = {std::max(at.may[i].lo, other.at.may[i].lo), std::min(at.may[i].hi, other.at.may[i].hi)};
-    // If the operands are disjoint, a later displacement may join them, in the gap between them.
+    // If the boxes of the operands are disjoint, the result is the gap between them, because a later displacement may
+    // let the operands meet there.
     if (both[i].lo > both[i].hi) both[i] = {both[i].hi, both[i].lo};
   }
-  // In rotated scopes the boxes of operands cannot be intersected; use the smaller hull.
+  // In rotated scopes the boxes of operands cannot be intersected, so the smaller of the two hulls is used.
   if (other.at.core_radius + other.at.ball < at.core_radius + at.ball) {
     at = other.at;
     turned_spread = other.turned_spread;
@@ -245,7 +249,8 @@ void Extent::grow(double margin) {
 }
 
 void Extent::smooth(double radius) {
-  // Where both operands are farther away than the radius, a round union equals a hard one.
+  // Where both operands are farther away than the blend radius, a smooth union equals a sharp one, so a limit beyond
+  // the radius stays as it is.
   const double before = limit;
   grow(radius);
   if (radius < before) limit = before;
@@ -329,7 +334,7 @@ void Extent::repeat(Interval times) {
 void Extent::summed() {
   if (empty) return;
   at = in_sum;
-  // Level sets below the limit do not extend beyond the kernels.
+  // Level sets of a sum, below the limit, do not extend beyond the kernels.
   spread = turned_spread = 0;
   limit = sumLimit(inner_low, count);
   count = 1;

@@ -24,7 +24,7 @@ struct Hull {
   IntervalVector may{};
   IntervalVector core{};
   double core_radius = 0;  ///< the largest distance of a point of the core from the scope's origin, metres
-  double ball = 0;         ///< radius around the core, metres
+  double ball = 0;         ///< radius of the ball around each point of the core, metres
 
   static Hull everywhere();
   void merge(const Hull& other);
@@ -41,8 +41,8 @@ struct Hull {
 /// turned_spread * a), for all a < limit.
 struct Extent {
   bool empty = true;
-  Hull at;      ///< bounds all shapes; for a meet whose operands are disjoint: the gap between them
-  Hull in_sum;  ///< bounds each shape's kernel when it is summed (`sum`)
+  Hull at;      ///< bounds all shapes; for an intersection (meet) of disjoint operands: the gap between them
+  Hull in_sum;  ///< bounds each shape's kernel, in case a `sum` adds the shapes up
   double spread = 1, turned_spread = 1;
   double limit = kInfinity;
   /// if anything is derived, some shape certainly extends at least this far in each direction
@@ -54,15 +54,16 @@ struct Extent {
   bool certain = false;  ///< at least one shape is certainly derived
 
   ExprId largest_contributor = kNoId;  ///< the outermost call whose shapes extend farthest, for messages
-  double contributor_size = -1;  ///< metres: the largest distance of that call's shapes from the origin; -1: no call
-  uint32_t override_id = kNoId;  ///< the override that adds that call; kNoId: none
+  /// the largest distance in metres of largest_contributor's shapes from the origin; -1: there is no such call
+  double contributor_size = -1;
+  uint32_t override_id = kNoId;  ///< the override whose block contains largest_contributor; kNoId: none
   /// if largest_contributor calls the standard library: the call within the library that is responsible
   ExprId inside = kNoId;
-  /// index in RangeEvaluator::losses() of the place where the bound was lost; 0: it has a bound, or the place is
-  /// unknown
+  /// index in RangeEvaluator::losses() of the expression whose value has no bound; 0: the extent has a bound, or the
+  /// reason is unknown
   uint32_t loss = 0;
   Unbound why = Unbound::none;
-  double allowed = 0;  ///< for Unbound::sum: amplitudes below this have a bound
+  double allowed = 0;  ///< for Unbound::sum: displacements with a smaller amplitude have a bound
 
   static Extent nothing();
   static Extent unbounded();
@@ -70,21 +71,21 @@ struct Extent {
   /// origin that contains the leaf, or 0.
   static Extent leaf(const IntervalVector& lower, const IntervalVector& upper, double ball = 0);
 
-  void join(const Extent& other);    ///< for two statements that are both derived
-  void either(const Extent& other);  ///< for two alternatives, of which exactly one is derived
+  void join(const Extent& other);    ///< adds the extent of another statement; both statements are derived
+  void either(const Extent& other);  ///< adds an alternative; exactly one of the two is derived
   void intersect(const Extent& other);
-  void grow(double margin);    ///< for a change of the field by at most `margin`
-  void smooth(double radius);  ///< for a round union with this blend radius
+  void grow(double margin);    ///< grows the bounds for a field change of at most `margin`
+  void smooth(double radius);  ///< grows the bounds for a smooth union with this blend radius
   void add(const IntervalVector& by);
-  void node();                     ///< for content that is combined into one shape (one node)
-  void uncertain();                ///< for content of which parts may be cut away
+  void node();                     ///< combines all shapes into one shape (one node)
+  void uncertain();                ///< marks that parts of the content may be cut away
   void shrinkSure(double margin);  ///< like uncertain(), but shapes lose at most `margin` on each side
   void move(const IntervalVector& by);
-  void rotate(int axis, Interval angle);  ///< axis 0 1 2, or 3: an arbitrary axis
+  void rotate(int axis, Interval angle);  ///< axis: 0, 1 or 2; 3: an arbitrary axis
   void scale(Interval factor);
   void mirror(int axis);
   void repeat(Interval times);  ///< multiplies the number of shapes by `times`
-  void summed();                ///< for the compact-kernel sum of its shapes
+  void summed();                ///< replaces separate shapes by their sum (with compact kernels)
   /// Makes a call the largest contributor, unless a contributor without a bound is already known.
   void attribute(ExprId call);
   bool lost() const;    ///< whether no finite bound is proven

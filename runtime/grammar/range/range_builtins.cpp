@@ -1,4 +1,4 @@
-// Calls of built-in functions, and the parts of vectors, cells and faces.
+// Evaluates calls of built-in functions, and members of vectors, cells and faces, over intervals.
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,8 @@ RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
       return RangeValue::vector(cell_);
     case Member::center: {
       if (!place) return RangeValue::unknown();
-      // For a face, along its axis: at the border between its two cells; along the other axes: in the middle. The axis
-      // is unknown, so each axis gets both.
+      // The centre of a face lies, along the face's axis, at the border between its two cells (1), and along the other
+      // axes in the middle (0.5). The axis is unknown, so each axis gets both values.
       const Interval share = of.kind == ValueKind::face ? Interval{0.5, 1} : Interval{0.5, 0.5};
       return point({of.v[0] + share, of.v[1] + share, of.v[2] + share}, frame);
     }
@@ -90,7 +90,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::smoothstep:
       return RangeValue::number(smoothStep(in(0), in(1), in(2)));
     case Builtin::fract:
-      in(0);  // evaluate the operand to record the queries in it
+      in(0);  // the operand is evaluated only to record the queries in it
       return RangeValue::number({0, 1});
     case Builtin::sin:
       return RangeValue::number(sine(in(0)));
@@ -131,7 +131,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
       const double half = jitter.hi / 2;
       Interval spread{0.5 - half, 0.5 + half};
-      // Along one unknown axis, a point of a face lies at the border between the face's cells.
+      // A point of a face lies, along one unknown axis, at the border between the face's cells.
       if (of.kind == ValueKind::face) spread.hi = 1;
       return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
     }
@@ -140,7 +140,8 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::position:
       return RangeValue::vector({in(0), in(1), in(2)});
     case Builtin::branch: {
-      // The ends are at most as far as all steps in a straight line, plus the rounding of each step.
+      // The ends of the segments are at most as far away as all steps in a straight line, plus the rounding of each
+      // step.
       const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMaxSegments)));
       const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
       return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};

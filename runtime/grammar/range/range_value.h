@@ -33,7 +33,7 @@ struct RangeValue {
 struct PlaceRange {
   IntervalVector offset{};
   Interval scale{1, 1};
-  bool turned = false;  ///< may be rotated arbitrarily
+  bool turned = false;  ///< the scope may be rotated arbitrarily
 
   void move(const IntervalVector& by);
   friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
@@ -43,9 +43,9 @@ struct PlaceRange {
 struct RangeFrame {
   std::vector<RangeValue> slots;
   IntervalVector scope{};  ///< edges of the scope's box
-  PlaceRange place;        ///< where the current statement's scope may be
-  PlaceRange start;        ///< where the scope of the enclosing rule's use may start
-  bool top = false;        ///< this is a layer's start rule itself, in which a cut applies to the domain
+  PlaceRange place;        ///< place of the current statement's scope
+  PlaceRange start;        ///< place of the scope with which the enclosing rule starts
+  bool top = false;        ///< the statement is directly in a layer's start rule, where a cut removes from the domain
 };
 
 /// The possible truth values of a condition: 1 is true, 0 is false.

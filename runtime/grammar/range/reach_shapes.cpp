@@ -11,7 +11,8 @@ namespace sgm {
 namespace {
 
 constexpr Interval kHalf{0.5, 0.5};
-constexpr double kLargestSize = 1e5;  ///< metres; larger shapes may be omitted after scaling
+constexpr double kLargestSize = 1e5;  ///< metres; a larger shape may, once scaled, exceed the largest size that is
+                                      ///< derived
 
 /// Computes the extent of one call of a primitive.
 class Terminal {
@@ -33,7 +34,8 @@ class Terminal {
     e.node();
   }
 
-  // The extent of a centred box with these half extents. Negative sizes count as 0, since derivation rejects them.
+  // Returns the extent of a centred box with these half extents. Negative sizes count as 0, since derivation rejects
+  // them.
   static Extent centred(Interval x, Interval y, Interval z) {
     const IntervalVector upper{positivePart(x), positivePart(y), positivePart(z)};
     Extent e = Extent::leaf({-upper[0], -upper[1], -upper[2]}, upper);
@@ -77,8 +79,8 @@ class Terminal {
     return std::min(apart, high / low * (1 + 1e-9));
   }
 
-  /// The extent of an ellipsoid or superquadric. Its field has the slope of the smallest radius, so that level sets
-  /// move outwards along the largest radius by a multiple: the ratio of the radii.
+  /// Returns the extent of an ellipsoid or superquadric. Its field has the slope of the smallest radius. Along the
+  /// largest radius, level sets therefore move by the ratio of the largest to the smallest radius.
   Extent radial(const IntervalVector& v, bool scalar, bool round) {
     Extent e = centred(v[0], v[1], v[2]);
     if (round) e.at.core_radius = e.size();  // an ellipsoid does not fill the corners of its box
@@ -97,15 +99,16 @@ class Terminal {
     if (first.kind != ValueKind::vector) {
       const Interval x = in(0);
       v = {x, arg(1) == kNoId ? x : in(1), arg(2) == kNoId ? x : in(2)};
-      // A superquadric's second argument is its squareness.
+      // The second argument of a superquadric is its squareness, not a radius, so the first one is the radius along all
+      // axes.
       if (kind == Primitive::superq) v = {x, x, x};
     }
     if (kind == Primitive::box) return centred(v[0] * kHalf, v[1] * kHalf, v[2] * kHalf);
     return radial(v, first.kind != ValueKind::vector, kind == Primitive::ellipsoid);
   }
 
-  /// The extent of a shape between two points. radius: of the shape; ball: radius around the line's points that
-  /// contains the shape.
+  /// Returns the extent of a shape around the line between two points. radius: radius of the shape. ball: distance from
+  /// the line within which the whole shape lies.
   Extent around(Interval radius, double ball, bool certain) {
     const IntervalVector a = values_.vector(arg(0), frame_), b = values_.vector(arg(1), frame_);
     IntervalVector lower, upper;
@@ -138,7 +141,7 @@ class Terminal {
     Extent e = Extent::leaf(lower, upper);
     e.inner = std::min(h.hi, e.at.core_radius);
     e.node();
-    return e;  // corners may coincide: not certain
+    return e;  // not certain: derivation leaves out a prism whose corners coincide
   }
 
   const Program& program_;
@@ -180,7 +183,8 @@ Extent Terminal::extent() {
     // Tubes and beams are left out if their ends coincide, so they are not certain.
     case Primitive::tube:
       return around(positivePart(in(2)), positivePart(in(2)).hi + positivePart(in(3)).hi, false);
-    // The corner of the square section at an end extends along, and across both ways: sqrt(3) r.
+    // A corner of the square end section lies r beyond the end along the axis, and r off the axis in both directions
+    // across: at the distance sqrt(3) r.
     case Primitive::beam:
       return around(positivePart(in(2)), positivePart(in(2)).hi * 1.7320508075688774 + positivePart(in(3)).hi, false);
     case Primitive::halfspace: {
@@ -195,7 +199,8 @@ Extent Terminal::extent() {
     case Primitive::prism:
       return prism();
     case Primitive::ca:
-      break;  // depends on a cell, not a scope: boundAutomaton() of grammar/reach
+      // unreachable: the extent of `ca` follows from the cell (boundAutomaton() of grammar/reach), not from the scope
+      break;
   }
   return Extent::unbounded();
 }

@@ -10,7 +10,8 @@ namespace sgm {
 /// Returns the extent of a primitive for all possible values of its arguments.
 Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame);
 
-/// Returns the extent of solids that may exist anywhere in a box with these edges, centred on the scope's origin.
+/// Returns the extent of solids that may lie anywhere in a box with these edges, which is centred on the scope's
+/// origin.
 Extent solidIn(const IntervalVector& edges);
 
 }  // namespace sgm

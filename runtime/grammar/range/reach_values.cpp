@@ -10,8 +10,8 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepestPiece = 8;    // halvings of one argument's range
-constexpr int kDeepestValue = 600;  // stack frames of this evaluation
+constexpr int kDeepestPiece = 8;    // maximum number of halvings of one argument's range
+constexpr int kDeepestValue = 600;  // maximum depth of nested evaluations, which bounds the stack
 
 Interval compare(BinaryOp op, Interval a, Interval b) {
   switch (op) {

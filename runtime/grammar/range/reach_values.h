@@ -31,8 +31,8 @@ struct Dependence {
 /// evaluations depended on.
 class RangeEvaluator {
  public:
-  /// steps: the caller's remaining budget, which this decrements and which must outlive it; at 0 every value is
-  /// unknown.
+  /// steps: the caller's remaining budget. Each evaluation decrements it; at 0 every value is unknown. It must outlive
+  /// this object.
   RangeEvaluator(const Program& program, uint32_t& steps);
 
   /// Sets the edges of a cell, metres. centred: the origin of the start rule's scope is the cell's centre, otherwise
@@ -59,9 +59,9 @@ class RangeEvaluator {
   /// pieces. given: value ranges of the bound arguments.
   void compareArguments(ExprId call, IdRange formals, std::span<const RangeValue> given);
 
-  /// What all results since the caller last cleared it depend on.
+  /// The parts of the rule's frame on which the results since the last reset depend. The caller resets it.
   Dependence& dependence() { return dependence_; }
-  /// The farthest query since the caller last cleared it.
+  /// The farthest query since the last reset. The caller resets it.
   Observation& observation() { return observation_; }
   const std::vector<bool>& usedParameters() const { return used_parameters_; }
   CallPath& calls() { return calls_; }

@@ -84,7 +84,7 @@ std::string findRoom(uint32_t index, const Extent& extent, ReachContext& context
   if (!finite && needed <= cellEdge(layer) * context.limits.neighbours)
     return join({"raise reach to ", metresText(needed), " or make the shape smaller"});
 
-  // Repeated, since the extent of shapes may depend on the cell or the box itself.
+  // The step is repeated, since the extent of the shapes may depend on the cell or the box itself.
   const TrialDeclaration trials(index, context);
   Extent tried = extent;
   for (int trial = 0; trial < kMaxTrials && !tried.lost(); ++trial) {

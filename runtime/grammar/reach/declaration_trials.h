@@ -13,7 +13,7 @@ namespace sgm::reach {
 /// Saves a layer's and the domain's declaration while other values are tried; the destructor restores them.
 class TrialDeclaration {
  public:
-  /// index: into Program::layers. The context must outlive this.
+  /// index: into Program::layers. The context must outlive this object.
   TrialDeclaration(uint32_t index, ReachContext& context);
   ~TrialDeclaration();
   TrialDeclaration(const TrialDeclaration&) = delete;

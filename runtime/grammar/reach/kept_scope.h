@@ -7,7 +7,7 @@ namespace sgm::reach {
 /// Restores a frame's scope and place at the end of its lifetime.
 class KeptScope {
  public:
-  /// The frame must outlive this.
+  /// The frame must outlive this object.
   explicit KeptScope(RangeFrame& frame) : frame_(frame), scope_(frame.scope), place_(frame.place) {}
   ~KeptScope() {
     frame_.scope = scope_;

@@ -10,7 +10,7 @@ namespace sgm::reach {
 
 namespace {
 
-constexpr double kFarthest = 1e6;  ///< metres; upper limit for a finite domain without a box
+constexpr double kFarthest = 1e6;  ///< maximum extent in metres of a finite domain without a declared box
 
 /// Computes the extent in pieces of the range of each parameter of the grammar.
 Extent boundOverParameters(uint32_t index, ReachContext& context) {
@@ -101,7 +101,7 @@ Extent proveStart(uint32_t index, ReachContext& context) {
     budget.refill();
     const Extent tighter = parameters ? boundOverParameters(index, context) : boundStart(index, context);
     budget.addSpent(context.limits.bound_steps);
-    // An attempt that the budget cut short proves nothing.
+    // An attempt that the step budget cut short proves nothing.
     if (!budget.clearCut() && (tighter.empty || tighter.size() < extent.size())) extent = tighter;
     context.pieces.setMode(RangePieces::Mode::none);
     context.values.takePieces(false);

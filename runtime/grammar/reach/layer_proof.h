@@ -22,14 +22,15 @@ double cellEdge(const Layer& layer);
 void setCell(const Layer& layer, ReachContext& context);
 
 Excess measureExcess(const Program& program, const Layer& layer, const Extent& extent);
-/// Whether the extent proves the layer's declaration. Always false if the step budget cut the attempt short.
+/// Whether the extent lies within what the layer declares (its cell and reach, or the domain's box), so that the proof
+/// succeeds. Always false if the step budget cut the attempt short.
 bool isEnough(const Layer& layer, const Extent& extent, const ReachContext& context);
 
 /// Computes the extent of a layer's start by one evaluation, with the current RangePieces mode. index: into
 /// Program::layers.
 Extent boundStart(uint32_t index, ReachContext& context);
-/// Like boundStart(), but makes several attempts until one proves the layer's declaration; the last attempts evaluate
-/// ranges in pieces.
+/// Like boundStart(), but makes several attempts until an extent lies within what the layer declares; the last attempts
+/// evaluate ranges in pieces.
 Extent proveStart(uint32_t index, ReachContext& context);
 
 }  // namespace sgm::reach

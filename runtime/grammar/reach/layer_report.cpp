@@ -16,8 +16,9 @@ namespace {
 constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
 constexpr const char* kGiveBox = "give the domain a box: `domain finite box(20m, 20m, 20m);`";
 constexpr const char* kSmaller = "make the shape smaller";
-constexpr size_t kMaxParts = 32;      ///< calls of a start rule that are examined one by one
-constexpr uint64_t kMaxAttempts = 8;  ///< limit for all calls of a start rule together, in steps of one attempt
+constexpr size_t kMaxParts = 32;  ///< maximum number of a start rule's calls that are examined one by one
+/// maximum cost of examining a start rule's calls, as a multiple of one attempt's steps
+constexpr uint64_t kMaxAttempts = 8;
 
 /// Returns an example of a small positive value of a dimension, for hints; empty if the dimension has no unit.
 std::string_view smallValue(Dim dim) {
@@ -35,8 +36,8 @@ std::string_view readText(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// Returns the extents of those calls in the layer's own rule that exceed the declaration by themselves. If the budget
-/// ends early, the other calls are reported by a later run.
+/// Returns the extents of those calls in the layer's own rule that exceed the declaration by themselves. If the step
+/// budget ends early, a later run reports the other calls.
 std::vector<Extent> boundCallsOneByOne(uint32_t index, ReachContext& context) {
   const Layer& layer = context.program.layers[index];
   context.start_calls.beginCollecting();
@@ -81,7 +82,8 @@ void LayerReport::report(const Extent& extent) const {
     return;
   }
   const BoundLoss* loss = nullptr;
-  // The loss is mentioned only if the hint is about it, so that message and hint describe the same cause.
+  // The expression that lost its bound is named only if the hint is about it, so that message and hint describe the
+  // same cause.
   if (unbounded && !cut_short && extent.loss != 0 &&
       boundHint(extent) == lossHint(context_.values.losses()[extent.loss]))
     loss = &context_.values.losses()[extent.loss];

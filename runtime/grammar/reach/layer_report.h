@@ -13,8 +13,8 @@ namespace sgm::reach {
 /// Writes the messages about one layer whose reach is not proven.
 class LayerReport {
  public:
-  /// room: a hint with a declaration in which the shapes fit, or empty (see findRoom). needs_box: a box of the domain
-  /// would give unbounded shapes a bound. Layer and context must outlive this.
+  /// room: a hint with a declaration in which the shapes fit, or empty (see findRoom). needs_box: the shapes are
+  /// unbounded only because the domain declares no box. Layer and context must outlive this object.
   LayerReport(const Layer& layer, std::string room, bool needs_box, const ReachContext& context)
       : layer_(layer), room_(std::move(room)), needs_box_(needs_box), context_(context), program_(context.program) {}
 

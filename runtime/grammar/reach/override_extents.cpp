@@ -27,7 +27,8 @@ bool canApplyTogether(const Program& program, const Override& a, const Override&
   return true;
 }
 
-/// Whether `wide` applies to every use to which `narrow` applies; narrow null: to every path of these rules.
+/// Whether `wide` applies to every use to which `narrow` applies. narrow = null stands for all paths through the same
+/// rules.
 bool covers(const Program& program, const Override& wide, const Override* narrow) {
   if (wide.one_cell && (narrow == nullptr || !narrow->one_cell || narrow->cell != wide.cell)) return false;
   for (uint32_t i = 0; i < wide.steps.count; ++i) {

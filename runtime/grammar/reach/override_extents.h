@@ -19,10 +19,10 @@ class OverrideExtents {
 
   /// Which overrides may apply at the current place of the derivation.
   struct State {
-    /// overrides by path whose first `depth` steps lead to the current use, and that have further steps
+    /// overrides by path: the first `depth` steps of the path lead to the current use, and further steps follow
     std::vector<uint32_t> begun;
     uint32_t depth = 0;  ///< number of path steps taken from the layer's start
-    /// overrides by tag whose own block encloses the current place: they do not apply again
+    /// overrides by tag whose own block encloses the current place, where they do not apply again
     std::vector<uint32_t> within;
   };
 
@@ -49,16 +49,17 @@ class OverrideExtents {
   struct Target {
     uint32_t rule = 0;
     const std::vector<RangeValue>& args;
-    const std::vector<uint32_t>& overrides;  ///< overrides that may apply, in the order of Program::overrides
-    const StmtNode* block = nullptr;         ///< the tagged block; null: the target is a use of a rule
-    const RangeFrame* frame = nullptr;       ///< the frame of that block
-    size_t at = 0;                           ///< index in `overrides` of the override whose block is being evaluated
-    State state;                             ///< the state in which `inner` is evaluated
-    const Target* outer = nullptr;  ///< the target around this one, if overrides' blocks are nested; null: none
+    /// the overrides that may apply to this content, in the order of Program::overrides
+    const std::vector<uint32_t>& overrides;
+    const StmtNode* block = nullptr;    ///< the tagged block; null: the target is a use of a rule
+    const RangeFrame* frame = nullptr;  ///< the frame in which `block` is evaluated
+    size_t at = 0;                      ///< index in `overrides` of the override whose block is currently evaluated
+    State state;                        ///< the state in which `inner` is evaluated
+    const Target* outer = nullptr;      ///< the enclosing target, if the blocks of overrides are nested; null: none
   };
 
-  /// Returns the extent of the target if only the first `below` of its overrides exist. above: the override by path
-  /// whose `inner` stands for this content; null: none.
+  /// Returns the extent of the target as if only the first `below` of its overrides existed. above: the override by
+  /// path whose `inner` stands for this content; null: none.
   Extent boundTarget(const Target& target, size_t below, RangeFrame& frame, const Override* above,
                      ReachContext& context);
   /// Returns the extent of the block of target.overrides[at], which replaces the target.

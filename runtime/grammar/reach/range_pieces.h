@@ -28,8 +28,8 @@ class RangePieces {
   Extent boundOver(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent,
                    const StepBudget& budget) const;
   /// Returns the union of the extents over all pieces of a value's range. `whole` is the extent without division; its
-  /// certain reach is kept, since it applies to the whole range. nullopt if the range cannot be divided, or if some
-  /// piece has no bound even at the smallest length.
+  /// sure_lo and sure_hi are kept, since they hold for the whole range. nullopt if the range cannot be divided, or if
+  /// some piece has no bound even at the smallest length.
   std::optional<Extent> divide(RangeValue& value, const Extent& whole, const std::function<Extent()>& extent,
                                const StepBudget& budget) const;
 

@@ -19,7 +19,7 @@ IntBox roundOutwards(const Extent& extent) {
   IntBox bound;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{1, 0} : extent.at.may[static_cast<size_t>(axis)];
-    // A NaN end means no bound: std::min and std::max then return their first argument.
+    // A NaN end means no bound: for NaN, std::min and std::max return their first argument.
     const double lo = std::min(std::max(-3e9, std::floor(side.lo * kUnitsPerMetre)), 3e9);
     const double hi = std::max(std::min(3e9, std::ceil(side.hi * kUnitsPerMetre)), -3e9);
     bound.lo[axis] = saturate(static_cast<int64_t>(lo));

@@ -1,7 +1,7 @@
 #pragma once
-// The proof of reach: an abstract interpretation (Cousot and Cousot) of each layer's rules over intervals. A rule is
-// evaluated once for each tuple of argument ranges, with cached results, so that the cost of a recursion grows with its
-// depth, not with its number of leaves.
+// The proof of reach: bounds how far the shapes of each layer extend from their cell, by an abstract interpretation
+// (Cousot and Cousot) of its rules over intervals. A rule is evaluated once for each tuple of argument ranges, with
+// cached results, so that the cost of a recursion grows with its depth, not with its number of leaves.
 
 #include "grammar/syntax/program.h"
 #include "grammar/text/limits.h"

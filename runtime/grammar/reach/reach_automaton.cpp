@@ -1,4 +1,4 @@
-// Cellular automata in the proof of reach: their possible places, and their part in a cell.
+// Bounds the extent of a cellular automaton (`ca`), which fills its layer's cell, and checks its arguments.
 
 #include <algorithm>
 

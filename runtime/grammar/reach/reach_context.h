@@ -42,7 +42,7 @@ struct ReachContext {
   DiagnosticSink& sink;
   const bool lossy;  ///< errors were reported before, so a part of the text may be missing
   StepBudget budget;
-  RangeEvaluator values;  ///< counts down the budget
+  RangeEvaluator values;  ///< evaluates expressions; each step decrements `budget`
   StartCell cell;
   RangePieces pieces;
   RuleExtents rules;

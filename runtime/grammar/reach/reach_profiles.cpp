@@ -1,4 +1,4 @@
-// Footprints, their extrusions, roofs and fitted assets in the proof of reach.
+// Computes extents of footprints, their extrusions, roofs and fitted assets.
 
 #include <algorithm>
 
@@ -105,7 +105,7 @@ Extent boundFit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const FitNode& fit = context.program.ast.fits[s.extra];
   for (uint32_t i = 0; i < fit.zones.count; ++i) {
     const FitZoneNode& zone = context.program.ast.fit_zones[fit.zones.first + i];
-    // evaluate them to record queries in them
+    // both ends are evaluated only to record the queries in them
     for (const ExprId end : {zone.from, zone.to}) context.values.number(end, frame);
   }
   return solidIn(frame.scope);

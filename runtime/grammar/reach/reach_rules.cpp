@@ -114,9 +114,9 @@ Extent boundCall(ExprId id, CallSite site, const RangeFrame& frame, ReachContext
   Extent e = context.pieces.isDividing() ? boundRuleInPieces(n.id, args, frame, top, context)
                                          : boundRule(n.id, args, frame, top, context);
   values.calls().leave();
-  // Messages name the outermost call: the one in the start rule.
+  // Messages name the outermost call, which is the call in the start rule.
   if (site == CallSite::statement && !e.empty) e.attribute(id);
-  // The author cannot change the standard library, so messages name the call into it.
+  // The author cannot change the standard library, so messages name the author's call into it.
   if (e.largest_contributor != kNoId && !top && isStandard(program, program.expr(e.largest_contributor).span.file) &&
       !isStandard(program, n.span.file)) {
     e.inside = e.largest_contributor;
@@ -162,7 +162,8 @@ Extent boundAlternatives(uint32_t rule, const std::vector<RangeValue>& args, con
     const double count = out ? out->count : 0;
     const Extent part = boundAlternative(rule, head, frame, context);
     addAlternative(out, part);
-    // The alternatives of each `lod` are derived in addition to the others, so their numbers of shapes add up.
+    // The alternatives with `lod` are derived in addition to the alternatives without, so their numbers of shapes add
+    // up.
     if (levels) out->count = count + part.count;
   }
   if (!out) out = Extent::nothing();

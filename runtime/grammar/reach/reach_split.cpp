@@ -13,7 +13,8 @@ namespace sgm::reach {
 
 namespace {
 
-/// Total rigid and preferred flexible sizes, either of a split's unrepeated parts or of one copy of its group.
+/// Total sizes of rigid parts and preferred total sizes of flexible parts: of a split's parts outside the repeated
+/// group, or of one copy of the group.
 struct Sums {
   Interval rigid{}, wanted{};
 };
@@ -26,7 +27,7 @@ struct PartPlace {
   size_t axis = 0;
   Interval length;               ///< possible lengths of the split's scope along the axis
   Interval size;                 ///< possible sizes of the part along the axis
-  double before = 0, after = 0;  ///< total length of other parts that certainly lie before and after it
+  double before = 0, after = 0;  ///< total lengths of the other parts that certainly lie before and after this part
 };
 
 /// Returns the extent of a part for the sizes in `piece`. exact: the part has exactly one size.
@@ -102,14 +103,15 @@ Extent boundSplit(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
-  // Rigid parts keep their size if nothing is cut off. The flexible parts of a group together get up to half a copy
-  // more than they prefer, or less than that by the rigid length of a copy that does not fit.
+  // Rigid parts keep their size if nothing is cut off. A flexible part of the repeated group stretches at most by the
+  // factor 1.5, since the number of copies is rounded to nearest. If a further copy does not fit because of its rigid
+  // parts, the factor grows by at most the ratio of the group's rigid size to its preferred flexible size.
   const double snap = s.amount == kNoId ? 0 : std::max(0.0, context.values.number(s.amount, frame).hi);
   const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
   const double times = once.lo > 0 ? std::max(1.0, length.hi / once.lo + 1) : kInfinity;
-  double before = 0, after = 0;  // total length of parts that certainly lie before or after
+  double before = 0, after = 0;  // total length of the other parts that certainly lie before or after the current part
   for (uint32_t i = 0; i < s.parts.count; ++i)
     if (whole && !parts[i].flexible && !parts[i].repeated) after += sizes[i].lo;
   Extent out = Extent::nothing();

@@ -38,7 +38,7 @@ Extent boundRestOfBlock(const StmtNode& s, uint32_t next, RangeFrame& frame, Rea
       return context.pieces.boundOver({&frame.slots[slot]}, rest, context.budget);
     }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
-      // A cut adds no shapes, but what precedes it is no longer certain.
+      // A cut adds no shapes, but may remove any part of the preceding content, which is no longer certain.
       if (!part.empty) out.uncertain();
       out.node();
       continue;
@@ -68,7 +68,7 @@ Extent boundMeet(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
       out = part;
   }
   if (missing || !out) return Extent::nothing();
-  // A meet with a missing operand is left out, so it is not certain.
+  // An intersection (meet) with an empty operand is left out, so none of its shapes is certain.
   out->certain = false;
   out->inner = inner_radius;
   out->inner_low = 0;
@@ -239,7 +239,7 @@ Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context) {
   if (id == kNoId) return Extent::nothing();
   if (context.budget.cutAtLimit()) return Extent::unbounded();
   context.budget.enter();
-  // Save the loss found in the enclosing statement's own expressions, such as a position or a count.
+  // Save the loss of a bound found in the enclosing statement's own expressions, such as a position or a count.
   BoundLosses& losses = context.values.losses();
   const uint32_t around = losses.takeLatest();
   Extent e = boundKind(context.program.stmt(id), frame, context);

@@ -10,11 +10,11 @@ namespace sgm::reach {
 
 // reach_statements.cpp: the choice of the function, blocks, and statements that combine or deform their bodies.
 
-/// Returns an empty extent for kNoId, and an unbounded one if the step budget is used up.
+/// Returns the extent of any statement: an empty extent for kNoId, and an unbounded one if the step budget is used up.
 Extent boundStatement(StmtId id, RangeFrame& frame, ReachContext& context);
 /// Returns the extent of a block, a meet or an extrusion, ignoring overrides of its tag.
 Extent boundUntagged(const StmtNode& s, RangeFrame& frame, ReachContext& context);
-/// first: the extent of content that precedes the block's own statements.
+/// Returns the extent of a block. first: the extent of content that precedes the block's own statements.
 Extent boundBlock(const StmtNode& s, RangeFrame& frame, ReachContext& context, Extent first = Extent::nothing());
 
 // reach_transforms.cpp: moved content, and copies of it.

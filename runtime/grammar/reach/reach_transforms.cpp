@@ -1,4 +1,4 @@
-// Transforms, loops and point sets in the proof of reach.
+// Computes extents of transforms, loops and point sets.
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,18 @@ namespace {
 /// Rounds counts and the ends of loops to the nearest whole number, as derivation does.
 Interval rounded(Interval v) { return floorOf({v.lo + 0.5, v.hi + 0.5}); }
 
-/// Maximum number of copies that are evaluated one by one if the size of each depends on that of the previous one.
+/// Maximum number of copies of a repeat that are evaluated one by one if the size of each depends on the size of the
+/// previous one.
 constexpr double kSizedCopies = 64;
 
-/// Returns a power of a scale factor, widened by the rounding of the repeated multiplication that it stands for.
+/// Returns a power of a scale factor, widened by the rounding errors of the repeated multiplication in derivation.
 Interval raiseTo(Interval base, double times) {
   if (times == 0 || base == Interval{1, 1}) return {1, 1};
   const double low = base.lo > 0 ? detPow(base.lo, times) : 0, high = base.hi > 0 ? detPow(base.hi, times) : 0;
   return {low * (1 - 1e-9), std::isnan(high) ? kInfinity : high * (1 + 1e-9)};
 }
 
-/// Evaluates the vector of an `at`.
+/// Evaluates the vector by which an `at` moves the scope.
 IntervalVector evaluatePoint(const XformNode& x, const RangeFrame& frame, ReachContext& context) {
   const RangeValue first = context.values.evaluate(x.a, frame);
   if (first.kind == ValueKind::vector) return first.v;
@@ -32,7 +33,7 @@ IntervalVector evaluatePoint(const XformNode& x, const RangeFrame& frame, ReachC
   return {part(x.a), part(x.b), part(x.c)};
 }
 
-/// Sets the frame's scope to that of a `size`.
+/// Sets the frame's scope to the scope that a `size` transform makes.
 void applySize(const XformNode& x, RangeFrame& frame, ReachContext& context) {
   const RangeValue first = context.values.evaluate(x.a, frame);
   const ExprId parts[3] = {x.a, x.b, x.c};

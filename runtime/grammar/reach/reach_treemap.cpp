@@ -71,7 +71,7 @@ Extent boundFacade(StmtId child, const IntervalVector& edges, RangeFrame& frame,
 Extent boundTreemap(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   const TreemapNode& node = context.program.ast.treemaps[s.extra];
   for (const ExprId id : {node.wall, node.door, node.height, node.corridor})
-    if (id != kNoId) context.values.number(id, frame);  // evaluate it to record queries in it
+    if (id != kNoId) context.values.number(id, frame);  // the value is evaluated only to record the queries in it
   const IntervalVector edges = {atLeastZero(frame.scope[0]), atLeastZero(frame.scope[1]), atLeastZero(frame.scope[2])};
   const Interval reach = Interval::exactly(2 * kDoorReach);
   Extent out = solidIn({edges[0] + reach, edges[1], edges[2] + reach});

@@ -53,7 +53,7 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   IntervalVector edges{}, place{};
   double places = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
-    // Derivation leaves out smaller tiles.
+    // Derivation leaves out tiles with an edge below kTileRange.low.
     wanted[axis] = maximum(wanted[axis], Interval::exactly(kTileRange.low));
     edges[axis] = atLeastZero(frame.scope[axis]);
     const Interval count = placesIn(edges[axis], wanted[axis]);
@@ -65,12 +65,12 @@ Extent boundWfc(const StmtNode& s, RangeFrame& frame, ReachContext& context) {
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = context.program.ast.parts[s.parts.first + i];
     if (part.label == kNoId) continue;
-    context.values.number(part.size, frame);  // evaluate it to record queries in it
+    context.values.number(part.size, frame);  // the weight is evaluated only to record the queries in it
     const StmtId child = context.program.idAt(s.children, i);
     std::optional<Extent> one;
     const int turns = context.program.ast.tiles[part.tile].turns ? 4 : 1;
     for (int turn = 0; turn < turns; ++turn) {
-      // Evaluated in the tile's own axes, relative to which the surroundings are rotated the other way.
+      // The scope is evaluated in the tile's own axes. In these, the surroundings are rotated by the opposite turn.
       const bool across = turn % 2 != 0;
       const auto own = [&](const IntervalVector& v) { return across ? IntervalVector{v[2], v[1], v[0]} : v; };
       const bool turned = frame.place.turned;

@@ -65,9 +65,10 @@ class RuleExtents {
   std::map<Key, Extent> plain_, scaled_, placed_;
   std::set<Key> open_;  ///< the scaled keys of the uses on the path
   uint32_t path_length_ = 0;
-  std::vector<uint32_t> active_;  ///< by rule: number of uses on the path
-  std::vector<bool> counted_;     ///< by rule: it has a `depth` limit, so the number of activations is part of the key
-  std::map<uint32_t, uint32_t> counts_;  ///< by rule in counted_: number of uses on the path
+  std::vector<uint32_t> active_;  ///< by rule: number of uses of the rule on the path
+  /// by rule: the rule has a `depth` limit, so its number of activations is part of the key
+  std::vector<bool> counted_;
+  std::map<uint32_t, uint32_t> counts_;  ///< number of uses on the path, for each rule with a `depth` limit
 };
 
 }  // namespace sgm::reach

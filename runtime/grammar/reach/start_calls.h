@@ -12,7 +12,7 @@ namespace sgm::reach {
 /// Collects the calls of the start rule while collecting is on, and can restrict evaluation to a single one of them.
 class StartCalls {
  public:
-  /// Records a call, if collecting and not yet recorded. Returns whether the call is to be evaluated.
+  /// Records a call, if collecting is on and the call is not recorded yet. Returns whether the call shall be evaluated.
   bool admit(ExprId call) {
     if (isRestricted() && call != only_) return false;
     if (collects_ && std::find(calls_.begin(), calls_.end(), call) == calls_.end()) calls_.push_back(call);

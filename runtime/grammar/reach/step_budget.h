@@ -28,7 +28,7 @@ class StepBudget {
   /// Clears the mark that the attempt was cut short. Returns the previous mark.
   bool clearCut() { return std::exchange(cut_short_, false); }
 
-  /// Consumes a step for a statement or a rule, and enters it. Precondition: cutAtLimit() returned false.
+  /// Takes a step from the budget for a statement or a rule, and enters it. Precondition: cutAtLimit() returned false.
   void enter() {
     --left_;
     ++depth_;

@@ -3,7 +3,8 @@ set(body "")
 set(count 0)
 foreach(file IN LISTS FILES)
   file(READ ${DIR}/${file} text)
-  # Compilers limit the length of a literal; a few kilobytes each are far below.
+  # Compilers limit the length of a literal. C++ recommends a limit of at least 65,536 characters, so each file must be
+  # shorter.
   string(APPEND body "    {\"std/${file}\", R\"sgm(${text})sgm\"},\n")
   math(EXPR count "${count} + 1")
 endforeach()

@@ -7,7 +7,7 @@
 namespace sgm {
 
 struct StdFile {
-  std::string_view path;  ///< "std/rock.sgm"
+  std::string_view path;  ///< path under which grammars import the file, such as "std/rock.sgm"
   std::string_view text;
 };
 

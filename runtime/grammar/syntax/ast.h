@@ -1,7 +1,7 @@
 #pragma once
 // The syntax tree of a whole program: the nodes of all files, in common arrays. The parser sets what the text says; the
-// checker sets the members marked "resolved", after which no name lookup is needed. Absent indices are kNoId. Numbers
-// are in metres, radians and plain ratios.
+// checker sets the members marked "set by the checker", after which no name lookup is needed. Absent indices are kNoId.
+// Numbers are in metres, radians and plain ratios.
 
 #include <array>
 #include <cstdint>
@@ -18,9 +18,9 @@
 namespace sgm {
 
 inline constexpr uint32_t kNoId = 0xFFFFFFFFu;
-using ExprId = uint32_t;  ///< into Ast::exprs
-using StmtId = uint32_t;  ///< into Ast::stmts
-using NameId = uint32_t;  ///< into Ast::names
+using ExprId = uint32_t;  ///< index of an expression in Ast::exprs
+using StmtId = uint32_t;  ///< index of a statement in Ast::stmts
+using NameId = uint32_t;  ///< index of a name in Ast::names
 
 /// A range of elements in one of the Ast's arrays.
 struct IdRange {
@@ -28,17 +28,17 @@ struct IdRange {
 };
 
 enum class ExprKind : uint8_t {
-  number,       ///< uses value, type.dim
-  text,         ///< uses name: the text's content
-  vector,       ///< (a, b, c) or the pair (a, b): children
+  number,       ///< a literal; uses value and type.dim
+  text,         ///< a text constant; its content is `name`
+  vector,       ///< the vector (a, b, c) or the pair (a, b); uses children
   negate,       ///< children[0]
   logical_not,  ///< children[0]
-  binary,       ///< children[0] binary children[1]
+  binary,       ///< a binary operation: children[0] and children[1], joined by the operator `binary`
   conditional,  ///< if children[0] then children[1] else children[2]
   range,        ///< children[0] .. children[1], end excluded
-  name,         ///< uses ref, id
+  name,         ///< a name with the meaning `ref` and `id`
   member,       ///< children[0] . member; `module.name` and method calls become `name` and `call` nodes instead
-  call,         ///< uses ref, id, bound
+  call,         ///< a call; uses ref, id and bound
   query,        ///< clear [children[0]: radius] of LAYER, or inside [radius] of LAYER; uses ref, id
 };
 
@@ -57,17 +57,18 @@ enum class BinaryOp : uint8_t {
   logical_or
 };
 
-/// The meaning of a name, or of the callee of a call (resolved). ExprNode::id is an index into the table named here.
+/// The meaning of a name, or of the callee of a call; set by the checker. ExprNode::id is an index into the table named
+/// here.
 enum class Ref : uint8_t {
   none,
   parameter,  ///< Program::params
-  let,        ///< Program::lets; for calls and plain names
-  field,      ///< Program::fields; for calls and plain names
-  rule,       ///< Program::rules; only for calls
-  primitive,  ///< static_cast<uint32_t>(Primitive); only for calls
-  builtin,    ///< static_cast<uint32_t>(Builtin); for calls; of a method, bound[0] is the receiver
-  value,      ///< static_cast<uint32_t>(BuiltinValue): cell, scope, p, q, u
-  layer,      ///< Program::layers; only for queries
+  let,        ///< index into Program::lets; for calls and plain names
+  field,      ///< index into Program::fields; for calls and plain names
+  rule,       ///< index into Program::rules; only for calls
+  primitive,  ///< a value of Primitive; only for calls
+  builtin,    ///< a value of Builtin; for calls. The receiver of a method is bound[0]
+  value,      ///< a value of BuiltinValue: cell, scope, p, q, u
+  layer,      ///< index into Program::layers; only for queries
   local,      ///< index of a slot in the frame of the rule alternative, let function or field that contains the name
 };
 
@@ -76,26 +77,29 @@ enum class Member : uint8_t { none, x, y, z, other, axis, size, center, faces, f
 struct ExprNode {
   ExprKind kind = ExprKind::number;
   BinaryOp binary = BinaryOp::add;
-  Ref ref = Ref::none;           ///< resolved
-  Member member = Member::none;  ///< resolved
-  bool parenthesised = false;    ///< written in parentheses that the printer must keep
+  Ref ref = Ref::none;           ///< set by the checker: the kind of thing that `id` refers to
+  Member member = Member::none;  ///< set by the checker: the member after the dot
+  bool parenthesised = false;    ///< the text has parentheses around the expression, which the printer must keep
   bool shape = false;  ///< call of a rule or primitive, which may be written without () if it has no arguments
   /// query: `inside` tests that the whole ball is solid; otherwise `clear` tests that all of it is void
   bool inside = false;
-  /// resolved, call of a rule: the callee may, directly or indirectly, call the rule that contains this call
+  /// for a call of a rule, set by the checker: the callee may, directly or indirectly, call the rule that contains this
+  /// call
   bool circular = false;
-  /// resolved; in the bodies of let functions and fields, which are checked several times: the type in the last check
+  /// set by the checker; in the bodies of let functions and fields, which are checked several times: the type in the
+  /// last check
   Type type;
   double value = 0;  ///< of a number
   /// name, member: the word; text: the content; number: as written, with its unit; call: the callee's last word
   NameId name = kNoId;
-  NameId qualifier = kNoId;  ///< call and name: `rock` of rock.fbm, after the checker has found that it is a module
-  uint32_t id = kNoId;       ///< resolved: see Ref
-  uint32_t ordinal = 0;      ///< resolved; for rand and chance: index of this call within its rule, let or field
-  IdRange children;          ///< into Ast::ids; of a method call: the receiver
-  IdRange args;              ///< into Ast::args: the arguments as written
-  /// resolved, into Ast::ids: one ExprId for each parameter of the callee, in order, then variadic arguments. kNoId:
-  /// omitted (use BuiltinParam::fallback); defaults of lets, fields and rules are already filled in
+  /// for a call or a name: the module before the dot, such as `rock` in rock.fbm; set by the checker
+  NameId qualifier = kNoId;
+  uint32_t id = kNoId;   ///< set by the checker: an index into the table that `ref` selects (see Ref)
+  uint32_t ordinal = 0;  ///< for rand and chance, set by the checker: index of this call within its rule, let or field
+  IdRange children;      ///< the operands, a range of Ast::ids; for a method call: the receiver
+  IdRange args;          ///< the arguments as written: a range of Ast::args
+  /// set by the checker, a range of Ast::ids: one ExprId for each parameter of the callee, in order, then variadic
+  /// arguments. kNoId: omitted (use BuiltinParam::fallback); defaults of lets, fields and rules are already filled in
   IdRange bound;
   Span span;
 };
@@ -107,7 +111,7 @@ struct ArgNode {
   Span span;
 };
 
-/// The kinds of statements; stmts.def describes each.
+/// All kinds of statements; stmts.def describes each.
 enum class StmtKind : uint8_t {
 #define SGM_STMT(kind, word, role, members) kind,
 #include "grammar/syntax/stmts.def"
@@ -116,18 +120,18 @@ enum class StmtKind : uint8_t {
 /// The relation of a statement to its body, and where the statement may stand.
 enum class StmtRole : uint8_t {
   plain,
-  placing,  ///< adds only its body's content: moved, repeated, or only at some levels
-  part,     ///< stands only among the parts of a treemap or a wfc, never in a block
+  placing,  ///< the statement adds only its body's content: moved, repeated, or only at some levels
+  part,     ///< the statement stands only among the parts of a treemap or a wfc, never in a block
 };
 
 /// The properties of a kind of statement, from stmts.def.
 struct StmtInfo {
-  std::string_view word;  ///< the word that starts the statement; empty if there is no such word
+  std::string_view word;  ///< the word that starts a statement of this kind; empty if there is none
   StmtRole role = StmtRole::plain;
   bool has_parts = false;  ///< the statement has parts, with one child each
 };
 
-/// In the order of StmtKind.
+/// The properties of all kinds of statements, indexed by StmtKind.
 inline constexpr auto kStmtInfos = std::to_array<StmtInfo>({
 #define PARTS || true
 #define SGM_STMT(kind, word, role, members) {word, StmtRole::role, false members},
@@ -141,23 +145,26 @@ constexpr bool placesBody(StmtKind kind) { return infoOf(kind).role == StmtRole:
 struct StmtNode {
   StmtKind kind = StmtKind::block;
   bool power = false;  ///< morph: by exponent instead of linear interpolation
-  /// resolved, cut and inner: the cut removes from the domain if the rule is a layer's start
+  /// for cut and inner, set by the checker: the cut removes from the domain if the rule is a layer's start
   bool layer_level = false;
-  uint16_t material = 0;  ///< resolved, block: index in Program::materials; 0: inherited
-  uint16_t tag = 0;       ///< resolved, block: index in Program::tags; 0: inherited
-  uint32_t ordinal = 0;   ///< resolved: index of this statement within its rule, part of path keys
+  uint16_t material = 0;  ///< for a block, set by the checker: index in Program::materials; 0: inherited
+  uint16_t tag = 0;       ///< for a block, set by the checker: index in Program::tags; 0: inherited
+  uint32_t ordinal = 0;   ///< set by the checker: index of this statement within its rule, part of the path keys of
+                          ///< random draws
   ExprId expr = kNoId;
   /// radius of a smooth union, cut or meet (length), or the declared amplitude of a displace or warp
   ExprId amount = kNoId;
   ExprId plan = kNoId;  ///< extrude, roof: the name of a footprint
   StmtId body = kNoId;
-  uint32_t slot = kNoId;  ///< resolved; let, for_each, footprint: frame slot of the declared name
+  /// for let, for_each and footprint, set by the checker: slot in the frame for the declared name's value
+  uint32_t slot = kNoId;
   uint32_t extra = kNoId, extra2 = kNoId;
-  NameId name = kNoId;   ///< as written: loop variable, let, footprint, mat, tag, anchor kind
-  NameId name2 = kNoId;  ///< as written: anchor name
-  IdRange children;      ///< into Ast::ids: child statements
-  IdRange xforms;        ///< into Ast::xforms
-  IdRange parts;         ///< into Ast::parts: one for each child
+  /// the name as written: of a loop variable, a let, a footprint, a material, a tag or a kind of anchor
+  NameId name = kNoId;
+  NameId name2 = kNoId;  ///< the name of an anchor, as written
+  IdRange children;      ///< child statements: a range of Ast::ids
+  IdRange xforms;        ///< transforms of the scope: a range of Ast::xforms
+  IdRange parts;         ///< a range of Ast::parts, with one part for each child
   Span span;
 };
 
@@ -172,8 +179,8 @@ enum class XformKind : uint8_t {
 struct XformNode {
   XformKind kind = XformKind::at;
   uint8_t axis = 3;
-  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from `args`
-  IdRange args;                            ///< into Ast::args: the arguments as written
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< the values of the parameters, which the checker finds in `args`
+  IdRange args;                            ///< the arguments as written: a range of Ast::args
   Span span;
 };
 
@@ -192,16 +199,16 @@ struct ScatterNode {
   bool poisson = false;
   ExprId count = kNoId;  ///< the number of points; for poisson: the minimum distance between them
   ScatterArea area = ScatterArea::cell;
-  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from `args`
-  IdRange args;                            ///< into Ast::args: the arguments as written
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< the values of the parameters, which the checker finds in `args`
+  IdRange args;                            ///< the arguments as written: a range of Ast::args
   int probe = 0;                           ///< 0: no probe, 1: upwards (+y), -1: downwards
   ExprId distance = kNoId;
   NameId layer_name = kNoId;
-  uint32_t layer = kNoId;  ///< resolved: Program::layers
+  uint32_t layer = kNoId;  ///< set by the checker: index in Program::layers
   NameId gap = kNoId;      ///< the name by which the body refers to the gap's distance; kNoId: no gap
-  uint32_t slot = kNoId;   ///< resolved: frame slot of that name
+  uint32_t slot = kNoId;   ///< set by the checker: slot in the frame for the gap's distance
   ExprId within = kNoId;
-  ExprId when = kNoId;  ///< condition, evaluated for each point with its own random draws; kNoId: true
+  ExprId when = kNoId;  ///< the condition, which is evaluated for each point with separate random draws; kNoId: true
   Span span;
 };
 
@@ -213,12 +220,12 @@ enum class BoxPart : uint8_t {
   left,    ///< -x
   top,     ///< +y
   bottom,  ///< -y
-  side,    ///< those of front, right, back and left that have no part of their own
+  side,    ///< each of front, right, back and left that has no part of its own
   edges,   ///< the four edges parallel to y
-  inside,  ///< the box itself
+  inside,  ///< the scope of the box itself, not a face
 };
 
-/// The parts of a treemap.
+/// The kinds of parts of a treemap.
 enum class FloorPart : uint8_t {
   room,
   corridor,  ///< derived once in each straight stretch of the corridor
@@ -231,37 +238,39 @@ struct PartNode {
   ExprId size = kNoId;    ///< split: a length, or a fraction of the scope; room or tile: its weight
   bool flexible = false;  ///< split: the length is a weight in the division of the remaining space
   bool repeated = false;  ///< split: the part belongs to the repeated group, which is one run of consecutive parts
-  bool relative = false;  ///< resolved, split: size is a fraction of the scope
-  BoxPart of = BoxPart::front;        ///< comp: which part of the box
-  FloorPart floor = FloorPart::room;  ///< treemap: the kind of part
+  bool relative = false;  ///< for a split, set by the checker: size is a fraction of the scope
+  BoxPart of = BoxPart::front;        ///< comp: the part of the box
+  FloorPart floor = FloorPart::room;  ///< treemap: the kind of the part
   NameId label = kNoId;               ///< treemap, wfc: the name of a room or a tile
   uint32_t tile = kNoId;              ///< wfc: index in Ast::tiles
-  uint16_t tag = 0;                   ///< resolved, room of a treemap: index in Program::tags
+  uint16_t tag = 0;                   ///< for a room of a treemap, set by the checker: index in Program::tags
   Span span;
   Span group;  ///< if repeated: span of the whole group
 };
 
 enum class Outline : uint8_t {
-  rect,     ///< bound: edges along x and z
-  regular,  ///< bound: number of corners, radius to the corners
-  polygon,  ///< bound: the corners, as pairs of x and z
+  rect,     ///< a rectangle; `bound`: its edges along x and z
+  regular,  ///< a regular polygon; `bound`: the number of corners, and the radius to the corners
+  polygon,  ///< a polygon; `bound`: its corners, as pairs of x and z
 };
 
 struct FootprintNode {
   Outline outline = Outline::rect;
   ExprId count = kNoId;  ///< the number of merged pieces (`merge`); kNoId: one piece
-  IdRange args;          ///< into Ast::args: the arguments as written
-  IdRange bound;         ///< resolved, into Ast::ids; evaluated again for each piece, with new random draws
-  Span span;             ///< of the outline
+  IdRange args;          ///< the arguments as written: a range of Ast::args
+  /// set by the checker: the arguments by parameter, a range of Ast::ids. They are evaluated again for each piece, with
+  /// new random draws
+  IdRange bound;
+  Span span;  ///< span of the outline in the text
 };
 
 enum class RoofForm : uint8_t { flat, gable, hip };
 
 struct RoofNode {
   RoofForm form = RoofForm::flat;
-  ExprId measure = kNoId;   ///< resolved; flat: the height; gable, hip: the pitch
-  ExprId overhang = kNoId;  ///< resolved; kNoId: 0
-  IdRange args;             ///< into Ast::args: the arguments as written
+  ExprId measure = kNoId;   ///< set by the checker: the height of a flat roof, the pitch of a gable or hip roof
+  ExprId overhang = kNoId;  ///< set by the checker; kNoId: no overhang
+  IdRange args;             ///< the arguments as written: a range of Ast::args
 };
 
 /// An interval of an asset along one axis, measured from the low end of its box, that adapts when the asset is fitted.
@@ -273,26 +282,27 @@ struct FitZoneNode {
 };
 
 struct FitNode {
-  uint32_t asset = kNoId;  ///< resolved: Program::assets
-  IdRange zones;           ///< into Ast::fit_zones
+  uint32_t asset = kNoId;  ///< set by the checker: index in Program::assets
+  IdRange zones;           ///< the adaptable intervals of the asset: a range of Ast::fit_zones
   Span name_span;
 };
 
-/// The lengths of a treemap; resolved, or kNoId if omitted.
+/// The lengths that a treemap uses, such as the width of its doors. Set by the checker; kNoId if omitted.
 struct TreemapNode {
-  IdRange args;  ///< into Ast::args: the arguments as written
+  IdRange args;  ///< the arguments as written: a range of Ast::args
   ExprId wall = kNoId, door = kNoId, height = kNoId, corridor = kNoId;
 };
 
 struct LinkNode {
-  IdRange args;                          ///< into Ast::args: as written; empty: the treemap's width of doors applies
-  uint32_t a = 0, b = 0;                 ///< resolved: indices among the rooms of the treemap
-  ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: that of the treemap applies
+  IdRange args;  ///< the arguments as written, a range of Ast::args; if empty, the treemap's width of doors applies
+  uint32_t a = 0, b = 0;  ///< set by the checker: the joined rooms, as indices among the rooms of the treemap
+  /// set by the checker; kNoId: the width or height of the treemap's doors applies
+  ExprId width = kNoId, height = kNoId;
 };
 
 /// The labels of one side of a tile or of a wfc's border, as written.
 struct SocketNode {
-  BoxPart of = BoxPart::front;  ///< front to bottom, or side (all four upright sides)
+  BoxPart of = BoxPart::front;  ///< the side: front to bottom, or `side` for all four upright sides
   IdRange labels;               ///< into Ast::ids (NameId): the labels of this side
   IdRange meets;                ///< into Ast::ids (NameId): labels that this side may touch; empty: those in `labels`
   Span span;
@@ -309,12 +319,13 @@ struct SideKind {
 
 /// A tile of a wfc, or the border of a wfc.
 struct TileNode {
-  bool turns = false;              ///< may be rotated by any number of quarter turns about y
-  IdRange sockets;                 ///< into Ast::sockets: the sides as written
-  std::array<uint8_t, 6> sides{};  ///< resolved, in the order of BoxPart: index of each side's kind in WaveNode::kinds
+  bool turns = false;  ///< may be rotated by any number of quarter turns about y
+  IdRange sockets;     ///< the sides as written: a range of Ast::sockets
+  /// set by the checker, in the order of BoxPart: index of each side's kind in WaveNode::kinds
+  std::array<uint8_t, 6> sides{};
 };
 
-/// The labels of a wfc; resolved.
+/// The labels of a wfc; set by the checker.
 struct WaveNode {
   IdRange labels;  ///< into Ast::ids (NameId): the label of each bit of SideKind
   IdRange kinds;   ///< into Ast::side_kinds: the distinct sides of all tiles and the border
@@ -323,13 +334,14 @@ struct WaveNode {
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
-  ExprId fallback = kNoId;  ///< the default as written
+  ExprId fallback = kNoId;  ///< the default value, as written
   /// the range as written; if a rule has several heads, the first head's ranges apply
   ExprId low_expr = kNoId, high_expr = kNoId;
-  Type type;  ///< resolved; only for rules
-  /// resolved: slot in the frame; for rules, lets and global fields equal to the formal's position
+  Type type;  ///< set by the checker, only for formals of rules
+  /// set by the checker: slot in the frame; for rules, lets and global fields equal to the formal's position
   uint32_t slot = kNoId;
-  /// resolved: a range is declared, in which values of dimension `dim` must lie: from `low` to `high`, ends included
+  /// set by the checker: a range is declared, in which values of dimension `dim` must lie, from `low` to `high`, ends
+  /// included
   bool ranged = false;
   Dim dim;
   double low = 0, high = 0;

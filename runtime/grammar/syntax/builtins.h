@@ -10,44 +10,47 @@
 
 namespace sgm {
 
-/// Built-in values.
+/// The values that the language defines.
 enum class BuiltinValue : uint8_t {
-  cell,  ///< the cell being derived (rules only)
+  cell,  ///< the cell that is being derived; only in rules
   /// vector: edges of the scope's box (rules only); at a rule's start, the edges of its layer's cell or the domain's
   /// box
   scope,
-  p,  ///< sample time: world position, metres
-  q,  ///< sample time: position in the scope of the statement that uses the field, metres
-  u,  ///< sample time: 0..1 along the sweep (tube, beam) around it
+  p,  ///< at sample time: the position in the world, metres
+  q,  ///< at sample time: the position in the scope of the statement that uses the field, metres
+  u,  ///< at sample time: the relative position, 0..1, along the tube or beam around the field
 };
 
-/// Functions of values. Positions are relative to the scope with which the rule starts. The start rule of a layer
-/// starts with the world's axes at the low corner of its cell; on axes along which the domain has no cells: at 0.
+/// Built-in functions. Positions are relative to the scope with which the rule starts. The start rule of a layer starts
+/// with the world's axes at the low corner of its cell; on axes along which the domain has no cells: at 0.
 enum class Builtin : uint8_t {
-  min,         ///< (a, b); any stage
-  max,         ///< (a, b)
-  abs,         ///< (a)
-  floor,       ///< (a) ratio
-  ceil,        ///< (a) ratio, derive time
-  sqrt,        ///< (a): halves the dimension
-  mix,         ///< (a, b, t)
-  clamp,       ///< (a, low, high)
-  smoothstep,  ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high reverses it
-  fract,       ///< (a) ratio: a - floor(a)
-  sin,         ///< (angle), derive time
-  cos,         ///< (angle), derive time
-  atan2,       ///< (y, x) -> angle, derive time
-  pow,         ///< (a, b) ratios, a >= 0, derive time
-  length,      ///< (vector), derive time
-  rand,        ///< (a, b): uniform in [a, b); depends on the derivation path; derive time
-  /// rand(key, a, b): depends only on the key (a cell, a face, a segment or a number), so it is the same everywhere
+  min,    ///< (a, b); any stage
+  max,    ///< (a, b)
+  abs,    ///< (a)
+  floor,  ///< (a) ratio
+  ceil,   ///< (a): a ratio that is known at derivation time
+  sqrt,   ///< (a): the exponents of the dimension are halved
+  mix,    ///< (a, b, t)
+  clamp,  ///< (a, low, high)
+  /// (low, high, x): 0 at low, 1 at high; low and high must be known at derivation time; low > high reverses it
+  smoothstep,
+  fract,   ///< (a) ratio: a - floor(a)
+  sin,     ///< (angle), known at derivation time
+  cos,     ///< (angle), known at derivation time
+  atan2,   ///< (y, x), known at derivation time; returns an angle
+  pow,     ///< (a, b): ratios known at derivation time, a >= 0
+  length,  ///< (vector), known at derivation time
+  rand,    ///< (a, b): a random number in [a, b), drawn at derivation time from the derivation path's hash
+  /// rand(key, a, b): a random number that depends only on the key (a cell, a face, a segment or a number), so it is
+  /// the same everywhere
   rand_keyed,
-  chance,        ///< (p): true with probability p; depends on the derivation path
+  chance,        ///< (p): true with probability p, drawn from the derivation path's hash
   chance_keyed,  ///< chance(key, p)
-  /// cellnoise(cell, period, salt = 0): smooth noise in 0..1, sampled at the centre of the cell; derive time
+  /// cellnoise(cell, period, salt = 0): smooth noise in 0..1 at the centre of the cell, known at derivation time
   cell_noise,
-  fractal,  ///< (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1; sample time. The arguments
-            ///< are derive time; period is rounded to units; octaves 1..12
+  /// (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1, known at sample time. Its arguments must be
+  /// known at derivation time; period is rounded to units; octaves 1..12
+  fractal,
   /// cell.point(jitter = 0.5): a random point of the cell; jitter 0: its centre, 1: anywhere in it. bound[0]: the cell
   cell_point,
   /// cell.links(tree = 3, extra = 0): the faces of the cell that a passage crosses (Lattice::linked). Only the lower of
@@ -73,10 +76,11 @@ enum class Primitive : uint8_t {
   truncone,   ///< (h, top, bottom): radii at +h/2 and -h/2
   capsule,    ///< (a, b, r): from point a to point b
   torus,      ///< (ring, tube): radii
-  ellipsoid,  ///< (x, y, z) radii, or (vector)
-  superq,     ///< (radii vector, square): square 0 an ellipsoid, 1 nearly a box (exponent 2 / (1 - s + s*2/kMaxPower))
+  ellipsoid,  ///< (x, y, z): radii, or (vector)
+  superq,     ///< (radii vector, square): square 0 an ellipsoid, 1 nearly a box (the exponent is 2 / (1 - square +
+              ///< square * 2 / kMaxPower))
   blob,       ///< (r): a sphere; the usual leaf of `sum`
-  halfspace,  ///< (below h) or (above h): all points with y < h (y > h)
+  halfspace,  ///< (below h): all points with y < h; (above h): all points with y > h
   tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc with a sagitta of at most bend
   beam,       ///< (a, b, r, bend = 0): like tube, with a square section of half edge r
   prism,      ///< (h, (x, z), (x, z), (x, z) ...): polygon of 3 to 64 corners, extruded to full height h
@@ -94,8 +98,8 @@ enum class Primitive : uint8_t {
 struct AutomatonLimits {
   static constexpr int32_t least_edge = 16;  ///< minimum edge of a voxel, units
   static constexpr int32_t max_voxels = 64;  ///< maximum number of voxels along a cell's edge; the minimum is 1
-  static constexpr int32_t max_rounds = 16;  ///< the minimum is 0
-  static constexpr int32_t max_radius = 4;   ///< the minimum is 1
+  static constexpr int32_t max_rounds = 16;  ///< maximum number of rounds; the minimum is 0
+  static constexpr int32_t max_radius = 4;   ///< maximum radius of the neighbourhood in voxels; the minimum is 1
   /// maximum of rounds times radius: how far a voxel influences others, in voxels
   static constexpr int32_t max_halo = 16;
   static constexpr int32_t coarsest_voxels = 4;
@@ -122,7 +126,7 @@ struct BuiltinParam {
 struct BuiltinInfo {
   std::string_view name;
   Builtin id;
-  std::span<const BuiltinParam> params;  ///< without the receiver of a method
+  std::span<const BuiltinParam> params;  ///< the parameters, without the receiver of a method
 };
 
 struct PrimitiveInfo {
@@ -132,26 +136,27 @@ struct PrimitiveInfo {
   bool variadic = false;  ///< further arguments may follow; only prism: more corners
 };
 
-/// The valid range of a number.
+/// The valid range of a number, with texts for messages.
 struct ValueRange {
   double low, high;
-  std::string_view rule;     ///< "the `step` of a branch must be positive"
-  std::string_view example;  ///< "such as step 6m"
+  std::string_view rule;     ///< the requirement, for messages: "the `step` of a branch must be positive"
+  std::string_view example;  ///< a valid example, for hints: "such as step 6m"
   bool holds(double value) const { return value >= low && value <= high; }
 };
 
-std::span<const BuiltinInfo> builtinTable();      ///< functions, indexed by Builtin
-std::span<const PrimitiveInfo> primitiveTable();  ///< indexed by Primitive
+std::span<const BuiltinInfo> builtinTable();      ///< all built-in functions, indexed by Builtin
+std::span<const PrimitiveInfo> primitiveTable();  ///< all primitives, indexed by Primitive
 std::span<const ValueRange> branchRangeTable();   ///< valid ranges of branch()'s parameters, in their order
 // ExprNode::bound has one entry for each of these parameters (preceded by the receiver for a method). Exceptions: box
 // and ellipsoid with one argument set only bound[0], an edge or a vector (box(edge) is a cube); bound[1] and bound[2]
 // are kNoId. halfspace sets exactly one of bound[0], `below`, and bound[1], `above`. prism: further corners follow the
 // first three.
 
-/// nullptr if there is no such function. For rand and chance, returns the form without a key.
+/// Returns nullptr if there is no such function. For rand and chance, returns the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
-/// Whether `word -2m`, as an argument of a builtin or of `at`, is the named argument `word`, not a difference.
+/// Whether `word -2m`, as an argument of a builtin or of `at`, passes -2m to the parameter `word`, instead of being a
+/// subtraction.
 bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

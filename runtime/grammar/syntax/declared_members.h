@@ -1,5 +1,6 @@
 #pragma once
-// Lists the written members of each kind of declaration, like members.h for nodes of the syntax tree.
+// Lists, for each kind of declaration, the members that are written in the text, as members.h does for nodes of the
+// syntax tree.
 
 #include "grammar/syntax/members.h"
 #include "grammar/syntax/syntax.h"
@@ -13,7 +14,8 @@ void visitMembers(const Program&, const ImportDecl& node, V& v) {
   v.name(alias);
 }
 
-/// Skips `animated` and `doc`, which only concern hosts and do not affect the meaning.
+/// The members `animated` and `doc` are not visited: they concern only the host application and do not affect the
+/// meaning.
 template <class V>
 void visitMembers(const Program&, const Param& node, V& v) {
   const auto& [name, module, dim, value, low, high, has_range, whole, animated, doc, value_expr, low_expr, high_expr,
@@ -98,7 +100,7 @@ void visitMembers(const Program&, const Expectation& node, V& v) {
   v.name(per_name);
 }
 
-/// One declaration of a file's ModuleSyntax::items.
+/// A declaration, as listed in ModuleSyntax::items.
 struct Declaration {
   const ModuleSyntax& syntax;
   const Item& item;

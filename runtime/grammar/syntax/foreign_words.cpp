@@ -11,7 +11,7 @@ namespace sgm {
 namespace {
 
 struct Foreign {
-  std::string_view theirs;  ///< in lower case
+  std::string_view theirs;  ///< the other language's word, in lower case
   std::string_view ours;
 };
 

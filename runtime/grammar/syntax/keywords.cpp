@@ -40,7 +40,7 @@ constexpr bool isReserved(std::string_view statement_word) {
 constexpr size_t kReservedStatements = static_cast<size_t>(
     std::count_if(kStmtInfos.begin(), kStmtInfos.end(), [](const StmtInfo& info) { return isReserved(info.word); }));
 
-/// All reserved words: those that start statements, and the others; sorted.
+/// All reserved words, sorted: the words that start statements, and the other keywords.
 constexpr auto kKeywords = [] {
   std::array<std::string_view, kReservedStatements + kOtherKeywords.size()> words;
   auto next = std::copy(kOtherKeywords.begin(), kOtherKeywords.end(), words.begin());

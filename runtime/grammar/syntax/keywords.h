@@ -7,20 +7,20 @@
 
 namespace sgm {
 
-/// Reserved words, sorted.
+/// Returns the reserved words, sorted.
 std::span<const std::string_view> keywordTable();
-/// Words that have a meaning only where a clause expects them, sorted.
+/// Returns the words that have a meaning only where a clause expects them, sorted.
 std::span<const std::string_view> clauseWordTable();
-/// Words reserved for future constructs (portal ...), sorted.
+/// Returns the words reserved for future constructs (portal ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
-/// The words that start a declaration.
+/// Returns the words that start a declaration.
 std::span<const std::string_view> declarationTable();
-/// The words of transforms, in the order of XformKind.
+/// Returns the words of transforms, in the order of XformKind.
 std::span<const std::string_view> transformTable();
-/// The words of measures, in the order of Measure.
+/// Returns the words of measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
-/// The words for the parts of a box, in the order of BoxPart.
+/// Returns the words for the parts of a box, in the order of BoxPart.
 std::span<const std::string_view> boxPartTable();
 
 /// Returns this language's word for a word of another language, such as `at` for `translate`; empty if it is unknown.

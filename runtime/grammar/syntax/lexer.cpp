@@ -24,7 +24,8 @@ constexpr double kLargestLength = 2097151;  // the integer grid ends at 2^31 / 1
 struct Unit {
   std::string_view name;
   Dim dim;
-  double factor;  ///< metres, radians or ratios in one unit; if `divide` is set: units in one metre, radian or ratio
+  /// size of the unit in metres, radians or ratios; if `divide` is set: number of units in one metre, radian or ratio
+  double factor;
   /// the value is divided by the factor, which is more exact than a product: 3cm is the double 0.03
   bool divide;
 };

@@ -15,7 +15,7 @@ namespace sgm {
 enum class Tok : uint8_t {
   end,
   word,    ///< a name or keyword; Token::keyword tells which
-  number,  ///< uses Token::value and Token::dim
+  number,  ///< a number; Token::value and Token::dim are set
   text,    ///< a text constant; the span includes its quotes
   open_paren,
   close_paren,
@@ -46,7 +46,7 @@ struct Token {
   Tok kind = Tok::end;
   bool keyword = false;
   bool unavailable = false;
-  bool space_before = false;  ///< white space precedes the token
+  bool space_before = false;  ///< the text has white space directly before the token
   bool broken = false;        ///< a malformed number; value is not set
   Dim dim;
   double value = 0;
@@ -54,10 +54,10 @@ struct Token {
 };
 
 struct LexResult {
-  std::pmr::vector<Token> tokens;  ///< ends with Tok::end
+  std::pmr::vector<Token> tokens;  ///< all tokens of the text; the last one is Tok::end
   std::pmr::vector<Comment> comments;
   bool readable = true;  ///< false: the file is not UTF-8 text, or too long, and must not be parsed
-  /// lines with a lexical error, ascending; other tokens of these lines may be wrong, too
+  /// numbers of lines with a lexical error, ascending; other tokens of these lines may be wrong, too
   std::vector<int> broken_lines;
   /// offset of an unterminated text constant, which may have swallowed syntax behind it; SIZE_MAX: none
   size_t torn_at = SIZE_MAX;

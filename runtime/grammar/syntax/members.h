@@ -14,13 +14,13 @@ namespace sgm {
 /// The base of visitors: ignores all members. A visitor derives from it and hides the functions for the members it
 /// needs.
 struct MemberVisitor {
-  void expr(ExprId) {}  ///< kNoId: not written
+  void expr(ExprId) {}  ///< an expression; kNoId: not written
   /// an end of a parameter's declared range, which is only checked and never changes a value; kNoId: not written
   void limit(ExprId) {}
-  void stmt(StmtId) {}  ///< kNoId: not written
+  void stmt(StmtId) {}  ///< a statement; kNoId: not written
   void name(NameId) {}  ///< a name or a text; kNoId: not written
   void literal(double, const Type&) {}
-  void value(uint64_t) {}  ///< a choice, a flag or a whole number
+  void value(uint64_t) {}  ///< an enumerator, a flag or a whole number
   void count(uint32_t) {}  ///< the number of nodes that are visited next
 };
 

@@ -16,9 +16,9 @@ struct PathPlace {
 };
 
 struct WrittenStep {
-  std::string_view qualifier, name;  ///< `cave` and `Hall` of cave.Hall[2]; qualifier may be empty
-  std::optional<uint32_t> index;     ///< 2 in cave.Hall[2]
-  PathPlace place;                   ///< where the whole step stands in the path's text
+  std::string_view qualifier, name;  ///< for the step `cave.Hall[2]`: `cave` and `Hall`; qualifier may be empty
+  std::optional<uint32_t> index;     ///< for the step `cave.Hall[2]`: 2
+  PathPlace place;                   ///< byte range of the whole step in the path's text
 };
 
 /// A parsed path. Contains views into the parsed text.
@@ -26,7 +26,7 @@ struct WrittenPath {
   std::string_view layer;  ///< `net` of net(0, 0, -1)/Node; empty if the path names no layer and cell
   std::array<int32_t, 3> cell{};
   PathPlace layer_place, cell_place;
-  std::vector<WrittenStep> steps;  ///< at least one
+  std::vector<WrittenStep> steps;  ///< the steps of the path; at least one
 
   // Only set if the text is not a valid path:
   std::string wanted;  ///< the construct that is missing at `wrong`; empty: the path is valid

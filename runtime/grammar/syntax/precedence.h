@@ -7,10 +7,10 @@ namespace sgm {
 
 /// Operators with a larger value bind tighter.
 enum Precedence : int {
-  kLoosest = 0,  ///< `if` and ranges a..b
+  kLoosest = 0,  ///< precedence of `if` and of ranges a..b
   kOr,
   kAnd,
-  kComparison,  ///< also the operand of `not`
+  kComparison,  ///< precedence of comparisons, and of the operand of `not`
   kSum,
   kProduct,
   kUnary,

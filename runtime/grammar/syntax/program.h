@@ -34,22 +34,23 @@ struct Module {
 
 /// A mesh that the grammar imports, to be fitted into scopes: `import "bay.glb" as bay;`.
 struct Asset {
-  std::pmr::string path;  ///< relative to the root's folder
+  std::pmr::string path;  ///< path of the file, relative to the root's folder
   std::shared_ptr<const asset::Polyhedron> solid;
   std::pmr::vector<std::pmr::string> material_names;  ///< in the order of the indices in the solid's faces
-  std::pmr::vector<uint16_t> materials;  ///< resolved: for each name, an index in Program::materials; 0: inherited
-  uint64_t hash = 0;                     ///< hash of the solid and its material names
+  /// for each name in material_names, set by the checker: an index in Program::materials; 0: inherited
+  std::pmr::vector<uint16_t> materials;
+  uint64_t hash = 0;  ///< hash of the solid and its material names
 
   explicit Asset(std::pmr::memory_resource* memory) : path(memory), material_names(memory), materials(memory) {}
 };
 
-/// A number that the host sets.
+/// A number declared by `param`, which the host may set.
 struct Param {
   NameId name = kNoId;
   uint32_t module = 0;
   Dim dim;
   double value = 0;          ///< the default
-  double low = 0, high = 0;  ///< the range, ends included; low = high = value if none is written
+  double low = 0, high = 0;  ///< the permitted range, ends included; low = high = value if none is written
   bool has_range = false;
   bool whole = false;     ///< default and range are whole numbers without a unit, so values must be whole, too
   bool animated = false;  ///< meant to be varied over its range while the world is viewed
@@ -63,7 +64,7 @@ struct Let {
   NameId name = kNoId;
   uint32_t module = 0;
   bool function = false;
-  IdRange formals;  ///< into Ast::formals
+  IdRange formals;  ///< the parameters: a range of Ast::formals
   ExprId body = kNoId;
   uint32_t slot_count = 0;
   Span span;
@@ -84,29 +85,32 @@ struct Field {
 
 enum class Guard : uint8_t {
   none,
-  when,       ///< holds if the expression is true
-  otherwise,  ///< `else`: holds only if the guards of all other alternatives fail
+  when,       ///< the guard is the expression `when`, which must be true
+  otherwise,  ///< the guard is `else`: it holds only if the guards of all other alternatives fail
 };
 
 /// One head of a rule with its block. Derivation chooses one of the alternatives whose guards hold, at random by weight
-/// (drawn by derivation path). The choice is made separately among the alternatives with `lod` and those without.
+/// (drawn from the hash of the derivation path). The choice is made separately among the alternatives with `lod` and
+/// those without.
 struct Alternative {
-  IdRange formals;  ///< into Ast::formals: slots 0 .. count - 1
+  IdRange formals;  ///< range of Ast::formals; their slots are 0 .. count - 1
   Guard guard = Guard::none;
   ExprId when = kNoId;
   ExprId weight = kNoId;  ///< ratio >= 0; kNoId: 1
-  /// count: if the path already contains this many activations of the rule, depth_call is derived instead
+  /// a number: if the path already contains this many activations of the rule, depth_call is derived instead of the
+  /// body
   ExprId depth = kNoId;
   ExprId depth_call = kNoId;  ///< a call of a rule or primitive
-  ExprId minsize = kNoId;     ///< length: if the size is smaller, minsize_call is derived instead
+  /// a length: if the size (see size_slot) is smaller, minsize_call is derived instead of the body
+  ExprId minsize = kNoId;
   ExprId minsize_call = kNoId;
-  /// resolved: slot of the formal that is compared with minsize (the first length); kNoId: the scope's longest edge is
-  /// compared
+  /// set by the checker: slot of the formal that is compared with minsize (the first length); kNoId: the scope's
+  /// longest edge is compared
   uint32_t size_slot = kNoId;
-  /// length: the alternative replaces those without `lod` at levels whose cell edge is at least this
+  /// a length: at levels whose cell edge is at least this, the alternative replaces the alternatives without `lod`
   ExprId lod = kNoId;
   StmtId body = kNoId;      ///< a block
-  uint32_t slot_count = 0;  ///< number of slots in its frame
+  uint32_t slot_count = 0;  ///< number of slots in the frame of this head
   Span span;                ///< span of the head in the text
 };
 
@@ -115,11 +119,12 @@ struct Rule {
   NameId name = kNoId;
   uint32_t module = 0;
   bool morphic = false;
-  uint64_t name_hash = 0;  ///< hashText() of the name, part of path keys
+  uint64_t name_hash = 0;  ///< hashText() of the name, part of the path keys of random draws
   std::pmr::vector<Alternative> alternatives;
-  std::pmr::vector<uint32_t> calls;  ///< rules that it may call, including calls in its overrides, each once, ascending
-  std::pmr::vector<uint32_t> overrides;  ///< overrides that may apply in it (Program::overrides), each once, ascending
-  Span span;                             ///< span of the rule's name in its first head
+  std::pmr::vector<uint32_t> calls;  ///< rules that this rule may call, also in its overrides, each once, ascending
+  /// overrides that may apply in this rule, as indices into Program::overrides, each once, ascending
+  std::pmr::vector<uint32_t> overrides;
+  Span span;  ///< span of the rule's name in its first head
 
   explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
 };
@@ -136,17 +141,17 @@ struct PathStep {
 /// use of a rule at that path, or each block with that tag. If several overrides apply to one target, the last of them
 /// in Program::overrides is derived; its `inner` stands for the result of the overrides before it.
 struct Override {
-  NameId address = kNoId;  ///< the path or the tag, as written
+  NameId address = kNoId;  ///< the path or the tag of the target, as written
   bool by_tag = false;
-  uint32_t layer = kNoId;  ///< only by path: the layer that the path names; kNoId: it applies in every layer
+  uint32_t layer = kNoId;  ///< for an override by path: the layer that the path names; kNoId: it applies in every layer
   bool one_cell = false;
   Int3 cell;
-  /// only by path: into Program::path_steps, starting at the layer's start rule; the last step is the replaced use
+  /// for an override by path: a range of Program::path_steps, from the layer's start rule to the replaced use
   IdRange steps;
   StmtId body = kNoId;
   /// number of slots in its frame; the first slots are the parameters of the rule in the last step
   uint32_t slot_count = 0;
-  uint64_t hash = 0;  ///< hash of the address, for path keys
+  uint64_t hash = 0;  ///< hash of the address, for the path keys of random draws
   Span span, address_span;
 };
 
@@ -157,7 +162,7 @@ struct Layer {
   Int3 cell;
   int32_t reach = 0;  ///< units: shapes stay within the cell's box grown by this
   std::pmr::vector<uint32_t> uses;
-  ExprId start = kNoId;  ///< a call of a rule, derived in each cell
+  ExprId start = kNoId;  ///< the call of a rule that is derived in each cell
   ExprId cell_expr = kNoId, reach_expr = kNoId;
   /// Box of everything that the layer adds or cuts, in units from the cell's low corner; on axes without cells, and for
   /// a top-level start, from the world's origin.
@@ -170,7 +175,7 @@ struct Layer {
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
   /// some of its shapes may be visible only at some levels, by `detail` or `lod` within the layer
   bool by_level = true;
-  bool anchors = true;  ///< the layer may derive anchors
+  bool anchors = true;  ///< whether the layer may derive anchors
 
   bool shows(int32_t cell_edge) const { return cell_edge <= coarsest_cell; }
 
@@ -183,7 +188,7 @@ inline constexpr int32_t kDensityEdge = 10 * kUnitsPerMetre;
 
 struct Domain {
   bool infinite = false;
-  std::array<bool, 3> axes{true, true, true};  ///< only infinite: the axes along which the domain is divided into cells
+  std::array<bool, 3> axes{true, true, true};  ///< if infinite: the axes along which the domain is divided into cells
   bool solid = false;
   bool density = false;  ///< `output density`: the solid is to be rendered as fog
   /// Distance in units from the surface to full density: `output density edge 20m`, or kDensityEdge if no edge is
@@ -203,18 +208,18 @@ enum class Measure : uint8_t { watertight, components, volume, area, triangles, 
 /// `report volume;`, `expect components(air) == 1 in block(8);`, `expect volume in 1m3..2m3 per Chamber;`.
 /// region/expectations.h defines where and how precisely each measure is taken. Volumes are in m3, areas in m2.
 struct Expectation {
-  bool expect = false;  ///< true: `expect`; false: `report`
+  bool expect = false;  ///< true for `expect`, false for `report`
   Measure measure = Measure::watertight;
-  NameId of = kNoId;        ///< of components(...): "air" or "solid"
-  ExprId above = kNoId;     ///< of components(solid above 1m3): a constant; kNoId: not written
+  NameId of = kNoId;        ///< the operand of components(...): "air" or "solid"
+  ExprId above = kNoId;     ///< the minimum volume in components(solid above 1m3), a constant; kNoId: not written
   double above_number = 0;  ///< value of `above` in m3; 0: not written
   bool compared = false;
   BinaryOp comparison = BinaryOp::equal;
   /// constants: value of a comparison, or low and high of a range; otherwise kNoId
   ExprId value = kNoId, low = kNoId, high = kNoId;
   double value_number = 0, low_number = 0, high_number = 0;
-  int32_t block = 0;     ///< of `in block(n)`: cells along an edge; 0: not written
-  uint32_t per = kNoId;  ///< of `per RULE`: index in Program::rules; kNoId: not written
+  int32_t block = 0;     ///< the n of `in block(n)`: cells along an edge; 0: not written
+  uint32_t per = kNoId;  ///< the RULE of `per RULE`: index in Program::rules; kNoId: not written
   NameId per_name = kNoId;
   Span span;
 };
@@ -241,7 +246,7 @@ class Program {
         canonical(memory) {}
 
   Ast ast;
-  std::pmr::vector<Module> modules;  ///< by module index; [0] is the root
+  std::pmr::vector<Module> modules;  ///< all files, by module index; [0] is the root
   std::pmr::vector<Asset> assets;
   std::pmr::vector<Param> params;
   std::pmr::vector<Let> lets;
@@ -250,7 +255,7 @@ class Program {
   std::pmr::vector<Layer> layers;
   Domain domain;
   NameId unit = kNoId;  ///< from `units`: the unit of lengths that the host passes without one; kNoId: not written
-  uint64_t seed = 0;    ///< from `seed`; combined with the world's seed
+  uint64_t seed = 0;    ///< from the declaration `seed` (a text is hashed); combined with the world's seed
   std::pmr::vector<std::pmr::string> materials;  ///< material names; [0] is "" (none)
   std::pmr::vector<std::pmr::string> tags;       ///< tags; [0] is "" (none)
   std::pmr::vector<std::pmr::string> names;      ///< kinds and names of anchors; [0] is "" (none)
@@ -275,7 +280,8 @@ class Program {
   const StmtNode& stmt(StmtId id) const { return ast.stmts[id]; }
   /// Returns the i-th id of a range of Ast::ids.
   uint32_t idAt(IdRange range, uint32_t i) const { return ast.ids[range.first + i]; }
-  /// Returns the first statement within transforms, loops, scatters and details that is none of these.
+  /// Returns the first statement inside nested transforms, loops, scatters and details; `id` itself if it is none of
+  /// these.
   StmtId innermost(StmtId id) const;
   /// Returns the overrides of blocks with this tag, as a range of Ast::ids.
   IdRange overridesOf(uint16_t tag) const { return tag < tag_overrides.size() ? tag_overrides[tag] : IdRange{}; }

@@ -27,8 +27,8 @@ enum class ItemKind : uint8_t {
   expectation
 };
 
-/// A declaration in source order. index: into the array of its kind in Program or ModuleSyntax; sub: only for rules,
-/// the index of the alternative.
+/// A declaration, stored in the order of the source. index: into the array of its kind in Program or ModuleSyntax. sub:
+/// for rules, the index of the alternative.
 struct Item {
   ItemKind kind = ItemKind::version;
   uint32_t index = 0, sub = 0;
@@ -51,7 +51,7 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
-  ExprId detail = kNoId;  ///< kNoId: the layer is visible at every level
+  ExprId detail = kNoId;  ///< the length of the layer's `detail`; kNoId: the layer is visible at every level
   std::vector<NamedPlace> uses;
   Span span;
 };
@@ -64,7 +64,7 @@ struct DomainDecl {
   ExprId density_edge = kNoId;
   NameId material = kNoId;
   bool box = false;
-  IdRange box_args;  ///< into Ast::args: arguments of box(...), if `box` is set
+  IdRange box_args;  ///< arguments of box(...), if `box` is set: a range of Ast::args
   Span span;
 };
 
@@ -75,16 +75,16 @@ struct ModuleSyntax {
   std::vector<LayerDecl> layers;
   DomainDecl domain;
   NameId unit = kNoId;
-  ExprId seed = kNoId;   ///< a whole number or a text; kNoId: not written
-  ExprId start = kNoId;  ///< a top-level start; kNoId: not written
+  ExprId seed = kNoId;   ///< the declared seed, a whole number or a text; kNoId: not written
+  ExprId start = kNoId;  ///< the call of a top-level `start`; kNoId: not written
   Span unit_span, seed_span, start_span;
 
   /// The whole text was parsed without skipping a part after an error.
   bool complete = true;
-  bool readable = true;  ///< false: nothing of the text was parsed
-  /// false: a skipped part may have bounded the shapes: a domain, or an operand of a meet or a sum
+  bool readable = true;  ///< false if nothing of the text was parsed
+  /// false: a skipped part may have bounded the shapes, such as a domain or an operand of a meet or a sum
   bool bounded = true;
-  std::set<NameId> in_doubt;  ///< words in skipped parts that may be names declared there
+  std::set<NameId> in_doubt;  ///< words in skipped parts, which may be names that are declared there
 
   bool mayDeclare(NameId name) const { return !readable || in_doubt.contains(name); }
 };

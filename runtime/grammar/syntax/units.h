@@ -19,18 +19,18 @@ inline constexpr Dim kRatio{0, 0}, kLength{1, 0}, kAngle{0, 1}, kArea{2, 0}, kVo
 std::string dimName(Dim dim);
 
 enum class ValueKind : uint8_t {
-  unknown,  ///< type of a parameter of a rule without calls, or of an invalid expression; agrees with every type
+  unknown,  ///< the type of an invalid expression, or of a parameter of a rule without calls; agrees with every type
   number,   ///< one number of dimension dim
   boolean,
   vector,    ///< three numbers of dimension dim; a point if dim is length
   pair,      ///< two numbers of dimension dim (corners of a prism, x and z)
   cell,      ///< a cell of the layer: `cell`, or the member `other` of a face
   face,      ///< a face of a cell, from cell.faces or cell.links
-  faces,     ///< a list of faces, for `for`
-  segment,   ///< one step of a branching skeleton
-  segments,  ///< a list of segments, for `for`
+  faces,     ///< a list of faces, over which `for` iterates
+  segment,   ///< one segment of a branching skeleton
+  segments,  ///< a list of segments, over which `for` iterates
   plan,      ///< a footprint
-  range,     ///< a..b of whole numbers, for `for`
+  range,     ///< a range a..b of whole numbers, over which `for` iterates
   text,
 };
 
@@ -38,7 +38,7 @@ struct Type {
   ValueKind kind = ValueKind::unknown;
   Dim dim;
   bool sample = false;   ///< the value is known only at sample time, since it depends on p, q, u or noise
-  bool any_dim = false;  ///< agrees with every dimension: the literal 0, and vectors of unknown content
+  bool any_dim = false;  ///< the value agrees with every dimension: the literal 0, or a vector of unknown content
   friend constexpr bool operator==(const Type&, const Type&) = default;
 };
 

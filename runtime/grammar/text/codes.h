@@ -27,7 +27,7 @@ inline constexpr std::string_view kImportCycle = "import-cycle";
 inline constexpr std::string_view kImportLimit = "import-limit";
 inline constexpr std::string_view kImportContent = "import-content";
 inline constexpr std::string_view kAsset = "asset";
-// Names and arguments
+// Codes of errors in names and arguments
 inline constexpr std::string_view kUnknownName = "unknown-name";
 inline constexpr std::string_view kUnknownMember = "unknown-member";
 inline constexpr std::string_view kArgumentCount = "argument-count";
@@ -37,7 +37,7 @@ inline constexpr std::string_view kWrongUse = "wrong-use";
 inline constexpr std::string_view kShadowsBuiltin = "shadows-builtin";
 inline constexpr std::string_view kUnusedRule = "unused-rule";
 inline constexpr std::string_view kUnusedValue = "unused-value";
-// Types and stages
+// Codes of errors in types and stages
 inline constexpr std::string_view kUnitMismatch = "unit-mismatch";
 inline constexpr std::string_view kTypeMismatch = "type-mismatch";
 inline constexpr std::string_view kStage = "stage";

@@ -32,14 +32,14 @@ std::string renderDiagnostic(const Diagnostic& d, std::string_view source) {
 
   std::string_view line = d.line > 0 ? lineOf(source, d.line) : std::string_view();
   if (!line.empty()) {
-    // Show only a window of the line, since an untrusted file may be one very long line.
+    // Only a part of the line is shown, since an untrusted file may be one very long line.
     constexpr size_t kWindow = 160;
     const size_t column = static_cast<size_t>(d.column - 1);
     size_t first = column > kWindow / 2 && line.size() > kWindow ? column - kWindow / 2 : 0;
     while (first > 0 && first < line.size() && isContinuation(line[first])) --first;
     const size_t last = std::min(line.size(), first + kWindow);
     std::string shown, caret;
-    size_t next = first;  // offset of the next character
+    size_t next = first;  // offset in the line of the next character to be shown
     for (size_t i = first; i < std::max(last, column + 1); ++i) {
       const char c = i < last ? line[i] : ' ';
       const size_t size = i < last ? utf8Size(line.substr(i)) : 1;

@@ -23,23 +23,24 @@ class ImportResolver {
 };
 
 struct CompileLimits {
-  size_t text_bytes = 1u << 20;          ///< maximum bytes of one grammar file
-  size_t total_bytes = 4u << 20;         ///< maximum bytes of all grammar files together
-  size_t asset_bytes = 16u << 20;        ///< maximum bytes of one asset
-  size_t total_asset_bytes = 64u << 20;  ///< maximum bytes of all assets together
+  size_t text_bytes = 1u << 20;          ///< maximum number of bytes of one grammar file
+  size_t total_bytes = 4u << 20;         ///< maximum number of bytes of all grammar files together
+  size_t asset_bytes = 16u << 20;        ///< maximum number of bytes of one asset
+  size_t total_asset_bytes = 64u << 20;  ///< maximum number of bytes of all assets together
   uint32_t files = 64;                   ///< maximum number of grammar files; the same limit applies to assets
   uint32_t import_depth = 16;
   uint32_t nesting = 64;            ///< maximum nesting depth of blocks, and of expressions
   uint32_t nodes = 1u << 20;        ///< maximum number of tokens, and of expressions and statements together
   uint32_t diagnostics = 50;        ///< number of errors after which the compiler stops
-  uint32_t bound_steps = 1u << 18;  ///< for each attempt of the analyses that evaluate rules over intervals
+  uint32_t bound_steps = 1u << 18;  ///< maximum number of steps of each attempt to evaluate the rules over intervals
   int32_t neighbours = 4;           ///< maximum number of cells that a layer's reach may span on each side
 };
 
 struct CompileOptions {
   ImportResolver* resolver = nullptr;  ///< nullptr: only imports of "std/..." are available
   CompileLimits limits;
-  std::pmr::memory_resource* memory = std::pmr::get_default_resource();  ///< must outlive the Program
+  /// allocates the Program, which it must outlive
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
 struct SourceFile {

@@ -26,7 +26,7 @@ std::string numberText(double value) {
 
 std::string metresText(double metres) {
   if (!std::isfinite(metres)) return "without bound";
-  // Rounded away from zero to one decimal, which suffices to choose a bound.
+  // A length in a message is rounded away from zero to one decimal, so that the author can use it as a bound.
   const double rounded = std::copysign(std::ceil(std::fabs(metres) * 10 - 1e-9) / 10, metres);
   return numberText(rounded) + " m";
 }
@@ -74,7 +74,7 @@ std::string DiagnosticSink::place(const Span& span) const {
 
 std::vector<Diagnostic> DiagnosticSink::take() {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    // The message that there are too many errors comes last.
+    // The message that there are too many errors is sorted to the end.
     const bool a_last = a.diagnostic.code == codes::kTooManyErrors, b_last = b.diagnostic.code == codes::kTooManyErrors;
     return std::tie(a_last, a.file, a.diagnostic.line, a.diagnostic.column, a.order) <
            std::tie(b_last, b.file, b.diagnostic.line, b.diagnostic.column, b.order);

@@ -10,11 +10,11 @@
 
 namespace sgm {
 
-/// Concatenates the parts.
+/// Concatenates texts.
 std::string join(std::initializer_list<std::string_view> parts);
-/// The shortest decimal number that reads back as the same double.
+/// Returns the shortest decimal number that reads back as the same double.
 std::string numberText(double value);
-/// Formats a length for messages: "214 m", "2.5 m"; "unbounded" if it is not finite.
+/// Formats a length for messages: "214 m", "2.5 m"; "without bound" if it is not finite.
 std::string metresText(double metres);
 
 class DiagnosticSink {
@@ -28,7 +28,7 @@ class DiagnosticSink {
   Diagnostic& warning(const Span& span, std::string_view code, std::string message, std::string hint = {});
 
   uint32_t errorCount() const { return errors_; }
-  /// Whether there are more errors than the limit; compiler stages then stop early.
+  /// Whether the number of errors exceeds the limit; compiler stages then stop early.
   bool full() const { return errors_ > error_limit_; }
   std::string place(const Span& span) const;
   /// Removes and returns the diagnostics, sorted by file and position, without duplicates.

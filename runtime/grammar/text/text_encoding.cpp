@@ -35,7 +35,8 @@ constexpr std::array kStarts = {
     Start{"%PDF"sv, "this is a PDF file, not a grammar", kOther},
 };
 
-/// Guesses the bytes per character from the zero bytes beside Latin letters: 4, 2, or 1 if neither pattern fits.
+/// Guesses the number of bytes per character from the zero bytes next to Latin letters: 4, 2, or 1 if neither pattern
+/// fits.
 size_t widthByZeros(std::string_view text) {
   constexpr size_t kLook = 4096, kLeast = 8;
   text = text.substr(0, std::min(text.size(), kLook) / 4 * 4);
