@@ -24,7 +24,7 @@ static_assert(sizeof(RecordHeader) == (6 + 7 * 6) * sizeof(uint32_t) && std::is_
 constexpr int kMaxPosition = kChunkCells * kSubcell;
 constexpr uint32_t kMaxSolid = kChunkCells * kChunkCells * kChunkCells;
 
-/// Writes the words of the records by column, as differences. Returns the end of the output.
+/// Writes the words of the records by column, as differences from the previous record. Returns the end of the output.
 template <class Word, size_t kWords>
 std::byte* splitColumns(const void* records, size_t count, std::byte* to) {
   const auto* from = static_cast<const std::byte*>(records);
@@ -43,7 +43,8 @@ std::byte* splitColumns(const void* records, size_t count, std::byte* to) {
   return to + count * sizeof words;
 }
 
-/// Reverses splitColumns. Returns the end of the input. Works in blocks, so that the compiler can vectorise.
+/// The inverse of splitColumns(). Returns the end of the input. Works in blocks, so that the compiler can vectorise the
+/// loop.
 template <class Word, size_t kWords>
 const std::byte* joinColumns(const std::byte* from, size_t count, void* records) {
   constexpr size_t kBlock = 64;
@@ -72,7 +73,8 @@ const std::byte* joinColumns(const std::byte* from, size_t count, void* records)
 
 Error badRecord(const char* what) { return {Code::bad_input, std::string("an encoded chunk is damaged: ") + what}; }
 
-/// True if the ranges divide the arrays of vertices and indices in order, and each range uses only its own vertices.
+/// True if the ranges cover the arrays of vertices and indices in order, without gaps or overlaps, and each range uses
+/// only its own vertices.
 bool rangesFit(const PackedMesh& mesh) {
   size_t vertices = 0, indices = 0;
   for (const PackedRange& range : mesh.ranges) {

@@ -4,9 +4,9 @@
 // Format: little-endian 32-bit numbers: version, number of vertices, of indices, of bytes of `extra`, of solid samples,
 // mask of seams; six numbers for each range; then vertices, triangles, extra. Vertices are records of eight 16-bit
 // words, and triangles of three 32-bit words. In canonical order each record is similar to the previous one, so each
-// word is stored as the difference from the previous record's, with the sign in the lowest bit. The bytes are stored by
-// column: the lowest byte of every record's first word, then the next byte of all, and so on. This makes zstd's files a
-// third smaller, and compression faster (tests/bench).
+// word is stored as the difference from the same word of the previous record, with the sign in the lowest bit. The
+// bytes are stored by column: the lowest byte of the first word of every record, then the next byte of every record,
+// and so on. This makes files compressed by zstd a third smaller, and compression faster (tests/bench).
 
 #include <cstddef>
 #include <span>
@@ -19,11 +19,11 @@ namespace sgm {
 /// The version of the format. Every key under which encoded chunks are stored must include it.
 inline constexpr uint32_t kChunkCodecVersion = 1;
 
-/// The content of an encoded chunk.
+/// The data of a chunk that is encoded or decoded.
 struct ChunkRecord {
   PackedMesh mesh;
-  uint8_t seams = 0;                  ///< seams that were made, even if empty: bit (1 << Face)
-  uint32_t solid_samples = 0;         ///< ChunkMesh::solid_samples
+  uint8_t seams = 0;                  ///< seams that were made, including empty ones: bit (1 << Face)
+  uint32_t solid_samples = 0;         ///< number of solid samples (ChunkMesh::solid_samples)
   std::pmr::vector<std::byte> extra;  ///< additional bytes that the caller stores with the chunk
 
   explicit ChunkRecord(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
@@ -35,9 +35,9 @@ struct ChunkRecord {
 std::pmr::vector<std::byte> encodeChunk(const ChunkRecord& record, std::pmr::memory_resource* memory);
 
 /// Decodes bytes from an untrusted file. Allocates no more memory than their size. The result can be drawn without
-/// further checks, except that the names of materials and tags are unknown here. Errors: bad_input if the version is
-/// another; if sizes contradict each other; if ranges overlap, leave gaps or are out of order; if a vertex lies outside
-/// of the chunk, or an index outside of its range.
+/// further checks, except that the caller must check the numbers of materials and tags. Errors: bad_input if the
+/// version differs; if sizes contradict each other; if ranges overlap, leave gaps or are out of order; if a vertex lies
+/// outside of the chunk, or an index outside of its range.
 Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memory_resource* memory);
 
 }  // namespace sgm

@@ -43,7 +43,7 @@ bool isKindOf(int part, bool sharp, uint16_t kind) {
   return kind <= (part == 0 ? kOwnEdge : kLateralEdge);
 }
 
-/// Decodes the anchors and voids that follow the mesh of a body.
+/// Decodes the anchors and voids that are stored after the mesh of a body.
 bool getExtra(std::span<const std::byte> bytes, const ChunkPartInputs& inputs, ChunkPart& part) {
   ByteReader in(bytes);
   const auto anchors = in.get<uint32_t>();
@@ -106,7 +106,7 @@ ChunkPartInputs::ChunkPartInputs(const WorldField& world, const ChunkRequest& re
   const ChunkGrid grid = *chunkGrid(world, request.key);
   const auto around = [&](int level) { return world.brushes(sampledBox(grid, level, request.sharp), level, edits); };
   brushes_ = around(grid.level);
-  // The field beyond the drawn world has no brushes, so the seams of an outermost chunk read none.
+  // The field beyond the meshed world has no brushes, so the seams of an outermost chunk depend on none.
   if (request.seams != 0 && !request.outermost) coarser_ = around(grid.level + 1);
 }
 
@@ -119,7 +119,7 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   out.put(request_.key.level);
   for (int axis = 0; axis < 3; ++axis) out.put(request_.key.at[axis]);
   out.put(part);
-  // ChunkRequest::coarser is left out: it decides only the keys of vertices, which are not stored.
+  // The key does not include ChunkRequest::coarser, which only affects the keys of vertices, and these are not stored.
   for (const bool asked :
        {body && request_.signs, body && request_.anchors, !body && request_.outermost, request_.sharp}) {
     out.put(static_cast<uint8_t>(asked));

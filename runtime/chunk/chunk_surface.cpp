@@ -10,7 +10,7 @@ namespace {
 InstanceTransform transformOf(const Frame& frame, const ChunkGrid& grid) {
   InstanceTransform t{};
   for (size_t row = 0; row < 3; ++row) {
-    // The rows of the frame convert from the world to the anchor; its columns convert back.
+    // The matrix of the frame converts from world axes to the anchor's axes; its transpose converts back.
     for (size_t column = 0; column < 3; ++column) t[row * 4 + column] = frame.rows[column * 3 + row];
     const auto axis = static_cast<int>(row);
     t[row * 4 + 3] =

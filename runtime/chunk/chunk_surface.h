@@ -1,5 +1,5 @@
 #pragma once
-// A finished chunk: its meshes, and the other content that an engine requested. Immutable; the world, its frames and
+// A finished chunk: its meshes, and the other content that the engine requested. Immutable; the world, its frames and
 // the engine share it.
 
 #include <array>
@@ -30,16 +30,16 @@ struct ChunkSurface {
   ChunkKey key;
   ChunkGrid grid;
   PackedMesh mesh;
-  uint8_t seams = 0;                          ///< seams that were made, even if without triangles: bit (1 << Face)
-  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< bounding box of all vertices, in units; all 0 if there are none
-  std::pmr::vector<uint16_t> tags;            ///< the tags of vertices, ascending, without 0
-  std::vector<Anchor> anchors;                ///< the chunk's anchors, if requested; sorted by kind, name and key
-  std::vector<InstanceTransform> transforms;  ///< one for each anchor
-  std::vector<InstanceBatch> batches;         ///< the anchors, grouped by kind and name
-  std::pmr::vector<MorphOffset> morphs;       ///< one for each vertex, if requested; otherwise empty
-  Unwrapped texture;                          ///< texture of the whole mesh, if requested; otherwise empty
-  DeviceParts on_device;                      ///< if requested: the non-empty parts that are also on the device
-  ContentHash hash;                           ///< hash of the body and the seams, including their positions
+  uint8_t seams = 0;                    ///< seams that were made, including seams without triangles: bit (1 << Face)
+  IntBox bounds{{0, 0, 0}, {0, 0, 0}};  ///< bounding box of all vertices, in units; all 0 if there are none
+  std::pmr::vector<uint16_t> tags;      ///< all tags of vertices, ascending, without tag 0
+  std::vector<Anchor> anchors;          ///< the chunk's anchors, if requested; sorted by kind, name and key
+  std::vector<InstanceTransform> transforms;  ///< transforms of the anchors, in the same order
+  std::vector<InstanceBatch> batches;         ///< ranges of anchors with equal kind and name
+  std::pmr::vector<MorphOffset> morphs;       ///< morph offsets of the vertices, if requested; otherwise empty
+  Unwrapped texture;      ///< texture coordinates and materials of the whole mesh, if requested; otherwise empty
+  DeviceParts on_device;  ///< the non-empty parts that are also stored on the device, if requested
+  ContentHash hash;       ///< hash of the body and the seams, including their positions
   /// Measures of the body and the seams, if requested.
   std::optional<measure::ChunkMeasures> measures;
 
@@ -61,7 +61,7 @@ inline bool sameContent(const ChunkSurface& a, const ChunkSurface& b) {
   return a.hash == b.hash && a.anchors == b.anchors && a.morphs == b.morphs && a.texture == b.texture;
 }
 
-/// Returns the body and the seams that exist.
+/// Returns the body and the non-empty seams.
 MeshParts partsOf(const ChunkMesh& mesh);
 
 /// Makes the surface for a request. Parts that were not requested are copied from `before`, an earlier surface of the

@@ -12,7 +12,8 @@ namespace sgm {
 
 namespace {
 
-/// Returns a Newton step towards the zero of a field, in 1/256 of a cell. gradient: per unit. cell: edge in units.
+/// Returns a Newton step towards the zero of a field, in 1/256 of a cell. gradient: change of the value in units per
+/// unit; cell: cell edge in units.
 MorphOffset newtonStep(double value, const std::array<double, 3>& gradient, int32_t cell) {
   const double square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
   MorphOffset offset{};

@@ -12,16 +12,16 @@ namespace sgm {
 namespace {
 
 // The number of chunks in a batch. Threads wait for each other at the end of a batch, because chunks take different
-// times: it is large enough that this matters little, and small enough that the programs of a batch take little memory.
-// A device may require larger batches.
+// times. The batch is large enough that this wait matters little, and small enough that its programs take little
+// memory. A device may require larger batches.
 constexpr size_t kBatchChunks = 256;
-// The maximum number of chunks that a thread prepares in a row: successive requests mostly use the same cells.
+// The maximum number of successive chunks that one thread prepares, since successive chunks mostly use the same cells.
 constexpr size_t kPreparedTogether = 16;
-// The maximum number of cells that a thread holds between chunks, in addition to those in the cache.
+// The maximum number of cells that a thread keeps in memory between chunks, in addition to the cells in the cache.
 constexpr size_t kMaxCachedCells = 1024;
 
-/// True if a thread should release the cells it holds between chunks: they are more than kMaxCachedCells, or more than
-/// the thread's share of the cache's bytes.
+/// True if a thread should release the cells that it keeps between chunks: there are more than kMaxCachedCells, or they
+/// use more than the thread's share of the cache's bytes.
 bool tooMany(const CachedCells& cells, size_t byte_limit) {
   if (cells.size() > kMaxCachedCells) return true;
   size_t bytes = 0;
@@ -63,7 +63,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   return {};
 }
 
-/// The programs for sharpening a chunk after the backend has consumed its job; empty if the chunk is not sharp.
+/// The programs that sharpen a chunk after the backend has consumed the chunk's job; null if the chunk is not sharp.
 struct SampledPrograms {
   std::shared_ptr<const FieldProgram> field, coarse;
 };
@@ -77,20 +77,20 @@ Programs programsOf(std::span<const ChunkRequest> requests, std::span<const Chun
   return programs;
 }
 
-/// Counts finished chunks over all batches, and calls the progress function after each.
+/// Counts finished chunks over all batches, and calls the progress function after each chunk.
 class Counter {
  public:
   Counter(const Progress& progress, uint64_t total) : progress_(progress), total_(total) {}
 
-  /// Counts one chunk. Called by any thread.
+  /// Counts one chunk; returns false if the work is cancelled. Any thread may call it.
   bool one() {
     const std::lock_guard lock(mutex_);
     ++done_;
-    // After the last chunk there is nothing left to cancel.
+    // After the last chunk there is nothing left to cancel, so the result of progress is ignored.
     if (!stopped_ && !progress_(done_, total_) && done_ < total_) stopped_ = true;
     return !stopped_;
   }
-  /// True if the work was cancelled. Called by any thread.
+  /// True if the work was cancelled. Any thread may call it.
   bool stopped() const {
     const std::lock_guard lock(mutex_);
     return stopped_;
@@ -158,8 +158,8 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
         if (tooMany(cached_cells, cached_cells_limit)) cached_cells.clear();
         const Result<void> prepared = prepare(world, batch[i], edits, cached_cells, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
-        // Of several errors, the one of the first request is reported, so that the result does not depend on the
-        // threads' speed.
+        // If several requests fail, the error of the first request is reported, so that the result does not depend on
+        // the speed of threads.
         std::lock_guard lock(mutex);
         if (error && error_at <= i) continue;
         error = prepared.error();
@@ -168,7 +168,8 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     });
     if (error) return *error;
     const Programs programs = programsOf(batch, chunk_jobs);
-    // The chunks of a sharp batch are counted after sharpening, not after meshing.
+    // If any chunk of the batch must be sharpened, all chunks of the batch are counted after sharpening, not after
+    // meshing.
     const bool sharp =
         std::any_of(batch.begin(), batch.end(), [](const ChunkRequest& request) { return request.sharp; });
 

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes many chunks of a world: the job system derives and compiles them, the backend meshes them.
+// Meshes many chunks of a world: jobs on the CPU derive and compile them, the backend meshes them.
 
 #include <functional>
 #include <span>
@@ -15,20 +15,21 @@ namespace sgm {
 
 struct ChunkRequest {
   ChunkKey key;
-  uint8_t seams = 0;  ///< the seams that are wanted: bit (1 << Face)
-  /// the coarser blocks around the chunk; they decide the fans in the keys of seams (mesh/fans.h)
+  uint8_t seams = 0;  ///< the requested seams: bit (1 << Face)
+  /// the blocks around the chunk that belong to coarser levels: the keys of a seam's vertices depend on them
+  /// (mesh/fans.h)
   Neighbourhood coarser = 0;
-  bool signs = false;     ///< also return the signs of the samples (ChunkMesh::signs)
+  bool signs = false;     ///< true: also return the signs of the samples (ChunkMesh::signs)
   bool keys = true;       ///< true: return the vertex keys that welding and checks need; false: keys may be missing
-  bool anchors = false;   ///< also return the anchors in the chunk
+  bool anchors = false;   ///< true: also return the anchors in the chunk
   bool body = true;       ///< true: mesh the body; false: only the seams, because the body exists already
-  bool resident = false;  ///< also keep the parts on the backend's device (ChunkJob::resident)
-  bool prompt = false;    ///< do not wait until a device is ready (ChunkJob::prompt)
-  /// true: the chunk lies at the border of the world, so that its seams lead to virtual neighbours, which are solid
-  /// everywhere if the domain is solid without shapes, and void everywhere otherwise (octree.h)
+  bool resident = false;  ///< true: also keep the parts on the backend's device (ChunkJob::resident)
+  bool prompt = false;    ///< true: do not wait until a device is ready (ChunkJob::prompt)
+  /// true: the chunk lies at the border of the meshed world, so its seams lead to virtual neighbours (octree.h); these
+  /// are entirely solid if the domain is solid, and void otherwise
   bool outermost = false;
-  bool sharp = false;  ///< make sharp features (sharpen_chunk.h)
-  /// compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks
+  bool sharp = false;  ///< true: sharpen features (sharpen_chunk.h)
+  /// true: compute only the sums over the mesh, without the mesh (ChunkJob::sums_only); not possible for sharp chunks
   bool sums_only = false;
 
   friend bool operator==(const ChunkRequest&, const ChunkRequest&) = default;
@@ -39,7 +40,7 @@ struct PlacedChunk {
   ChunkKey key;
   ChunkGrid grid;
   ChunkMesh mesh;
-  /// if requested: anchors in the chunk, including those in its low faces, but not in its high faces
+  /// anchors in the chunk, if requested; includes those in its low faces, but not those in its high faces
   std::vector<Anchor> anchors;
 };
 
@@ -55,19 +56,19 @@ void appendParts(const PlacedChunk& chunk, Parts& parts) {
   }
 }
 
-/// Called after every chunk; returning false cancels the work, except after the last chunk. Calls come from any thread,
-/// but never concurrently, and `done` increases by one each time.
+/// A function that is called after every chunk. Returning false cancels the work, except after the last chunk. Calls
+/// come from any thread, but never concurrently, and `done` increases by one each time.
 using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 
 /// Returns the grid of a chunk. Errors: invalid_argument (the level does not exist); range (the chunk is not wholly
 /// inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
-/// Returns the closed box of the chunk, lo <= p <= hi. Precondition: chunkGrid returned the grid.
+/// Returns the closed box of the chunk, lo <= p <= hi. Precondition: chunkGrid() has accepted the chunk.
 IntBox chunkBox(const ChunkGrid& grid);
 
-/// Returns the region in which the field of a level affects the chunk. level: the chunk's own, or the next coarser one,
-/// which seams read.
+/// Returns the region in which the field of a level affects the chunk. level: the chunk's own level, or the next
+/// coarser one, which seams sample.
 IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
 
 /// Meshes one chunk for each request, and returns them in order, in the world's memory. edits: brushes on top of the

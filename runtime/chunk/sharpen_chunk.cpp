@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kBrickCells = 8;
 
-/// Samples a program around a chunk. Points are grouped by bricks (small boxes), each with the program pruned to it.
+/// Samples a program around a chunk. Groups the points by bricks (small boxes), and prunes the program to each brick.
 class BrickSampler {
  public:
   BrickSampler(const FieldProgram& program, const Int3& origin, int32_t cell, std::pmr::memory_resource* memory)
@@ -54,7 +54,7 @@ class BrickSampler {
   }
 
  private:
-  /// Number of bricks on an axis: those of a chunk, and one more on each side.
+  /// Number of bricks along an axis: those of the chunk, and one more on each side.
   static constexpr int32_t kBricks = kChunkCells / kBrickCells + 2;
   static constexpr uint32_t kElsewhere = kBricks * kBricks * kBricks;
 
@@ -117,7 +117,7 @@ class BrickSampler {
     }
   }
 
-  /// Quantises a sample as the kernels do (quantise() of shaders/common/real.h).
+  /// Quantises a field value in the same way as the kernels (quantise() of shaders/common/real.h).
   int32_t quantised(float value) const {
     const float q = value * program_.q_scale;
     return static_cast<int32_t>(std::floor(std::clamp(q + 0.5f, -float{kMaxQ}, float{kMaxQ})));
@@ -130,7 +130,7 @@ class BrickSampler {
   EvalScratch scratch_;
   /// program of each brick; nullopt until a point in the brick is sampled
   std::pmr::vector<std::optional<PrunedProgram>> bricks_;
-  std::pmr::vector<uint32_t> brick_of_;  ///< the brick of each point
+  std::pmr::vector<uint32_t> brick_of_;  ///< index of the brick of each point
   std::pmr::vector<uint32_t> order_;     ///< indices of the points, sorted by brick
   /// coordinates of the points of one brick, as the kernels read them
   std::pmr::vector<int32_t> x_, y_, z_;

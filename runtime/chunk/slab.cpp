@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-/// Sets the second axis to the given direction, and the others to arbitrary ones perpendicular to it.
+/// Sets the second axis to the direction `along`, and the others to arbitrary perpendicular directions.
 void axesAlong(Slab& slab, Vector3 along, double length) {
   const size_t least = static_cast<size_t>(
       std::min_element(along.begin(), along.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
@@ -65,7 +65,7 @@ std::optional<Slab> slabOfShape(const GrammarChunk& chunk, const Shape& s) {
       return slab;
     }
     case ShapeKind::torus:
-      // A ring is long along its tube.
+      // A torus is represented by one stretch of its tube, tangential to the ring.
       slab.middle = times(slab.axes[0], size(0));
       slab.half = {size(1), size(1), std::max(size(0), size(1))};
       return slab;
@@ -115,7 +115,8 @@ Slab slabOfSweep(const GrammarChunk& chunk, const Shape& sweep, int32_t cell_edg
   axesAlong(slab, along, length);
   slab.middle = times(along, 0.5);
   const double r = static_cast<double>(sweep.size[0]);
-  slab.half = {r, std::max(r + length / 2, 0.5 * cell_edge), r};  // it goes on at both ends
+  // The box may be longer than the piece, since the sweep continues at both ends of the piece.
+  slab.half = {r, std::max(r + length / 2, 0.5 * cell_edge), r};
   return slab;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The extent of a shape along its own axes.
+// Computes the extent of a shape along its own axes.
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace sgm {
 
-/// A box around a shape: the shape is as thick as the box's shortest axis.
+/// A box around a shape, aligned with the shape's axes. The shortest edge of the box is the shape's thickness.
 struct Slab {
-  Int3 origin;       ///< of the frame
-  Vector3 middle{};  ///< relative to the origin, in units along the world's axes
+  Int3 origin;       ///< origin of the shape's frame
+  Vector3 middle{};  ///< centre of the box relative to the origin, in units along the world's axes
   std::array<Vector3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Vector3 half{};  ///< half extents along the axes, in units
 
@@ -23,7 +23,7 @@ struct Slab {
 /// Returns the slab of a single shape; nullopt for half-spaces, voxels and combiners.
 std::optional<Slab> slabOfShape(const GrammarChunk& chunk, const Shape& shape);
 
-/// Returns the slab of a sweep's middle piece. cell_edge: the piece counts as at least this long, in units.
+/// Returns the slab of the middle piece of a sweep. cell_edge: minimum length of the piece, in units.
 Slab slabOfSweep(const GrammarChunk& chunk, const Shape& sweep, int32_t cell_edge);
 
 /// Returns the position at an offset from the slab's middle, in units along the world's axes.

@@ -9,7 +9,8 @@
 namespace sgm {
 namespace {
 
-/// Returns the point itself, followed by the places around it.
+/// Returns the point itself, followed by places around it on a circle of this radius, in the plane perpendicular to the
+/// normal.
 std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const TexturePoint& normal, double radius) {
   constexpr double kDiagonal = 0.70710678118654752;
   constexpr std::array<std::array<double, 2>, kMaterialSamples - 1> kRing{{{1, 0},
@@ -20,8 +21,8 @@ std::array<Int3, kMaterialSamples> placesAround(const Int3& point, const Texture
                                                                            {-kDiagonal, -kDiagonal},
                                                                            {0, -1},
                                                                            {kDiagonal, -kDiagonal}}};
-  // The axis with the smallest component of the normal is nearly perpendicular to it, so its projection into the plane
-  // is long.
+  // The axis with the smallest component of the normal is the axis most nearly perpendicular to the normal, so its
+  // projection into the plane is long.
   size_t least = 0;
   for (size_t axis = 1; axis < 3; ++axis) {
     if (std::fabs(normal[axis]) < std::fabs(normal[least])) least = axis;
@@ -64,10 +65,10 @@ class PointList {
   std::pmr::vector<int32_t> x_, y_, z_;
 };
 
-/// The field's attributes at the points.
+/// The labels and values that the evaluator has computed at the points.
 struct Made {
   std::pmr::vector<uint32_t> labels;
-  std::pmr::vector<float> values;  ///< field values in units; below 0 in the solid
+  std::pmr::vector<float> values;  ///< field values in units, negative in the solid
 
   Made(const ProgramView& program, const PointList& points, EvalScratch& scratch, std::pmr::memory_resource* memory)
       : labels(points.size(), memory), values(points.size(), memory) {
@@ -80,8 +81,8 @@ struct Made {
   uint16_t material(size_t i) const { return static_cast<uint16_t>(labels[i] & 0xFFFFu); }
 };
 
-/// The solid behind a place in the air is searched in this order: half a cell and one cell against the vertex's normal,
-/// then the corners of the vertex's cell, at least one of which is solid.
+/// The number of places at which the solid behind a place in the air is searched. In order: half a cell and one cell
+/// against the vertex's normal, then the corners of the vertex's cell, at least one of which is solid.
 constexpr size_t kStepsBehind = 2, kPlacesBehind = kStepsBehind + 8;
 
 std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
@@ -104,7 +105,8 @@ std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vert
   return places;
 }
 
-/// Returns the material at the first of the places behind that is solid, or else that of the deepest corner.
+/// Returns the material of the solid behind a place: at the first step that is in the solid, or else at the deepest
+/// corner. first: index of the place's first step in `made`.
 uint16_t materialBehind(const Made& made, size_t first) {
   for (size_t i = first; i < first + kStepsBehind; ++i) {
     if (made.isSolid(i)) return made.material(i);
@@ -133,8 +135,9 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   EvalScratch scratch(field.memory());
   const Made around((*program)->view(), places, scratch, field.memory());
 
-  // The air beyond the reach of every shape has no material, and shapes thinner than a cell may end before the mesh's
-  // surface.
+  // The mesh's surface only approximates the field's, so a place can lie in the air where no shape defines a material.
+  // Such a place gets the material of the solid behind it. This is needless if the grammar has only the default
+  // material.
   const bool named = field.settings().program->materials.size() > 1;
   PointList behind(field.memory());
   std::pmr::vector<size_t> in_air(field.memory());

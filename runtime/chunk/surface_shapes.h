@@ -1,5 +1,5 @@
 #pragma once
-// Finds the shapes that make a world's surface, which define the texture coordinates there.
+// Finds the shapes that form a world's surface: they define the texture coordinates of the surface.
 
 #include <map>
 #include <memory_resource>
@@ -15,19 +15,19 @@ namespace sgm {
 /// The default and the largest edge of a texture's tile, in units. Texture coordinates increase by 1 per tile.
 inline constexpr int32_t kTile = kUnitsPerMetre, kLargestTile = 1 << 20;
 
-/// Finds shapes at points of the surface, and numbers them in the order of discovery. Borrows the field and the edits.
-/// Not thread-safe.
+/// Finds the shapes at points of the surface, and numbers them in the order of discovery. Refers to the field and the
+/// edits, which must outlive it. Not thread-safe.
 class SurfaceShapes {
  public:
-  /// base: the point with texture coordinates 0 along the world's axes, in units. tile: edge of a tile, in units.
+  /// base: the point, in units, where texture coordinates along the world's axes are 0. tile: edge of a tile, in units.
   SurfaceShapes(const WorldField& field, const EditSnapshot* edits, Int3 base, int32_t tile);
 
-  /// Sets the label of each point to the number of the shape that makes the level's surface there. Use separate calls
-  /// for distant points, because the field is compiled for all space between the points of a call. Errors: those of
+  /// Sets the label of each point to the number of the shape that forms the level's surface there. Use separate calls
+  /// for distant points, because the field is compiled for the bounding box of a call's points. Errors: those of
   /// WorldField::compileShapes.
   Result<void> label(int level, std::span<const Int3> points, std::span<uint32_t> labels);
-  /// Returns the texture space of a label from label(); label 0 is the world's own space, for points where no shape
-  /// decides.
+  /// Returns the texture space of a label from label(). Label 0 is the world's own space, for points where the surface
+  /// belongs to no shape.
   const TextureSpace& space(uint32_t label) const { return spaces_[label]; }
 
  private:
@@ -46,11 +46,12 @@ class SurfaceShapes {
   std::pmr::map<ShapeKey, uint32_t> known_;
 };
 
-/// Computes a mesh with texture coordinates and blended materials, a pure function of the field, the edits and the
-/// mesh: the same bytes on every machine. Chunks of a level agree on their common border: on coordinates up to whole
-/// tiles, on blends bit by bit. A seam's vertices on edges of the coarser level use that level's shapes, as its chunks
-/// do; where the two levels have other shapes or charts, they differ. tile: 1 to kLargestTile. Errors: those of
-/// WorldField::compileShapes and compile. Throws std::bad_alloc.
+/// Computes a mesh with texture coordinates and blended materials. The result is a pure function of the field, the
+/// edits and the mesh, with the same bytes on every machine. At their common border, chunks of a level have texture
+/// coordinates that are equal up to whole tiles, and blends that are bitwise equal. Vertices of a seam on edges of the
+/// coarser level use the shapes of that level, as its chunks do; where the two levels have different shapes or charts,
+/// their coordinates differ. tile: 1 to kLargestTile. Errors: those of WorldField::compileShapes and compile. Throws
+/// std::bad_alloc.
 Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, const ChunkGrid& grid,
                               const EditSnapshot* edits, int32_t tile, std::pmr::memory_resource* memory);
 

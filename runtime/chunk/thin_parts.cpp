@@ -15,17 +15,22 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMaxLooks = 32;    ///< examined parts of one statement; its other parts are assumed to be alike
-constexpr size_t kTracedCells = 8;  ///< of a layer; later cells are traced if they have thin shapes of a new kind
+/// maximum number of parts of one statement whose surroundings are sampled; further parts count as thin if any of these
+/// did
+constexpr size_t kMaxLooks = 32;
+/// number of cells of a layer that are always traced; later cells are traced only if they have thin shapes of a new
+/// kind
+constexpr size_t kTracedCells = 8;
 
-/// Samples the world near a part.
+/// Samples the world near a thin part.
 class Surroundings {
  public:
   Surroundings(const WorldField& world, int level) : world_(world), level_(level), cell_(world.cellAt(level)) {}
 
-  /// Whether the part stands free: along more than half of it, nothing thicker lies beside it.
+  /// Whether the part stands free: along more than half of its extent, no thicker solid (for a cut part: void) lies
+  /// directly beside it.
   Result<bool> standsAlone(const Slab& slab, bool cut) {
-    // Sample places from end to end along the axes that are not thin.
+    // Choose sample places from end to end along the axes that are not thin.
     std::vector<Vector3> places{{}};
     std::vector<size_t> thin;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -46,7 +51,7 @@ class Surroundings {
     const Result<std::shared_ptr<const FieldProgram>> program =
         world_.compile(IntBox{middle, middle}.grown(reach), level_);
     if (!program) return program.error();
-    // Sample each place, and two distances beside it along each thin axis on both sides.
+    // At each place, sample the place itself and, on both sides of each thin axis, two points at different distances.
     std::vector<Int3> points;
     for (const Vector3& place : places) {
       points.push_back(placeIn(slab, place));
@@ -59,7 +64,8 @@ class Surroundings {
     const std::vector<bool> there = solidAt(**program, points, cut);
     size_t present = 0, carried = 0;
     for (size_t first = 0; first < points.size(); first += 1 + 4 * thin.size()) {
-      if (!there[first]) continue;  // cut away, or filled again
+      // Skip the place if another statement has cut away the added part here, or has filled the cut part again.
+      if (!there[first]) continue;
       const auto beside = [&](size_t k, size_t way) {
         const size_t close = first + 1 + 4 * k + 2 * way;
         return there[close] && there[close + 1];
@@ -69,7 +75,8 @@ class Surroundings {
         all_both = all_both && beside(k, 0) && beside(k, 1);
         any = any || beside(k, 0) || beside(k, 1);
       }
-      if (cut && all_both) continue;  // outside of the solid that it is cut from
+      // Skip the place if a cut part has void on all sides: it lies outside of the solid here, and cuts nothing.
+      if (cut && all_both) continue;
       ++present;
       carried += any;
     }
@@ -77,7 +84,7 @@ class Surroundings {
   }
 
  private:
-  /// Whether each point is solid, or void where `cut`.
+  /// Returns for each point whether it is solid; with `cut`, whether it is void.
   std::vector<bool> solidAt(const FieldProgram& program, const std::vector<Int3>& points, bool cut) {
     std::vector<int32_t> x, y, z;
     for (const Int3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
@@ -96,27 +103,28 @@ class Surroundings {
   EvalScratch scratch_;
 };
 
-/// "net(0, 0, -1)/Node/cave.Column[3]" as "cave.Column".
+/// Returns the rule at the end of a path: "cave.Column" for "net(0, 0, -1)/Node/cave.Column[3]".
 std::string ruleOf(const std::string& path) {
   std::string last = path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
   if (last == "override") return "an override";
   return last.substr(0, last.find('['));
 }
 
-/// Recognises the statement of a thin shape, without deriving its cell anew.
+/// Properties of a thin shape by which its statement is recognised without tracing the cell again.
 using ThinKind = std::tuple<ShapeKind, double, bool, uint16_t, uint16_t, int32_t, int32_t>;
 ThinKind lookOf(const GrammarChunk& chunk, const ThinShape& thin) {
   const Shape& s = chunk.shapes[thin.shape];
   return {s.kind, thin.slab.thickness(), thin.cut, s.material, s.tag, s.detail, s.coarsest};
 }
 
-/// Counts the thin parts of a world separately for each statement, so that a slab on the ground hides no pole beside
-/// it.
+/// Counts the thin parts of a world separately for each statement: a slab on the ground must not hide a pole of another
+/// statement beside it.
 class PartCounter {
  public:
   PartCounter(const WorldField& world, const IntBox& box, int level)
       : world_(world), box_(box), cell_edge_(world.cellAt(level)), surroundings_(world, level) {
-    // The command warns of treemap walls itself, whatever is derived.
+    // Treemap walls are not counted, since the command line tool reports them separately, independently of the meshed
+    // region.
     for (const StmtNode& s : world.settings().program->ast.stmts)
       if (s.kind == StmtKind::treemap) walls_.emplace(s.span.file, s.span.begin);
   }
@@ -149,15 +157,17 @@ class PartCounter {
   }
 
  private:
-  using Place = std::tuple<std::string, bool, uint32_t, uint32_t>;  ///< rule, cut, file and place of the statement
-  using Use = std::tuple<uint32_t, Int3, uint32_t>;                 ///< layer, cell, use
+  /// identifies a statement: rule, cut, file and position in the file
+  using Place = std::tuple<std::string, bool, uint32_t, uint32_t>;
+  /// identifies a use of a rule: layer, cell, index of the activation
+  using Use = std::tuple<uint32_t, Int3, uint32_t>;
   struct Found {
     int32_t thickness = INT32_MAX;
-    std::set<Use> uses;   ///< of the rule, in traced cells
-    size_t untraced = 0;  ///< in other cells
+    std::set<Use> uses;   ///< uses of the rule with a thin part, in traced cells
+    size_t untraced = 0;  ///< number of thin shapes in cells that were not traced
     size_t looked = 0, alone = 0;
-    std::set<Use> seen;          ///< uses with a thin shape of this statement
-    bool one_shape_each = true;  ///< as far as seen
+    std::set<Use> seen;          ///< all uses with a thin shape of this statement, in traced cells
+    bool one_shape_each = true;  ///< true while every use in `seen` has one thin shape of this statement
   };
 
   Result<void> countCell(uint32_t layer, Int3 at) {
@@ -209,7 +219,8 @@ class PartCounter {
     return {};
   }
 
-  /// Whether a part counts: it stands free, or is assumed to, as other parts of its statement do.
+  /// Whether a part counts as thin: it stands free, or (without sampling it) other parts of the same statement stood
+  /// free.
   Result<bool> countsAs(Found& found, const ThinShape& thin) {
     if (found.looked < kMaxLooks) {
       const Result<bool> alone = surroundings_.standsAlone(thin.slab, thin.cut);
@@ -230,9 +241,10 @@ class PartCounter {
   Surroundings surroundings_;
   std::set<std::pair<uint32_t, uint32_t>> walls_;
   std::map<Place, Found> found_;
-  std::map<ThinKind, std::optional<Place>> known_;  ///< of the layer's traced cells; nullopt for walls
-  std::set<ThinKind> several_;                      ///< shared by shapes of several statements
-  size_t traced_ = 0;                               ///< traced cells of the layer
+  /// statement of each kind of thin shape in the layer's traced cells; nullopt for treemap walls
+  std::map<ThinKind, std::optional<Place>> known_;
+  std::set<ThinKind> several_;  ///< kinds of thin shapes that several statements share
+  size_t traced_ = 0;           ///< number of traced cells of the layer
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// The thin shapes of one cell that were found so far.
+/// Searches the thin shapes of one cell.
 class Search {
  public:
   Search(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), cell_edge_(cell_edge) {}
@@ -23,14 +23,14 @@ class Search {
   }
   uint32_t child(const Shape& s, uint32_t i) const { return chunk_.children[s.first_child + i]; }
 
-  /// A sweep's pieces are one shape.
+  /// True for the union of a sweep's pieces, which counts as one shape.
   bool isSweep(const Shape& s) const { return s.kind == ShapeKind::unite && s.point_count > 0; }
 
   std::optional<Slab> alone(const Shape& s) const {
     return isSweep(s) ? slabOfSweep(chunk_, s, cell_edge_) : slabOfShape(chunk_, s);
   }
 
-  /// The thickness of the thickest shape in a node: 0 if the node is invisible.
+  /// Returns the thickness of the thickest shape below a node, in units; 0 if the node is invisible.
   double thickness(uint32_t index, uint32_t* thickest = nullptr) const {
     const Shape& s = chunk_.shapes[index];
     if (!shows(s)) return 0;
@@ -38,7 +38,7 @@ class Search {
       if (thickest != nullptr) *thickest = index;
       return slab->thickness();
     }
-    if (s.child_count == 0) return 1e30;  // a half-space, or voxels
+    if (s.child_count == 0) return 1e30;  // half-spaces and voxels have no thickness
     double most = 0;
     const bool first_alone = s.kind == ShapeKind::subtract || s.kind == ShapeKind::subtract_smooth;
     for (uint32_t i = 0; i < (first_alone ? 1 : s.child_count); ++i) {
@@ -66,7 +66,7 @@ class Search {
         return;
       case ShapeKind::meet:
       case ShapeKind::meet_smooth: {
-        // An intersection is no thicker than either operand.
+        // An intersection is no thicker than any of its operands.
         double least = 1e30;
         uint32_t thinnest = index;
         for (uint32_t i = 0; i < s.child_count; ++i) {

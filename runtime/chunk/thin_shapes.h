@@ -8,13 +8,14 @@
 namespace sgm {
 
 struct ThinShape {
-  uint32_t shape = 0;  ///< index in GrammarChunk::shapes
+  uint32_t shape = 0;  ///< index of the shape in GrammarChunk::shapes
   Slab slab;
-  bool cut = false;  ///< true: the shape is cut away
+  bool cut = false;  ///< true: the shape is cut away; false: it is added
 };
 
-/// Finds the shapes that are visible at a level whose cells have this edge, in units, and thinner than such a cell. Of
-/// an intersection, a sum or a morph, only the operand counts that sets its thickness (thinParts).
+/// Finds the shapes that are visible at a level whose cells have this edge, in units, and that are thinner than such a
+/// cell. In an intersection, a sum or a morph, only the operand that determines the thickness is considered
+/// (thinParts).
 std::vector<ThinShape> findThinShapes(const GrammarChunk& chunk, int32_t cell_edge);
 
 }  // namespace sgm

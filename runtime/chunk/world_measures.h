@@ -1,5 +1,6 @@
 #pragma once
-// Measures of a streamed world's chunks. Each is taken in the job that has meshed the chunk or read it from the disk.
+// Measures of a streamed world's chunks. Each measure is taken in the job that has meshed the chunk or has read it from
+// the disk.
 
 #include <memory>
 #include <mutex>
@@ -16,7 +17,7 @@ struct MeasureScratch;
 
 /// Sums of the measures of all finished jobs.
 struct MadeMeasures {
-  measure::SurfaceSums sums;  ///< sums over all parts; a part counts each time that it was made
+  measure::SurfaceSums sums;  ///< sums over all parts; a part that is made several times counts several times
   double measuring = 0;       ///< wall-clock seconds spent on measuring, summed over jobs
   double meshing = 0;         ///< wall-clock seconds spent on meshing, reading and packing chunks, summed over jobs
 
@@ -46,8 +47,8 @@ class MeasuringPool {
   std::vector<std::unique_ptr<measure::MeasureScratch>> free_;
 };
 
-/// Measures the requested parts and adds them to `made`. The measures of other parts are copied from `before`, an
-/// earlier, measured surface of the chunk, or null. Throws std::bad_alloc.
+/// Measures the parts that were requested, and adds their measures to `made`. The measures of other parts are copied
+/// from `before`, an earlier surface of the chunk with measures, or null. Throws std::bad_alloc.
 measure::ChunkMeasures measureParts(const ChunkRequest& request, const PlacedChunk& chunk, const ChunkSurface* before,
                                     MeasuringPool& pool, MadeMeasures& made);
 

@@ -28,10 +28,11 @@ struct WideBox {
 
 double wide(float v) { return static_cast<double>(v); }
 
-/// A margin in units for the rounding of the field's float arithmetic, for lengths of this size.
+/// Returns a margin in units for the float rounding errors of the field, for lengths of up to `size` units.
 double slack(double size) { return 1.0 + 1e-6 * std::fabs(size); }
 
-/// The box in world axes around a local box of the frame; `centre` is local, units.
+/// Returns the axis-aligned world box around a box in the frame's local coordinates. centre, half: centre and half
+/// extents of the local box, units.
 WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half) {
   WideBox box;
   double reach = 0;
@@ -55,8 +56,9 @@ WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<doub
 
 WideBox placed(const Frame& frame, double x, double y, double z) { return placed(frame, {0, 0, 0}, {x, y, z}); }
 
-/// Bounds of the region where a distance is at most `a`: the shape's box grown by `a`, for any rotation of the shape.
-/// For a negative `a`: the box of the smaller shape.
+/// Returns bounds of all points whose signed distance from a shape is at most `a` units, given the shape's local box.
+/// For a > 0 the box grows by `a` in world axes, so the result is valid for any rotation; otherwise the half extents
+/// shrink.
 WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half, double a) {
   if (a <= 0) return placed(frame, centre, {half[0] + a, half[1] + a, half[2] + a});
   WideBox box = placed(frame, centre, half);
@@ -65,16 +67,16 @@ WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<do
   return box;
 }
 
-/// Bounds of the region where (norm(q / r) - 1) * min(r) <= a. most: the largest possible radii r; least: lower bound
-/// of the smallest radius.
+/// Returns bounds of the region where (norm(q / r) - 1) * min(r) <= a, for the local point q and the radii r. most:
+/// upper bounds of the radii; least: lower bound of the smallest radius.
 WideBox scaledRadii(const Frame& frame, std::array<double, 3> most, double least, double a) {
   if (!(least > 0)) return WideBox::everything();
-  // Negative levels lie inside the zero set, for any radii.
+  // For a negative `a` the region lies inside the surface (the zero level set), so the box need not grow.
   const double factor = 1.0 + std::max(a, 0.0) / least;
   return placed(frame, most[0] * factor, most[1] * factor, most[2] * factor);
 }
 
-/// Like scaledRadii(), but tighter for an ellipsoid, which does not fill the corners of its box.
+/// Same as scaledRadii(), but with a smaller box for an ellipsoid, which does not fill the corners of its box.
 WideBox ellipsoid(const Frame& frame, std::array<double, 3> radii, double a) {
   const double least = *std::min_element(radii.begin(), radii.end());
   if (!(least > 0)) return WideBox::everything();
@@ -108,14 +110,15 @@ WideBox halfspace(const Frame& frame, double a) {
   return box;
 }
 
-/// For a sum of n leaves to be <= a at some point, a leaf there must have 1 + d / r of at most the returned value (d:
-/// distance, r: inner radius). Negative: no point is possible.
+/// Returns a bound v for a `sum` of n leaves: at every point where the field of the sum is at most `a` units, at least
+/// one leaf has a normalised distance 1 + d / r of at most v (d: distance to the leaf, r: its inner radius). A negative
+/// v means that there is no such point.
 double kernelReach(double inner_radius_max, size_t n, double a) {
   const double inverse = 1.0 / (wide(kSumSupport) * wide(kSumSupport));
   const double base = 1.0 - inverse;
   const double threshold = base * base * base;
   const double slope = 6.0 * base * base * inverse / inner_radius_max;
-  // A margin for the float sum of n kernels.
+  // The subtracted term covers the rounding errors of adding n kernels in float.
   const double needed = (threshold - a * slope) - 1e-6 * static_cast<double>(n + 1);
   if (needed <= 0) return kInfinity;
   const double share = needed / static_cast<double>(n);
@@ -163,7 +166,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
   const auto size = [&](size_t i) { return wide(s.size[i]); };
   switch (s.kind) {
     case ShapeKind::sphere: {
-      // A sphere is invariant under rotation: its box is exact in any frame.
+      // A sphere is the same under any rotation, so its box ignores the rotation of its frame, and is exact.
       Frame upright;
       upright.origin = s.frame.origin;
       return placed(upright, size(0) + a, size(0) + a, size(0) + a);
@@ -199,7 +202,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
     case ShapeKind::prism:
       return prism(s, a);
     case ShapeKind::voxels: {
-      // Axis-aligned: an unbounded axis does not widen the others.
+      // The voxels are axis-aligned, so each axis is bounded separately: an infinite axis does not affect the others.
       WideBox box;
       for (size_t j = 0; j < 3; ++j) {
         const double half = size(j) + a + slack(size(j)) + slack(a), at = s.frame.origin[static_cast<int>(j)];
@@ -209,7 +212,8 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return box;
     }
     case ShapeKind::morph_power: {
-      // Radii are linear in t, so the ends of t's range bound them; the six given radii may be far outside that range.
+      // The radii are linear in the morph parameter t, so they are bounded by their values at both ends of t's range.
+      // Shape::size contains the radii at t = 0 and t = 1, which may be far larger than those that t reaches.
       const Range along = range(s.expr);
       std::array<double, 3> most{};
       double least = kInfinity;
@@ -244,7 +248,8 @@ WideBox Walker::sum(const Shape& s, double a) const {
   return box;
 }
 
-/// A level that drops an operand of an intersection drops the whole intersection, so every operand limits the box.
+/// Returns the intersection of the children's boxes. It is valid at every level of detail: a level that drops one
+/// operand of an intersection drops the whole intersection.
 WideBox Walker::allChildren(const Shape& s, double a) const {
   if (s.child_count == 0) return {};
   WideBox box = WideBox::everything();
@@ -265,7 +270,8 @@ WideBox Walker::level(uint32_t index, double a) const {
       return s.child_count == 0 ? WideBox{} : level(child(s, 0), a);
     case ShapeKind::unite_smooth: {
       const double k = wide(s.amount);
-      // The sum of n squares reaches (k - a)^2 only if one of them reaches at least 1 / n of it.
+      // For a < k, the round union of n children with the values d is at most `a` only if the squares of max(k - d, 0)
+      // add up to at least (k - a)^2. So at least one square is (k - a)^2 / n or more.
       return anyChild(s, a < k ? k - (k - a) / std::sqrt(static_cast<double>(std::max(1u, s.child_count))) : a);
     }
     case ShapeKind::sum:

@@ -1,5 +1,5 @@
 #pragma once
-// Conservative bounding boxes of shapes, from the semantics in shape.h.
+// Computes conservative bounding boxes of shapes, by the formulas in shape.h.
 
 #include <vector>
 
@@ -14,12 +14,12 @@ class ShapeBounds {
  public:
   explicit ShapeBounds(const GrammarChunk& chunk);
 
-  /// Returns a box that contains every integer point where the shape's field is at most `a` units, at every level
-  /// (whether or not `detail` drops parts there). Includes a margin for float rounding: one unit and 1e-6 of the size.
-  /// Axes without a bound extend to the ends of int32.
+  /// Returns a box that contains every integer point where the shape's field is at most `a` units, at every level of
+  /// detail (including levels where `detail` drops parts). Includes a margin for float rounding: one unit and 1e-6 of
+  /// the size. Axes without a bound extend to the ends of int32.
   IntBox level(uint32_t shape, double a) const;
 
-  /// The range of an expression's values at all positions.
+  /// Returns the range of an expression's values over all positions.
   Range range(uint32_t expr) const { return ranges_[expr]; }
 
  private:

@@ -7,8 +7,8 @@
 namespace sgm {
 namespace {
 
-/// A hash of a shape's content, independent of the positions of its parts in memory, and the levels that show the
-/// shape.
+/// A hash of a shape's content, which does not depend on the memory layout, and the range of cell edges (units) of the
+/// levels of detail that show the shape.
 struct Signature {
   uint64_t hash = 0;
   int32_t finest_cell = 0, coarsest_cell = std::numeric_limits<int32_t>::max();
@@ -28,12 +28,12 @@ struct Entry {
   }
 };
 
-/// Hashes the content to which a node refers instead of its index. Order for a shape: its own numbers, then its points,
-/// voxels, expressions and children.
+/// Hashes shapes, expressions and anchors. A reference is hashed as the content that it refers to, not as an index.
+/// Order for a shape: its own numbers, then its points, voxels, expressions and children.
 class Signer {
  public:
   explicit Signer(const CellContent& cell) : program_(cell.program), chunk_(*cell.chunk), exprs_(chunk_.exprs.size()) {
-    // Operands precede the expressions that use them.
+    // Operands precede the expressions that use them, so their hashes are computed first.
     for (size_t i = 0; i < exprs_.size(); ++i) {
       Content content(*this);
       visitMembers(chunk_.exprs[i], content);
@@ -90,7 +90,7 @@ class Signer {
       text(signer_.program_.names[name]);
       text(signer_.program_.tags[tag]);
     }
-    void key(PathKey) {}  // entries with other keys are others
+    void key(PathKey) {}  // not hashed, since Entry::key is compared separately
     void operand(uint32_t operand) { value(operand == kNone ? 0 : signer_.exprs_[operand]); }
     void noise(uint32_t noise) {
       if (noise != kNone) visitMembers(signer_.chunk_.noises[noise], *this);
@@ -119,7 +119,7 @@ class Signer {
       text(signer_.program_.materials[material]);
       text(signer_.program_.tags[tag]);
     }
-    void children(uint32_t, uint32_t) {}  // sign() adds them
+    void children(uint32_t, uint32_t) {}  // sign() adds the children's hashes
     void points(uint32_t first, uint32_t count) { first_point_ = first, point_count_ = count; }
     void expr(uint32_t root) { expr_ = root; }
     void block(uint32_t block) { block_ = block; }

@@ -5,7 +5,7 @@
 namespace sgm {
 namespace {
 
-/// Hashes members as they are in memory; references are hashed as indices.
+/// Hashes members in their order in memory. References to other elements are hashed as indices.
 class PlaceHasher {
  public:
   template <class T>
@@ -38,11 +38,12 @@ class PlaceHasher {
 void translate(GrammarChunk& chunk, Int3 offset) {
   const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
   for (Shape& s : chunk.shapes) {
-    // Combiners have no position of their own.
+    // Combiners have no position of their own, only their children have.
     if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power || s.kind == ShapeKind::voxels) {
       move(s.frame.origin);
     }
-    // A prism's points are local; a sweep's are in the world, both here and in expressions.
+    // A prism's points are in local coordinates and do not move. A sweep's points are in world coordinates, both here
+    // and in expressions.
     for (uint32_t i = 0; s.kind != ShapeKind::prism && i < s.point_count; ++i) move(chunk.points[s.first_point + i]);
   }
   for (VoxelBlock& b : chunk.blocks) move(b.anchor);

@@ -12,8 +12,8 @@ namespace sgm {
 /// saturate at the ends of the world. `cell` is unchanged.
 void translate(GrammarChunk& chunk, Int3 offset);
 
-/// Returns a hash of everything that affects a mesh or a game: all except notes and the order in memory. Equal on every
-/// machine.
+/// Returns a hash of the whole chunk, including the order and the indices of its elements, except its notes and its set
+/// of parameters. Equal on every machine.
 uint64_t hashChunk(const GrammarChunk& chunk);
 
 }  // namespace sgm

@@ -10,7 +10,8 @@
 namespace sgm {
 namespace {
 
-/// Decides for each shape whether it is visible, children before parents, and removes invisible children.
+/// Decides for each shape whether it is visible at the level of detail with the given cell edge, and removes invisible
+/// children from their parents. Visits children before parents.
 class CoarseShapes {
  public:
   CoarseShapes(GrammarChunk& chunk, int32_t cell_edge, const std::vector<bool>& left_out)
@@ -37,14 +38,14 @@ class CoarseShapes {
         s.child_count = 1 + keep(first + 1, s.child_count - 1);
         return true;
       case ShapeKind::sum:
-        // All children determine the scale of the sum, so it stays complete if any child is visible.
+        // The scale of the sum depends on all its children, so a sum keeps all of them if any is visible.
         return std::any_of(first, first + s.child_count, shown);
       default:
         return std::all_of(first, first + s.child_count, shown);
     }
   }
 
-  /// Moves the indices of visible shapes to the front; returns their number.
+  /// Moves the indices of visible children to the front of the range; returns the number of visible children.
   uint32_t keep(std::pmr::vector<uint32_t>::iterator first, uint32_t count) {
     const auto end = std::remove_if(first, first + count, [&](uint32_t child) { return !shows_[child]; });
     return static_cast<uint32_t>(end - first);

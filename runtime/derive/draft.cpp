@@ -163,7 +163,7 @@ uint32_t Draft::triple(const std::array<Num, 3>& n) {
   const uint32_t first = static_cast<uint32_t>(chunk_.exprs.size());
   for (uint32_t node : source) {
     Expr e;
-    e.op = ExprOp::maximum;  // max(x, x) = x, so the copy has the same value
+    e.op = ExprOp::maximum;  // max(x, x) = x, so the new expression has the same value as the operand
     e.a = e.b = node;
     chunk_.exprs.push_back(e);
   }
@@ -184,14 +184,14 @@ void Draft::setLine(uint32_t shape, uint32_t polyline) {
 
 uint32_t Draft::addPrismPoints(std::span<const Int3> points) {
   const auto first = static_cast<uint32_t>(chunk_.points.size());
-  double twice_area = 0;  // from x towards z, which is clockwise seen from +y
+  double twice_area = 0;  // positive if the corners run from x towards z, which is clockwise seen from +y
   for (size_t i = 1; i + 1 < points.size(); ++i) {
     const auto from_first = [&](int32_t at, int32_t first_at) { return static_cast<double>(int64_t{at} - first_at); };
     const Int3 &o = points[0], &a = points[i], &b = points[i + 1];
     twice_area += from_first(a.x, o.x) * from_first(b.z, o.z) - from_first(b.x, o.x) * from_first(a.z, o.z);
   }
   chunk_.points.insert(chunk_.points.end(), points.begin(), points.end());
-  // Reverses the order of the corners, except that the first stays first.
+  // Reverses the order of the corners, but keeps the first corner first.
   if (twice_area > 0) std::reverse(chunk_.points.begin() + first + 1, chunk_.points.end());
   return first;
 }

@@ -34,8 +34,9 @@ Range coordinateRange(const Expr& e, const IntBox* box) {
   return sum;
 }
 
-/// Widens a range by the rounding of one float operation and of the field's own division, root and noise. Integer ends
-/// stay unchanged: integers are exact floats and rounding never crosses one, so conditions stay 0 or 1.
+/// Widens a range by the rounding error of one float operation of the field. It also covers division, square root and
+/// noise, which the field implements itself. Integer ends stay unchanged: integers are exact in float and rounding
+/// never crosses one, so conditions stay 0 or 1.
 Range widened(Range r) {
   const auto slack = [](double v) {
     const bool whole = std::fabs(v) < 1e6 && v == std::floor(v);
@@ -44,7 +45,7 @@ Range widened(Range r) {
   return {r.lo - slack(r.lo), r.hi + slack(r.hi)};
 }
 
-/// The smoothstep of values in `x` between constant edges, in either order.
+/// Returns the range of smoothstep for values in `x`, between constant edges `low` and `high` in either order.
 Range smoothstepRange(Range x, Range low, Range high) {
   if (low.lo != low.hi || high.lo != high.hi || low.lo == high.lo) return {0, 1};
   const auto at = [&](double v) {
@@ -55,14 +56,14 @@ Range smoothstepRange(Range x, Range low, Range high) {
   return {std::max(0.0, std::min(a, b) - 1e-6), std::min(1.0, std::max(a, b) + 1e-6)};
 }
 
-/// The range of (1 - c) a + c b.
+/// Returns the range of (1 - c) a + c b.
 Range mixRange(Range a, Range b, Range c) {
   if (c.lo == 0 && c.hi == 0) return a;
   if (c.lo == 1 && c.hi == 1) return b;
   const Range step = multiplied({b.lo - a.hi, b.hi - a.lo}, c);
   const Range line{a.lo + step.lo, a.hi + step.hi};
   if (!(c.lo >= 0 && c.hi <= 1)) return line;
-  // For c in 0..1 the value lies between a and b, even if they are correlated.
+  // For c in 0..1 the value lies between a and b at every position, so it also lies in the hull of their ranges.
   return {std::max(line.lo, std::min(a.lo, b.lo)), std::min(line.hi, std::max(a.hi, b.hi))};
 }
 
@@ -111,7 +112,7 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
         break;
       case ExprOp::subtract:
         r = {a.lo - b.hi, a.hi - b.lo};
-        // a - floor(a) lies in 0..1.
+        // For any a, the difference a - floor(a) lies in 0..1.
         if (e.b < ranges.size() && exprs[e.b].op == ExprOp::floor && exprs[e.b].a == e.a) r = {0, 1};
         break;
       case ExprOp::multiply:
@@ -142,7 +143,7 @@ IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box
   IntBox out;
   for (int axis = 0; axis < 3; ++axis) {
     const Range by = ranges[offset + static_cast<uint32_t>(axis)];
-    // Two units cover the rounding of positions to units.
+    // The margin of two units covers the rounding of positions to units.
     const double lo = std::floor(box.lo[axis] + by.lo * kUnitsPerMetre) - 2;
     const double hi = std::ceil(box.hi[axis] + by.hi * kUnitsPerMetre) + 2;
     out.lo[axis] = static_cast<int32_t>(std::max<double>(lo, all.lo[axis]));

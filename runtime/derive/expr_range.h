@@ -17,8 +17,8 @@ struct Range {
 /// rounding of the field's float arithmetic. Noise has the range -1..1, a sweep 0..1.
 std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box = nullptr);
 
-/// Returns a box that contains all positions to which a warp moves the points of `box`. offset: index of the first of
-/// the three expressions of the displacement, in metres. Saturates.
+/// Returns a box that contains all positions to which a warp moves the points of `box`, saturated to int32. offset:
+/// index of the first of the three expressions of the displacement, in metres.
 IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box);
 
 }  // namespace sgm

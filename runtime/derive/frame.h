@@ -22,7 +22,7 @@ struct Vec3 {
 double dot(Vec3 a, Vec3 b);
 Vec3 cross(Vec3 a, Vec3 b);
 double length(Vec3 a);
-Vec3 normalised(Vec3 a);  ///< a zero vector stays zero
+Vec3 normalised(Vec3 a);  ///< returns the unit vector in this direction; a zero vector stays zero
 /// Returns the unit vector perpendicular to `tangent` (of length 1) that is closest to `wanted`.
 Vec3 across(Vec3 tangent, Vec3 wanted);
 
@@ -33,15 +33,16 @@ int32_t toUnits(double metres);
 /// orthonormal; with a mirror their determinant is -1. The scale is uniform and positive, since a non-uniform scale
 /// would shear rotated content.
 struct Placement {
-  Int3 base;                                              ///< low corner of the cell being derived, units
-  Vec3 offset;                                            ///< metres, relative to base
+  Int3 base;    ///< low corner of the cell being derived, units
+  Vec3 offset;  ///< origin of the local coordinates, in metres relative to base
   std::array<double, 9> axes{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row-major matrix whose columns are the local axes
   double scale = 1;
 
-  Vec3 direction(Vec3 local) const;  ///< to a direction in the world: rotated and mirrored, but not scaled
-  Vec3 toCell(Vec3 local) const;     ///< to metres relative to base
-  Vec3 fromCell(Vec3 cell) const;    ///< inverse of toCell()
-  Int3 snap(Vec3 local) const;       ///< to world units, rounded to nearest
+  /// converts a local direction to the world: rotates and mirrors, but does not scale
+  Vec3 direction(Vec3 local) const;
+  Vec3 toCell(Vec3 local) const;   ///< converts a local position to metres relative to base
+  Vec3 fromCell(Vec3 cell) const;  ///< inverse of toCell()
+  Int3 snap(Vec3 local) const;     ///< converts a local position to world units, rounded to nearest
 
   Placement moved(Vec3 local) const;
   /// Returns the placement rotated right-handed by `angle` radians (at most 1e6) about `axis`, which may have any
@@ -50,7 +51,8 @@ struct Placement {
   Placement scaled(double factor) const;
   Placement mirrored(int axis) const;
 
-  /// Returns the frame of a shape centred at `local`. The centre is rounded to units, and the rows once to float.
+  /// Returns the frame of a shape centred at `local`. The centre is rounded to units, and the rows, which are computed
+  /// in double precision, to float.
   Frame frame(Vec3 local = {}) const;
 };
 

@@ -16,7 +16,8 @@ PathKey cellHash(uint64_t seed, uint64_t salt, Int3 c) {
                       coordinate(c.z))};
 }
 
-/// Returns the coordinate of a random point in 0..size - 1, units. unit: a draw in 0..1; jitter 0: the middle.
+/// Returns a random coordinate in 0..size - 1, units. unit: a draw in 0..1; jitter 0: the middle of the range; 1:
+/// anywhere.
 int32_t jittered(int32_t size, double jitter, double unit) {
   const double at = detFloor(size * (0.5 + jitter * (unit - 0.5)));
   return static_cast<int32_t>(std::clamp(at, 0.0, static_cast<double>(size) - 1.0));
@@ -24,8 +25,9 @@ int32_t jittered(int32_t size, double jitter, double unit) {
 
 int32_t shifted(int32_t v, int levels) { return v >> levels; }
 
-/// True if the edge (axis, corner) of the cube of children is in the node's spanning tree: Kruskal over hashed weights.
-/// Corner bits are the child's x, y, z; the bit of `axis` is 0.
+/// True if the node's spanning tree contains the edge (axis, corner) between two of its eight children. The tree is the
+/// minimum spanning tree over hashed weights (Kruskal). corner: its bits 0, 1, 2 are the position in x, y, z of the
+/// edge's lower child within the node; the bit of `axis` is 0.
 bool inSpanningTree(const Lattice& lattice, PathKey node, int axis, int corner) {
   struct Edge {
     uint64_t weight;
@@ -56,7 +58,8 @@ bool inSpanningTree(const Lattice& lattice, PathKey node, int axis, int corner) 
   return false;
 }
 
-/// True if `key` chooses the face among the 2^levels by 2^levels (or 2^levels) faces of its plane.
+/// True if the hash of `key` and `draw` selects this face. The candidates are the faces in one plane of an octree node:
+/// 2^levels along each axis of the plane that is divided into cells.
 bool isChosen(const Lattice& lattice, PathKey key, uint64_t draw, FaceId face, int levels) {
   const uint64_t bits = hashCombine(key.value, draw);
   const uint64_t mask = (uint64_t{1} << levels) - 1;
@@ -113,8 +116,8 @@ std::vector<FaceId> Lattice::ownedFaces(Int3 cell) const {
 }
 
 bool Lattice::linked(FaceId face, int tree, double extra) const {
-  // The two cells differ in the bits from the lowest up to the first 0 of the lower coordinate, so their lowest common
-  // octree node is one level above that bit.
+  // The lower and the upper cell's coordinates differ in the bits from bit 0 up to the lowest 0 bit of the lower
+  // coordinate, so their lowest common octree node is one level above that bit.
   int level = 1;
   while (level <= tree && ((coordinate(face.lower[face.axis]) >> (level - 1)) & 1) != 0) ++level;
   bool compulsory = false;

@@ -25,28 +25,30 @@ struct FaceId {
 };
 
 struct Lattice {
-  uint64_t seed = 0;  ///< combines the seeds of the world, the grammar and the layer
+  uint64_t seed = 0;  ///< hash of the seeds of the world, the grammar and the layer
   Int3 size;          ///< edges of a cell in units; 0 along axes that are not divided into cells
 
   bool hasAxis(int axis) const { return size[axis] > 0; }
   PathKey cellKey(Int3 cell) const;
   PathKey faceKey(FaceId face) const;
 
-  /// Returns the low corner of `cell` relative to that of `home`, in units. The cells may be up to a few thousand cells
-  /// apart.
+  /// Returns the low corner of `cell` relative to the low corner of `home`, in units. The cells may be up to a few
+  /// thousand cells apart.
   Int3 lowFrom(Int3 home, Int3 cell) const;
   /// Returns a random point of the cell relative to the low corner of `home`, in units. jitter 0: the centre; 1:
   /// anywhere in the cell.
   Int3 point(Int3 home, Int3 cell, double jitter) const;
-  /// Returns a random point of the face, like point(); its coordinate along the face's axis lies in the face.
+  /// Returns a random point of the face relative to the low corner of `home`, in units; its coordinate along the face's
+  /// axis lies in the face.
   Int3 facePoint(Int3 home, FaceId face, double jitter) const;
 
-  /// The faces that the cell owns: one along each axis that is divided into cells.
+  /// Returns the faces that the cell owns: one along each axis that is divided into cells.
   std::vector<FaceId> ownedFaces(Int3 cell) const;
   /// Whether a passage crosses the face. The world is divided into blocks of 2^tree cells per side, each with an
-  /// octree. Every node of the octree joins its children by a hash-chosen spanning tree; each edge of this tree is one
-  /// hash-chosen face. Neighbouring blocks are joined by one face. So every block is connected in itself and to all its
-  /// neighbours. Each other face is open with probability `extra`. The cost is one node test. tree: 0..20.
+  /// octree. In every octree node, a random spanning tree connects the children; for each edge of this tree, one
+  /// randomly chosen face between the two children is open. One face between each pair of neighbouring blocks is open,
+  /// too. So every block is connected in itself and to all its neighbours. Each other face is open with probability
+  /// `extra`. A call examines only one octree node. tree: 0..20.
   bool linked(FaceId face, int tree, double extra) const;
   /// Returns the faces of ownedFaces() for which linked() is true.
   std::vector<FaceId> links(Int3 cell, int tree, double extra) const;

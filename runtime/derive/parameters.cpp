@@ -11,7 +11,7 @@ namespace {
 
 std::string numberText(double v) { return generalText(v); }
 
-/// "; it has boxy, wet".
+/// Returns the parameters' names as the end of an error message, such as "; it has boxy, wet".
 std::string namesOf(const Program& program) {
   std::string list;
   for (const Param& param : program.params)

@@ -1,5 +1,5 @@
 #pragma once
-// The values of a program's parameters, as set by the host.
+// The values of a program's parameters, which the host sets.
 
 #include <string_view>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// One number for each of Program::params, in their order; metres, radians or plain ratios.
+/// One number for each element of Program::params, in the same order, in metres or radians or without unit.
 struct ParameterValues {
   std::vector<double> values;
 

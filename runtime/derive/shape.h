@@ -30,53 +30,62 @@ struct Frame {
 /// Leaves give a distance in units, negative inside; their comments describe Shape::size, in units unless noted.
 /// Combiners combine the fields of their children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
 enum class ShapeKind : uint8_t {
-  sphere,           ///< size: r
-  box,              ///< size: half extents x y z
-  cylinder,         ///< axis y, centre at origin; size: r, half height
-  truncone,         ///< axis y, centre at origin; size: bottom radius, top radius, half height
-  capsule,          ///< from the origin to origin + size[1..3] (in world axes); size[0]: r. Frame::rows is unused
-  torus,            ///< axis y; size: ring radius, tube radius
-  ellipsoid,        ///< size: radii x y z; field (|q/radii| - 1) * min(radii)
-  superquadric,     ///< size: radii x y z, exponent n >= 2 (no unit); field (||q/radii||_n - 1) * min(radii)
-  halfspace,        ///< solid below the plane local y = 0
-  prism,            ///< polygon in local xz, counter-clockwise seen from +y, extruded along y; size: half height
-  unite,            ///< hard union of the children
-  meet,             ///< hard intersection of the children
-  subtract,         ///< the first child minus all others
+  sphere,        ///< size: r
+  box,           ///< size: half extents x y z
+  cylinder,      ///< axis y, centre at origin; size: r, half height
+  truncone,      ///< axis y, centre at origin; size: bottom radius, top radius, half height
+  capsule,       ///< from the origin to origin + size[1..3] (in world axes); size[0]: r. Frame::rows is unused
+  torus,         ///< axis y; size: ring radius, tube radius
+  ellipsoid,     ///< size: radii x y z; field (|q/radii| - 1) * min(radii)
+  superquadric,  ///< size: radii x y z, exponent n >= 2 (no unit); field (||q/radii||_n - 1) * min(radii)
+  halfspace,     ///< solid below the plane y = 0 of the local frame
+  prism,     ///< polygon in the local x-z plane, counter-clockwise seen from +y, extruded along y; size: half height
+  unite,     ///< hard union of the children
+  meet,      ///< hard intersection of the children
+  subtract,  ///< the first child minus all others
   unite_smooth,     ///< round union, radius `amount` units: max(k, min d) - sqrt(sum max(k - d, 0)^2)
-  meet_smooth,      ///< round intersection, as unite_smooth of the negated children
+  meet_smooth,      ///< round intersection: the negated unite_smooth of the negated children
   subtract_smooth,  ///< the first child minus the others, rounded by `amount`
-  sum,              ///< compact-kernel sum over leaves d with inner radius r (Shape::inner_radius):
-        ///< (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L, T = the kernel at d = 0, so that a lone leaf keeps
-        ///< its surface; L = the largest inner radius / the kernel's slope there. Zero set grows at most to the support
-  morph,        ///< two children A and B: (1 - t) A + t B; t = `expr`, or `amount` if expr is kNone; clamped to 0..1
-  morph_power,  ///< no child; superquadric of radii size[0..2] at t = 0 to size[3..5] at t = 1, its exponent
-                ///< 2 / (1 - t + t/kMaxPower*2): from ellipsoid to box by the exponent
-  displace,     ///< one child, plus 1024 * expr (expr in metres)
-  warp,         ///< one child, read at p + round(1024 * (expr, expr + 1, expr + 2)) (each in metres)
-  voxels,       ///< no child; size: half extents x y z, upright; max(samples of `block` (field/voxels.h), that box)
+  /// Smooth sum of leaves with a compact kernel. d: distance of a leaf, r: its inner radius (Shape::inner_radius).
+  /// Field: (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L. T is the kernel at d = 0, so that a single leaf
+  /// keeps its surface; L is the largest inner radius divided by the kernel's slope at d = 0. The surface grows at most
+  /// to the kernel's support.
+  sum,
+  morph,  ///< two children A and B: (1 - t) A + t B; t = `expr`, or `amount` if expr is kNone; clamped to 0..1
+  /// No child. A superquadric with radii size[0..2] at t = 0 and size[3..5] at t = 1. The exponent 2 / (1 - t +
+  /// t/kMaxPower*2) changes it from an ellipsoid to a box.
+  morph_power,
+  displace,  ///< field of the only child plus 1024 * expr (expr in metres)
+  /// field of the only child at p + round(1024 * (expr, expr + 1, expr + 2)) (three consecutive expressions, in metres)
+  warp,
+  /// no child; size: half extents x y z of an axis-aligned box; field: max(samples of `block` (field/voxels.h), box)
+  voxels,
 };
 
-inline constexpr float kSumSupport = 1.6f;  ///< support of the sum's kernel as a multiple of the inner radius
+inline constexpr float kSumSupport = 1.6f;  ///< radius of the sum's kernel support, as a multiple of the inner radius
 inline constexpr float kMaxPower = 20.0f;   ///< exponent of the superquadric at squareness 1
 
 struct Shape {
   ShapeKind kind = ShapeKind::sphere;
-  /// index into the grammar's materials; 0: inherits the material of the solid (for a cut), or the default
+  /// index into the grammar's materials; 0: a cut keeps the material of the solid that it cuts, another shape gets the
+  /// default
   uint16_t material = 0;
   uint16_t tag = 0;                           ///< index into the grammar's tags; 0: none
-  uint32_t first_child = 0, child_count = 0;  ///< range in GrammarChunk::children
-  uint32_t expr = kNone;                      ///< root in GrammarChunk::exprs
+  uint32_t first_child = 0, child_count = 0;  ///< range of the children in GrammarChunk::children
+  uint32_t expr = kNone;                      ///< index in GrammarChunk::exprs of the root expression; kNone: none
   /// Range in GrammarChunk::points. A prism: its corners. A sweep (one shape, or the union of its pieces): the polyline
   /// that it follows, used only for texture coordinates.
   uint32_t first_point = 0, point_count = 0;
-  uint32_t block = kNone;  ///< voxels: index in GrammarChunk::blocks
-  int32_t detail = 0;      ///< the shape is dropped at levels whose cell edge is larger than this, in units; 0: never
-  /// by `lod`: the shape is dropped at levels whose cell edge is smaller than this, in units; 0: never
+  uint32_t block = kNone;  ///< index in GrammarChunk::blocks of a shape of kind `voxels`
+  /// the shape is dropped at levels whose cell edge is larger than this, in units; 0: it has no such limit
+  int32_t detail = 0;
+  /// the shape is dropped at levels whose cell edge is smaller than this, in units (set by `lod`); 0: it has no such
+  /// limit
   int32_t coarsest = 0;
-  float amount = 0;             ///< radius of a smooth combiner in units, or t of a morph with constant t
-  float inner_radius = 0;       ///< only for leaves in a sum, units
-  std::array<float, 6> size{};  ///< by kind; for the union of a sweep's pieces: its radius, units
+  float amount = 0;        ///< radius of a smooth combiner in units, or t of a morph with constant t
+  float inner_radius = 0;  ///< inner radius in units; used only for leaves in a sum
+  /// sizes, described at ShapeKind; for the union of a sweep's pieces: the sweep's radius, units
+  std::array<float, 6> size{};
   Frame frame;
 };
 
@@ -86,7 +95,9 @@ enum class ExprOp : uint8_t {
   constant,    ///< value
   coordinate,  ///< (row . float(p - anchor)) / 1024: the coordinate along any axis of the world or of a local frame
   noise,       ///< fractal gradient noise in -1..1, with the settings GrammarChunk::noises[Expr::noise]
-  sweep,       ///< 0..1 along the polyline points[first_point .. first_point + point_count), at the nearest segment
+  /// position along the polyline points[first_point .. first_point + point_count), 0 to 1, of the point nearest to the
+  /// sample
+  sweep,
   negate,
   absolute,
   floor,
@@ -113,10 +124,10 @@ struct Expr {
 };
 
 struct NoiseSpec {
-  Int3 origin;  ///< position of a lattice corner, units
+  Int3 origin;  ///< position of one lattice corner, units
   /// lattice edge of the first octave in units, at least 1; each further octave halves it
   int32_t period = kUnitsPerMetre;
-  uint32_t octaves = 1;  ///< 1..12; the field drops octaves whose period is shorter than two cells
+  uint32_t octaves = 1;  ///< number of octaves, 1 to 12; the field drops octaves whose period is shorter than two cells
   uint32_t seed = 0;
 };
 
@@ -124,9 +135,10 @@ struct NoiseSpec {
 /// bit first_word * 64, is set if the block's i-th voxel (x fastest) is solid. Along an axis with a count of 0 all
 /// voxels are equal.
 struct VoxelBlock {
-  Int3 anchor;       ///< units; common to all voxels of the world, so that neighbouring blocks share positions
+  /// centre of voxel 0 0 0, units; common to all voxels of the world, so that neighbouring blocks share positions
+  Int3 anchor;
   int32_t edge = 0;  ///< units
-  Int3 first;        ///< index of the lowest voxel
+  Int3 first;        ///< index of the lowest voxel along each axis
   Int3 count;
   uint32_t first_word = 0;
 
@@ -142,12 +154,12 @@ struct VoxelBlock {
 /// shape is evaluated, at every level (see field/voxels.h).
 inline constexpr int32_t kVoxelMargin = 12;
 
-/// A top-level shape. Groups are combined by hard min (add) or max (cut), each as a whole.
+/// A top-level shape. Each group adds to the field by a hard min, or cuts from it by a hard max.
 struct Group {
-  uint32_t root = 0;  ///< in GrammarChunk::shapes
+  uint32_t root = 0;  ///< index of the top-level shape in GrammarChunk::shapes
   bool cut = false;
   IntBox bounds;  ///< contains every point where the root shape's field is <= 0, at every level
-  PathKey key;    ///< sorts the groups of a layer, so that their order does not depend on derivation
+  PathKey key;    ///< sorts the groups of a layer, so that their order does not depend on the order of derivation
 };
 
 /// An oriented point for gameplay, emitted only by the cell that contains it.
@@ -163,14 +175,15 @@ struct Anchor {
 /// A note about a shape that was left out, with the reason; the rest of the cell is complete.
 struct DeriveNote {
   std::string message;
-  std::string path;  ///< derivation path of the activation: "net(0, 0, -1)/Node/Chamber[0]", as in overrides
+  /// derivation path of the activation, such as "net(0, 0, -1)/Node/Chamber[0]", in the format of overrides
+  std::string path;
   int line = 0, column = 0;
 };
 
 /// Everything derived from one cell of one layer.
 struct GrammarChunk {
   uint32_t layer = 0;
-  Int3 cell;  ///< cell coordinates, in cells
+  Int3 cell;  ///< coordinates of the cell, counted in cells
   /// Bit set (parameterBit) of the parameters read by this cell and by the layers below it. Changing only other
   /// parameters does not change the result.
   uint64_t parameters = 0;
@@ -178,7 +191,8 @@ struct GrammarChunk {
   std::pmr::vector<uint32_t> children;
   std::pmr::vector<Expr> exprs;
   std::pmr::vector<NoiseSpec> noises;
-  std::pmr::vector<Int3> points;  ///< sweep: positions in the world, units; prism: local coordinates in x and z, units
+  /// points of sweeps: world positions in units; points of prisms: local x and z in units
+  std::pmr::vector<Int3> points;
   std::pmr::vector<VoxelBlock> blocks;
   std::pmr::vector<uint64_t> voxels;
   std::pmr::vector<Group> groups;
@@ -198,9 +212,9 @@ struct GrammarChunk {
         notes(memory) {}
 };
 
-// Lists the members of each struct once, for all functions that hash or compare them. Each list destructures its
-// struct, so that a new member does not compile until it is listed. References to other parts of the chunk are passed
-// to visitor functions of their own, which may process either the index or the content that it refers to.
+// Each function lists the members of one struct, for all code that hashes or compares them. It destructures the struct,
+// so that a new member does not compile until it is listed. References to other parts of the chunk are passed to
+// separate visitor functions, which may process either the index or the content that it refers to.
 
 template <class V>
 void visitMembers(const Shape& shape, V& v) {
@@ -239,7 +253,7 @@ void visitMembers(const NoiseSpec& spec, V& v) {
   v.value(uint64_t{octaves} | uint64_t{seed} << 32);
 }
 
-/// Without first_word: the block's voxels are visited separately.
+/// Does not visit first_word, which depends on the order in memory; the voxels are visited separately.
 template <class V>
 void visitMembers(const VoxelBlock& block, V& v) {
   const auto& [anchor, edge, first, count, first_word] = block;

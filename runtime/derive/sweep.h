@@ -1,5 +1,5 @@
 #pragma once
-// Tubes and beams: a quadratic bend, flattened to segments.
+// Tubes and beams: computes an arc between two points, divided into straight segments.
 
 #include <array>
 #include <span>
@@ -24,9 +24,9 @@ struct LineFrame {
 /// Returns one frame per segment. The first normal is as close to `up` as possible. Consecutive corners must differ.
 std::vector<LineFrame> framesAlong(std::span<const Int3> corners, Vec3 up);
 
-/// A box around one segment, with a square section of half edge r (units). The box extends beyond both ends by r, so
-/// that it contains the segment of a round tube. The section follows the polyline without twist; one of its sides
-/// starts as close to `up` as possible.
+/// A box around one segment of a polyline, with a square cross-section of half edge r (units). The box extends beyond
+/// both ends by r, so that it contains the segment of a round tube. The cross-section follows the polyline without
+/// twist; one of its sides starts as close to `up` as possible.
 struct BeamPiece {
   Frame frame;
   std::array<float, 3> half{};  ///< half extents, units

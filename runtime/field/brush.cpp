@@ -19,8 +19,8 @@ Error badSize(const char* what, int64_t size, int32_t least) {
 
 bool inside(int64_t size, int32_t least) { return size >= least && size <= kMaxBrushSize; }
 
-// The rotation from world to local axes, from a quaternion of any length: products of its components, divided by its
-// squared length, so that no square root is rounded.
+// Returns the rotation from world to local axes. The quaternion may have any length: products of its components are
+// divided by its squared length, so that no square root is rounded.
 Frame frameOf(const Brush& brush) {
   const double x = double{brush.turn[0]}, y = double{brush.turn[1]}, z = double{brush.turn[2]},
                w = double{brush.turn[3]};
@@ -41,7 +41,7 @@ struct Box64 {
   std::array<int64_t, 3> lo{}, hi{};
 };
 
-// Returns the bounds of the shape and its blend, plus one unit for the rounding of floats.
+// Returns the bounds of the shape and its blend, plus a margin of one unit for float rounding.
 Box64 bounds64(const Brush& brush) {
   std::array<int64_t, 3> reach{};
   reach.fill(brush.radius);

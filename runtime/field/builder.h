@@ -13,13 +13,13 @@
 
 namespace sgm {
 
-/// The program of the groups so far, and the ops of the group under construction. Not thread-safe. Lengths are in units
-/// unless noted; all numbers must be finite, and sizes positive. Primitives and coordinates read the current place, a
-/// position: the sample's, or the result of the innermost warp (pushWarp).
+/// Contains the program of the completed groups, and the ops of the group under construction. Not thread-safe. Lengths
+/// are in units unless noted; all numbers must be finite, and sizes positive. Primitives and coordinates read the
+/// current place: the sample's position, or the result of the innermost warp (pushWarp).
 class ProgramBuilder {
  public:
-  /// finest_cell: in units, at least 1; sets the scale of the quantised samples Q. solid, label: of the domain, which
-  /// has no shape.
+  /// finest_cell: in units, at least 1; sets the scale of the quantised samples Q. solid, label: content and label of
+  /// the domain, where no shape is.
   ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
@@ -31,41 +31,46 @@ class ProgramBuilder {
   Value torus(const Frame& frame, float ring, float tube, uint32_t label);
   Value ellipsoid(const Frame& frame, float x, float y, float z, uint32_t label);
   Value superquadric(const Frame& frame, float x, float y, float z, float exponent, uint32_t label);
-  /// An ellipsoid of powers whose radii change from size[0..2] at t = 0 to size[3..5] at t = 1.
+  /// A superquadric whose radii change from size[0..2] at t = 0 to size[3..5] at t = 1, and its shape from an ellipsoid
+  /// to a box.
   Value powerMorph(const Frame& frame, std::span<const float, 6> size, Value t, uint32_t label);
   Value halfspace(const Frame& frame, uint32_t label);
-  /// A prism with this base: x and z of at least three local corners, in units, counter-clockwise seen from +y.
+  /// A prism. corners: x and z of the corners of its base, at least three, in local units, counter-clockwise seen from
+  /// +y.
   Value prism(const Frame& frame, float half_height, std::span<const Int3> corners, uint32_t label);
 
   /// Interpolates a lattice of samples. samples: one per point, in units, multiples of 1/1024. limit: a value of at
   /// least this magnitude becomes the far value (1e18) of its sign.
   Value lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label);
 
-  /// An operand of a sum: a ball, which is cheap, or any distance with its inner radius. Radii are in units and above
-  /// 0.
+  /// blobWeight() returns an operand of a kernel sum for a ball, which is cheap to evaluate; kernelWeight() returns one
+  /// for any shape, given its distance and its inner radius. Radii are in units and above 0.
   Value blobWeight(Int3 centre, float radius, uint32_t label);
   Value kernelWeight(Value distance, float inner_radius);
 
   Value constant(float value);  ///< clamped to +-1e18
-  /// row . (place - anchor), in metres; the row is dimensionless.
+  /// Returns row . (place - anchor), in metres; the row is dimensionless.
   Value coordinate(Int3 anchor, float row_x, float row_y, float row_z);
-  /// Evaluates the first `octaves` octaves of a noise; the amplitude stays normalised for all spec.octaves.
+  /// Evaluates the first `octaves` octaves of a noise. The amplitude is normalised as if all spec.octaves octaves were
+  /// evaluated.
   Value noise(const NoiseSpec& spec, uint32_t octaves);
-  /// The parameter along a polyline of at least two points: 0 at the first point, 1 at the last.
+  /// Returns the parameter of the nearest point on a polyline of at least two points: 0 at the first point, 1 at the
+  /// last.
   Value sweep(std::span<const Int3> polyline);
-  Value unary(Op op, Value a);                          ///< op: copy, negate, absolute, floor, square_root
-  Value binary(Op op, Value a, Value b);                ///< op: add to divide, less, minimum, maximum, cut, displace
-  Value ternary(Op op, Value a, Value b, Value c);      ///< op: mix, morph
-  Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falling if upper < lower
+  Value unary(Op op, Value a);  ///< op: one of copy, negate, absolute, floor, square_root
+  /// op: one of add, subtract, multiply, divide, less, minimum, maximum, cut, displace
+  Value binary(Op op, Value a, Value b);
+  Value ternary(Op op, Value a, Value b, Value c);      ///< op: one of mix, morph
+  Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; the result falls with x if upper < lower
 
-  /// Evaluates the values that follow at the position p + round(1024 (x, y, z)), until popWarp(). p: the current place;
-  /// x, y, z: in metres.
+  /// Makes all following ops, until popWarp(), read the position p + round(1024 (x, y, z)). p: the current place; x, y,
+  /// z: in metres.
   void pushWarp(Value x, Value y, Value z) { ops_.pushWarp(x, y, z); }
   void popWarp() { ops_.popWarp(); }
 
-  /// Ends the group. Groups must be emitted in order of layer, and adds before cuts within a layer; a smooth group must
-  /// be the only one of its layer. smooth: width of the blend in units, at most 2^20; 0: none. Error: limit if the
-  /// group needs more registers or places than exist.
+  /// Ends the group. Groups must be emitted in order of layer, and within a layer those that add before those that cut;
+  /// a smooth group must be the only one of its layer. smooth: width of the blend in units, at most 2^20; 0: none.
+  /// Error: limit if the group needs more registers or places than exist.
   Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth = 0);
 
   FieldProgram finish() { return std::move(program_); }
@@ -80,8 +85,8 @@ class ProgramBuilder {
   OpSequence ops_;
 };
 
-/// A round union over any number of operands: the two values that accumulate them. No other functions may read these
-/// values. The builder must outlive the union, and the union must end within its group.
+/// Accumulates a round union over any number of operands, in two values. No other functions may read these values. The
+/// builder must outlive the union, and the union must end within its group.
 class RoundUnion {
  public:
   /// k: the radius of the rounding in units.
@@ -95,7 +100,8 @@ class RoundUnion {
   Value sum_, nearest_;
 };
 
-/// A sum with a compact kernel over any number of operands: the two values that accumulate them, as in RoundUnion.
+/// Accumulates a sum with a compact kernel over any number of operands, in two values, with the same rules as
+/// RoundUnion.
 class KernelSum {
  public:
   explicit KernelSum(ProgramBuilder& builder);

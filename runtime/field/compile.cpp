@@ -13,7 +13,7 @@ namespace sgm {
 namespace {
 
 struct Gathered {
-  size_t cell;  ///< index in the cells passed to compileField
+  size_t cell;  ///< index in the `cells` passed to compileField
   uint32_t group;
   uint32_t layer;
   bool cut;
@@ -25,10 +25,12 @@ struct Gathered {
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory, std::span<const HostField> hosts,
                                   std::span<const Brush> brushes) {
-  // Growing arrays allocate from this buffer, because each request to `memory` is counted, which threads contend for.
+  // Growing arrays allocate from this buffer: each request to `memory` updates a shared counter, for which threads
+  // contend.
   std::array<std::byte, 8192> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
-  // The samples of a host field can be large, and the scratch buffer never frees memory that an array has outgrown.
+  // The scratch buffer never frees memory that an array has outgrown. The samples of host fields can be large, so if
+  // there are host fields, the builder allocates from `memory`.
   std::pmr::memory_resource* large = hosts.empty() ? &scratch : memory;
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(&scratch);

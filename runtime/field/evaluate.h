@@ -11,10 +11,10 @@
 
 namespace sgm {
 
-/// number of points that an evaluator sends through a program together; their registers fit in the cache
+/// number of points that an evaluator processes together; their registers fit in the processor's cache
 inline constexpr size_t kEvalBlock = 256;
 
-/// Scratch memory of one thread: reused, grows to the size of the largest program.
+/// Scratch memory of one thread. It can be reused, and grows to the size of the largest program.
 class EvalScratch {
  public:
   explicit EvalScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : words_(memory) {}
@@ -23,13 +23,13 @@ class EvalScratch {
     return words_.data();
   }
 
-  uint64_t operations = 0;  ///< counted by countingKernels() only
+  uint64_t operations = 0;  ///< number of operations, counted by countingKernels() only
 
  private:
   std::pmr::vector<uint32_t> words_;
 };
 
-/// Points by axis, in units; not owned.
+/// Coordinates of points in units, one array per axis. Does not own the arrays.
 struct Points {
   const int32_t* x = nullptr;
   const int32_t* y = nullptr;
@@ -59,7 +59,7 @@ struct Attributes {
   float* gradient_x = nullptr;
   float* gradient_y = nullptr;
   float* gradient_z = nullptr;
-  int16_t* normal_x = nullptr;  ///< octahedral normal, packed as in Vertex
+  int16_t* normal_x = nullptr;  ///< octahedral normal in two components, packed as in Vertex
   int16_t* normal_y = nullptr;
   uint32_t* label = nullptr;  ///< tag << 16 | material
 };
@@ -76,8 +76,8 @@ struct FieldKernels {
 /// Returns the evaluator that computes one point at a time with plain floats.
 const FieldKernels& scalarKernels();
 
-/// Same as scalarKernels(), but adds the number of instructions times points to EvalScratch::operations. That is the
-/// work of every evaluator of this interface, except for the padding of a block's last vector.
+/// Same as scalarKernels(), but adds the number of instructions times points to EvalScratch::operations. All evaluators
+/// of this interface do that amount of work, except for the padding of a block's last vector.
 const FieldKernels& countingKernels();
 
 }  // namespace sgm

@@ -22,7 +22,7 @@ inline BlockFrame makeFrame(EvalScratch& scratch) {
   return {words, words + registers, words + registers + places};
 }
 
-// Copies a block's points to place 0. The last point is repeated to fill whole vectors.
+// Copies the positions of a block's points to place 0. The last point is repeated to fill whole vectors.
 inline size_t loadPoints(const BlockFrame& f, const Points& points, size_t first, size_t count) {
   const size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   const int32_t* axes[3] = {points.x + first, points.y + first, points.z + first};
@@ -46,7 +46,7 @@ inline void evaluateSamples(const ProgramView& program, const Points& points, Ev
   }
 }
 
-/// Loads the x and y coordinates of slices of a box, enough for `padded` points.
+/// Writes the x and y coordinates of successive slices of a box to place 0, for `padded` points.
 inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded) {
   uint32_t *x = f.places, *y = f.places + kEvalBlock, row[kEvalBlock];
   const size_t width = box.size[0];
@@ -54,7 +54,7 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
   size_t at = 0;
   for (size_t j = 0; at + width <= padded; j = j + 1 == box.size[1] ? 0 : j + 1, at += width) {
     const auto height = static_cast<uint32_t>(box.origin.y + static_cast<int32_t>(j) * box.step);
-    if (width == kRow) {  // most blocks have this length, which is a compile-time constant
+    if (width == kRow) {  // most blocks have this width, and a copy of constant size is faster
       memcpy(x + at, row, kRow * sizeof(uint32_t));
       for (size_t i = 0; i < kRow; ++i) y[at + i] = height;
     } else {

@@ -5,7 +5,7 @@
 
 inline constexpr size_t kRow = 8;  ///< maximum number of points along x in a row of a block
 
-/// A block whose points are a lattice: full rows, with `rows` rows per slice and `slices` slices.
+/// The lattice of a block's points: full rows of points, `rows` rows per slice, and `slices` slices.
 struct BlockLattice {
   Int3 origin;
   int32_t step;
@@ -19,8 +19,8 @@ struct BlockFrame {
   const BlockLattice* lattice = nullptr;  ///< null if the points are not on a lattice
 };
 
-// A register of a program is one plane of kEvalBlock words for its value; in gradient mode, four more for gradient and
-// label.
+// The words of a register of a program: one plane of kEvalBlock words for its value; in gradient mode, four more planes
+// for gradient and label.
 template <bool kGradient>
 inline constexpr size_t kRegisterWords = kEvalBlock * (kGradient ? 5 : 1);
 inline constexpr size_t kFoldRegister = kMaxRegisters;
@@ -57,8 +57,8 @@ FN Real loadJacobian(const BlockFrame& f, size_t place, size_t entry, size_t i) 
   return loadReal(f.jacobians + (place * 9 + entry) * kEvalBlock + i);
 }
 
-// Converts the gradient of a value that was evaluated at a warped place to one with respect to the sample's own
-// position, by the transposed Jacobian of the warp.
+// Converts the gradient of a value that was evaluated at a warped place to the gradient with respect to the sample's
+// own position, by the transposed Jacobian of the warp.
 template <bool kGradient>
 FN Dual toWorld(const BlockFrame& f, size_t place, size_t i, const Dual& d) {
   if constexpr (!kGradient) {
@@ -169,7 +169,8 @@ SGM_KERNEL void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t 
   }
 }
 
-// Joins one group to the field, or to the union that its layer's cuts remove (program.h).
+// Joins the value of one group to the field or, if the group cuts, to the union that is removed from the field at the
+// end of its layer (program.h).
 template <bool kGradient>
 SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const bool smooth = g.smooth > 0;
@@ -208,7 +209,7 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
 }
 #endif
 
-// Runs a block of n points, n a multiple of kLanes. Place 0 contains their positions.
+// Runs the program on a block of n points, where n is a multiple of kLanes. Place 0 contains their positions.
 template <bool kGradient>
 SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
   const Real zero = broadcast(0.0f);

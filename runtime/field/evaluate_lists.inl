@@ -2,9 +2,9 @@
 #include "field/evaluate_noise.inl"
 #endif
 
-// Runs lists of primitives that one combination joins, which make up most of a typical program, and keeps values in
-// processor registers between primitives. The operations and their order are the same as for single instructions, and
-// so are the bits. Included by evaluate_kernel.inl.
+// Runs lists of primitives that are joined by one union or sum, and keeps values in processor registers between
+// primitives. Such lists make up most of a typical program. The operations and their order are the same as for single
+// instructions, so the results are bitwise equal. Included by evaluate_kernel.inl.
 
 template <Op kOp>
 FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
@@ -16,8 +16,8 @@ FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
 }
 
 /// Returns the length of the list at the beginning of `instrs`: the number of pairs of a primitive and the instruction
-/// that adds it to the combination of `add`. Each primitive overwrites the register of the first one, so that no other
-/// instruction reads the earlier results.
+/// that adds it to the same accumulator as `add`. Each primitive overwrites the register of the previous one, so that
+/// no other instruction reads the earlier results.
 SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
   size_t pairs = 0;
   for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
@@ -28,13 +28,14 @@ SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Ins
   return pairs;
 }
 
-/// Processes the points of kTogether vectors from i on. Each addition waits for the previous one, so several vectors
-/// that are processed together take little more time than one.
+/// Processes the points of kTogether vectors from point i on. Each addition waits for the previous one, so processing
+/// several vectors together takes little more time than processing one.
 template <bool kGradient, Op kPrimitive, Op kAdd, size_t kTogether>
 FN void addPairsAt(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t pairs,
                    size_t i) {
   const Instr& add = instrs[1];
-  // The operand of a sum with the largest weight only determines its label.
+  // In a sum, the first accumulator holds the operand with the largest weight. It only determines the label, so it is
+  // needed only in gradient mode.
   constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
   Int px[kTogether], py[kTogether], pz[kTogether];
   Dual first[kTogether], second[kTogether], d[kTogether];
@@ -72,7 +73,8 @@ template <bool kGradient, Op kPrimitive, Op kAdd>
 SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
   const size_t pairs = pairsOf(instrs, kPrimitive, instrs[1]);
   size_t i = 0;
-  if constexpr (!kGradient) {  // not with gradients, which already use many registers
+  // Gradient mode processes single vectors, since it already uses many processor registers.
+  if constexpr (!kGradient) {
     constexpr size_t kTogether = 2;
     for (; i + kTogether * kLanes <= n; i += kTogether * kLanes)
       addPairsAt<kGradient, kPrimitive, kAdd, kTogether>(program, f, instrs, pairs, i);
@@ -81,7 +83,7 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
   return 2 * pairs;
 }
 
-/// Runs the list at the beginning of `instrs`. Returns the number of its instructions, 0 if there is no list.
+/// Runs the list at the beginning of `instrs`. Returns the number of instructions in the list, 0 if there is no list.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
 #ifdef SGM_ROWS
@@ -118,7 +120,8 @@ SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, c
   }
 }
 
-/// Runs and folds a group that consists of one primitive and is not guarded; returns false for all other groups.
+/// Runs a group that consists of one primitive and is not guarded, and joins its value to the field; returns false for
+/// all other groups.
 template <bool kGradient>
 SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   if (g.count != 1 || g.guarded || g.smooth > 0 || program.instrs[g.first].place != 0) return false;
@@ -141,9 +144,9 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
 }
 
 /// Constants whose registers have not been written to their planes yet. Most constants are operands of arithmetic,
-/// which uses them directly, so that they never need to be stored and loaded.
+/// which uses them directly, so that they are never stored and loaded.
 struct HeldConstants {
-  uint32_t held = 0;  ///< mask: one bit per register
+  uint32_t held = 0;  ///< mask of the registers whose constants are held, one bit each
   float value[kMaxRegisters] = {};
 
   SGM_KERNEL bool has(size_t r) const { return held >> r & 1; }
@@ -156,7 +159,8 @@ struct HeldConstants {
     value[r] = PF(P, 0);
   }
   SGM_KERNEL void forget(uint32_t registers) { held &= ~registers; }
-  /// Writes those constants that are needed to their planes. registers: mask of the registers that are needed.
+  /// Writes the held constants that are needed to the planes of their registers. registers: mask of the registers that
+  /// are needed.
   template <bool kGradient>
   SGM_KERNEL void settle(const BlockFrame& f, uint32_t registers, size_t n) {
     const uint32_t wanted = held & registers;
@@ -208,7 +212,7 @@ SGM_KERNEL bool runWithConstant(const BlockFrame& f, const Instr& in, const Held
 #undef SGM_WITH
 }
 
-/// Runs a group's instructions.
+/// Runs the instructions of a group.
 template <bool kGradient>
 SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const std::span<const Instr> instrs = program.instrs.subspan(g.first, g.count);
@@ -222,7 +226,8 @@ SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const
       continue;
     }
     if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
-      constants.forget(1u << in.dst);  // the two registers of an accumulation contain no constants
+      // the list has overwritten the register that its first instruction writes; its accumulators contain no constants
+      constants.forget(1u << in.dst);
       at += done;
       continue;
     }

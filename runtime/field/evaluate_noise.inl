@@ -1,25 +1,25 @@
 // Evaluates noise on a block that is part of a lattice. Much of the work of an octave is common to many samples: the
 // position within a period depends on one axis only, and all samples in a period share the gradients at its corners.
 // Both are computed once, and each sample looks up the gradients at its corners. A gradient has at most two components
-// that are not 0, so that the sum of three products is the same in every order, and so are the bits. Included by
-// evaluate_lists.inl.
+// that are not 0, so the sum of three products has the same bits in every order. Included by evaluate_lists.inl.
 
-inline constexpr size_t kMaxNoisePeriods = 7;  ///< maximum number of periods along an axis, which have kRow corners
+inline constexpr size_t kMaxNoisePeriods = 7;  ///< maximum number of periods along an axis; these have kRow corners
 inline constexpr size_t kMaxNoiseRows = kEvalBlock / kRow;
 
-/// One axis of a block in an octave. Each word is repeated kRow times, because vectors of rows read it.
+/// The data of one axis of a block for one octave. Each word is repeated kRow times, because vectors contain whole
+/// rows.
 struct NoiseAxis {
-  size_t periods = 0;                                           ///< number of periods that contain the coordinates
-  /// period of each coordinate, counted from that of the first one
+  size_t periods = 0;  ///< number of noise periods that contain the coordinates
+  /// index of the period of each coordinate, relative to the period of the first coordinate
   uint8_t period[kMaxNoiseRows];
-  /// the corners at the beginnings of the periods, and at the end of the last one
+  /// lattice coordinates of the corners: the beginning of each period, and the end of the last one
   alignas(64) uint32_t corner[(kMaxNoisePeriods + 1) * kRow];
-  alignas(64) uint32_t rest[kMaxNoiseRows * kRow];             ///< position of each coordinate within its period
-  alignas(64) uint32_t faded[kMaxNoiseRows * kRow];            ///< same as rest, after smoothing
+  alignas(64) uint32_t rest[kMaxNoiseRows * kRow];   ///< position of each coordinate within its period, 0 to 1
+  alignas(64) uint32_t faded[kMaxNoiseRows * kRow];  ///< smoothed position of each coordinate within its period
 };
 
-/// Fills the axis for `count` coordinates from `origin` on. Returns false if they lie in more than kMaxNoisePeriods
-/// periods.
+/// Computes the data of the axis for `count` coordinates from `origin` on. Returns false if they lie in more than
+/// kMaxNoisePeriods periods.
 SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t count, int period, float inv_period) {
   alignas(64) uint32_t cell[kMaxNoiseRows], rest[kMaxNoiseRows], faded[kMaxNoiseRows];
   for (size_t i = 0; i < kMaxNoiseRows; ++i) cell[i] = origin + static_cast<uint32_t>(step) * static_cast<uint32_t>(i);
@@ -48,7 +48,7 @@ SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t
   return true;
 }
 
-/// Gradients at the corners of all periods of a block; rows along x, and the rows of a slice together.
+/// Gradients at the corners of all periods of a block, in rows along x; the rows of a slice are consecutive.
 struct NoiseCorners {
   static constexpr size_t kWords = (kMaxNoisePeriods + 1) * (kMaxNoisePeriods + 1) * kRow + kRow;
   alignas(64) uint32_t x[kWords], y[kWords], z[kWords];
@@ -73,7 +73,7 @@ struct NoiseCorners {
 struct NoiseBlock {
   NoiseAxis columns, rows, slices;
   NoiseCorners corners;
-  /// per lane: its period along x; rest and faded as in NoiseAxis
+  /// for each lane: the period along x, and `rest` and `faded` as in NoiseAxis
   alignas(64) uint32_t column[kLanes], rest[kLanes], faded[kLanes];
 
   SGM_KERNEL bool place(const BlockLattice& at, Params P, int period, float inv_period, uint seed) {
@@ -93,7 +93,7 @@ struct NoiseBlock {
     return true;
   }
 
-  /// Evaluates two rows, given by their y and z; with 8 lanes only the first one.
+  /// Evaluates two rows, given by their indices along y and z; with 8 lanes only the first row.
   SGM_KERNEL Real sample(size_t y0, size_t z0, size_t y1, size_t z1) const {
     const auto of = [&](const uint32_t* words, size_t a, size_t b) {
       return loadRows(words + a * kRow, words + b * kRow);
@@ -106,7 +106,9 @@ struct NoiseBlock {
     const size_t height = rows.periods + 1;
     const size_t row0 = slices.period[z0] * height + rows.period[y0],
                  row1 = slices.period[z1] * height + rows.period[y1];
-    const auto edge = [&](size_t up, size_t behind) {  // interpolates along x between two neighbouring corners
+    // Interpolates along an edge of the noise cell that is parallel to x. up, behind: 1 if the edge is on the high side
+    // of the cell in y, in z; otherwise 0.
+    const auto edge = [&](size_t up, size_t behind) {
       const size_t a = row0 + behind * height + up, b = row1 + behind * height + up;
       const Real slope = of(corners.x, a, b);
       Real across = of(corners.y, a, b) * (up != 0 ? fy - 1.0f : fy);
@@ -124,7 +126,8 @@ struct NoiseBlock {
   }
 };
 
-/// Same as opNoise for a whole block. Returns 0 if the caller must evaluate sample by sample, otherwise 1.
+/// Computes the same result as opNoise for a whole block at once. Returns the number of instructions processed: 1, or 0
+/// if the caller must evaluate the noise sample by sample.
 SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, size_t n) {
   if (f.lattice == nullptr || in.place != 0) return 0;
   const size_t height = f.lattice->rows, depth = f.lattice->slices;
@@ -139,7 +142,8 @@ SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, s
     if (!block.place(*f.lattice, P, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * static_cast<uint>(k)))
       return 0;
     size_t y = 0, z = 0;
-    const auto step = [&] {  // stays at the block's last row: lanes beyond it are ignored
+    // Moves to the next row of the block. It stays at the last row, since the results of lanes beyond it are ignored.
+    const auto step = [&] {
       if (y + 1 < height) {
         ++y;
       } else if (z + 1 < depth) {

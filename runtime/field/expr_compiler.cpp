@@ -34,7 +34,7 @@ Op binaryOp(ExprOp op) {
     case ExprOp::mix:
       break;
   }
-  return Op::count;  // the other operators have one or three operands
+  return Op::count;  // the other expressions do not have exactly two operands
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Value ExprCompiler::emit(uint32_t index) {
   return v;
 }
 
-// Returns the number of octaves to evaluate. Octaves with a period under two cells would only alias.
+// Returns the number of octaves to evaluate. Octaves with a period shorter than two cells would only cause aliasing.
 uint32_t ExprCompiler::octavesAt(const NoiseSpec& noise) const {
   uint32_t count = 0;
   while (count < noise.octaves && (int64_t{noise.period} >> count) >= 2 * int64_t{cell_}) ++count;

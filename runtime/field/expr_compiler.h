@@ -1,5 +1,5 @@
 #pragma once
-// Emits the expressions of a grammar chunk.
+// Compiles the expressions of a grammar chunk to ops of a field program.
 
 #include <memory_resource>
 #include <vector>
@@ -9,17 +9,18 @@
 
 namespace sgm {
 
-/// The expressions of one grammar chunk that were emitted in the current group at the current place. Each one is
-/// emitted once per group and place; further uses read its register.
+/// Emits the expressions of one grammar chunk. Each expression is emitted once per group and place; further uses read
+/// its register.
 class ExprCompiler {
  public:
   /// cell: edge of the level's cells in units, which limits the octaves of noise.
   ExprCompiler(const GrammarChunk& chunk, int32_t cell, ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk), cell_(cell), builder_(builder), known_(chunk.exprs.size(), memory) {}
 
-  /// Begins a group, in which no expression was emitted yet.
+  /// Begins a group: expressions that were emitted in earlier groups must be emitted again.
   void beginGroup() { epoch_ = ++epochs_; }
-  /// Begins a place, where expressions must be read again, and returns the previous one for returnTo().
+  /// Begins a place (the position after a warp), where expressions must be emitted again. Returns the previous place,
+  /// for returnTo().
   uint64_t beginPlace();
   void returnTo(uint64_t place) { epoch_ = place; }
 

@@ -25,7 +25,7 @@ uint32_t GroupIndex::build(const GrammarChunk& chunk, uint32_t first, uint32_t c
   nodes_.push_back({bounds, first, count, 0});
   if (count <= kLeafGroups) return self;
 
-  // Splits at the median of the boxes along the longest axis, so that the depth is below 32 for any boxes.
+  // Splits at the median along the longest axis of the bounds, so that the depth of the tree is below 32.
   int axis = 0;
   auto extent = [&](int a) { return int64_t{bounds.hi[a]} - bounds.lo[a]; };
   for (int a = 1; a < 3; ++a) axis = extent(a) > extent(axis) ? a : axis;

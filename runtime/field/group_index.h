@@ -19,14 +19,14 @@ class GroupIndex {
  private:
   struct Node {
     IntBox bounds;
-    uint32_t first = 0, count = 0;  ///< in a leaf: range of order_
+    uint32_t first = 0, count = 0;  ///< range of indices in order_, if the node is a leaf
     uint32_t right = 0;             ///< index of the right child; the left child follows its parent
   };
   uint32_t build(const GrammarChunk& chunk, uint32_t first, uint32_t count);
 
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint32_t> order_;
-  std::pmr::vector<IntBox> bounds_;  ///< bounds of the groups, parallel to order_
+  std::pmr::vector<IntBox> bounds_;  ///< bounds of the groups, in the order of order_
 };
 
 }  // namespace sgm

@@ -11,11 +11,11 @@ namespace sgm {
 namespace {
 
 constexpr double kStepsAUnit = 1024;
-/// The spacing of the samples of a far lattice, all of which are equal.
+/// Spacing in units of the lattice that replaces a lattice far from the surface, whose samples are all equal.
 constexpr int32_t kFarSpacing = 1 << 22;
 
-/// Rounds a sample to whole steps, so that the last bits of host programs do not matter and there are no denormals
-/// (shaders/common/lattice.h).
+/// Rounds a sample to whole steps of 1/1024 unit, so that differences in the last bits of host programs do not matter
+/// and there are no denormals (shaders/common/lattice.h).
 float wholeSteps(float sample) {
   const double held = std::clamp(double{sample}, -double{kLargestSample}, double{kLargestSample});
   return static_cast<float>(std::floor(held * kStepsAUnit + 0.5) / kStepsAUnit);
@@ -32,8 +32,8 @@ Error badSample(const SampleLattice& at, size_t i, const std::string& what) {
   return {Code::invalid_argument, text};
 }
 
-/// Rejects samples that are steeper than the host states: a chunk that relies on the steepness, and takes one sample,
-/// would not match a chunk that samples all points.
+/// Rejects samples that are steeper than the host states. Otherwise a chunk that takes only one sample, because of the
+/// stated steepness, would not match a neighbour that samples all points.
 Result<void> checkSteepness(const HostField& field, const SampleLattice& at, std::span<const float> values) {
   const size_t row = at.count[0], layer = row * at.count[1];
   const double most = double{field.steepness} * at.spacing;
@@ -58,14 +58,14 @@ Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::s
   return field.steepness > 0 ? checkSteepness(field, at, values) : Result<void>();
 }
 
-/// If one sample proves that all of the lattice is far from the surface, returns the far value with the sign of that
-/// sample; otherwise 0.
+/// If one sample proves that the whole lattice is far from the surface, returns 1 with the sign of that sample;
+/// otherwise 0.
 Result<float> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
   SampleLattice middle = lattice;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    // Samples at a point of the lattice: the host may not know the field elsewhere.
+    // The sample is taken at a point of the lattice, since the host may not know the field at other positions.
     const int64_t cells = lattice.count[a] - 1, before = cells / 2, after = cells - before;
     middle.origin[axis] = static_cast<int32_t>(lattice.origin[axis] + before * lattice.spacing);
     middle.count[a] = 1;
@@ -74,7 +74,8 @@ Result<float> farSide(const HostField& field, const SampleLattice& lattice, doub
   }
   float sample = 0;
   if (Result<void> taken = takeSamples(field, middle, {&sample, 1}); !taken) return taken.error();
-  // The largest change that checkSteepness() accepts, plus the rounding of samples and of their interpolation.
+  // The largest change of the field that checkSteepness() accepts, plus the rounding errors of samples and of their
+  // interpolation.
   const double change = double{field.steepness} * std::sqrt(square) * (1 + 1e-5) + 1;
   if (std::abs(double{sample}) - change < limit * (1 + 1e-5)) return 0.0f;
   return sample < 0 ? -1.0f : 1.0f;

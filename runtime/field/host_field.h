@@ -1,5 +1,6 @@
 #pragma once
-// Fields that the calling program supplies as samples and that no grammar derives, such as a terrain of the engine.
+// Fields that the host program supplies as samples, such as the terrain of an engine, instead of deriving them from a
+// grammar.
 
 #include <cstdint>
 #include <functional>
@@ -17,19 +18,18 @@ struct HostField {
   /// spacing, because chunks that share points request them separately. Called from any thread, also concurrently.
   std::function<Result<void>(const SampleLattice& at, std::span<float> values)> sample;
   uint64_t identity = 0;  ///< identifies the sampled field: must change if any sample changes
-  IntBox bounds;          ///< the field has no effect farther outside the bounds than two cells plus the blend
+  IntBox bounds;          ///< beyond the distance of the blend plus two cells from this box, the field has no effect
   bool cut = false;       ///< true: removes the field's solid; false: adds it
   uint32_t label = 0;     ///< tag << 16 | material
   int32_t smooth = 0;     ///< width of the blend with the existing field, 0 to kWidestHostBlend units; 0: none
-  /// The maximum change of the value per unit of distance; 0: unknown. If it is known, a box far from the surface needs
-  /// only one sample. A value then counts as far if it exceeds kWidestHostBlend plus the possible change over two
-  /// cells.
+  /// Maximum change of the value per unit of distance; 0: unknown. If it is known, a box far from the surface needs
+  /// only one sample: values above kWidestHostBlend and above the possible change over two cells count as far.
   float steepness = 0;
 };
 
 /// Samples the field over a box, at the cells of the level, and emits it as the only group of a layer. label: replaces
-/// the field's own label. Errors: those of HostField::sample; invalid_argument if a sample is not finite, or two
-/// samples differ more than the steepness allows; limit if an op cannot have so many samples.
+/// the field's own label. Errors: those of HostField::sample; invalid_argument if a sample is not finite, or if two
+/// samples differ by more than the steepness allows; limit if an op cannot have so many samples.
 Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, const IntBox& box, int32_t cell,
                            uint32_t layer, uint32_t label, std::pmr::memory_resource* memory);
 

@@ -32,7 +32,8 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     }
     case Op::square_root: {
       const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
-      return widened(r, error * r.hi + 1e-15);  // covers the square root of values that the evaluators treat as 0
+      // The margin covers the square roots of tiny values that the evaluators treat as 0.
+      return widened(r, error * r.hi + 1e-15);
     }
     case Op::add:
       return widened(kept({a.lo + b.lo, a.hi + b.hi}), error * (magnitude(a) + magnitude(b)));
@@ -51,7 +52,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     case Op::less:
       return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
     case Op::smoothstep: {
-      // The evaluators clamp t before any other rounding, so that its ends give exactly 0 and 1.
+      // The evaluators clamp t to 0..1 before any other rounding, so the ends of t give exactly 0 and 1.
       const double inv = realAt(p, 1);
       const Interval raw = product({a.lo - realAt(p, 0), a.hi - realAt(p, 0)}, {inv, inv});
       const Interval t = widened(raw, error * std::abs(inv) * (magnitude(a) + std::abs(realAt(p, 0))));
@@ -104,7 +105,7 @@ Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
 }
 
 Interval boundRoundUnion(Interval a, Interval b, double k) {
-  // The round union is monotone in both operands, and never above the smaller one.
+  // The round union is monotone in both operands, and never above the smaller operand.
   const Interval nearest{std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
   const double u = std::clamp(k - a.lo, 0.0, 1e9), v = std::clamp(k - b.lo, 0.0, 1e9), root = std::sqrt(u * u + v * v);
   if (u == 0 || v == 0) return nearest;

@@ -11,7 +11,7 @@ struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// A box of positions in units: the values that one place of a program (program.h) may have.
+/// A box of positions in units: all positions that one place of a program (program.h) may have.
 struct PlaceBox {
   Interval x, y, z;
 };
@@ -28,16 +28,16 @@ double sizeSum(Op op, const uint32_t* params);
 /// Returns bounds of an op that reads a position. t: the operand of power_morph; ignored by other ops.
 Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Interval t);
 
-/// Returns bounds of an op on operands a, b, c. Not for accumulating ops and warps.
+/// Returns bounds of an op on operands a, b, c. Does not support accumulating ops and warps.
 Interval boundOperands(Op op, const uint32_t* params, Interval a, Interval b, Interval c);
 
-/// Returns bounds of the value at the end of a round union. nearest, sum: bounds of its two registers.
+/// Returns bounds of the value at the end of a round union. nearest, sum: bounds of the union's two registers.
 Interval boundRoundEnd(const uint32_t* params, Interval nearest, Interval sum);
 Interval boundSumEnd(const uint32_t* params, Interval sum);
-/// Returns bounds of what one operand adds to the sum of a round union. d: bounds of the operand.
+/// Returns bounds of the amount that one operand adds to the sum of a round union. d: bounds of the operand.
 Interval boundRoundShare(const uint32_t* params, Interval d);
-/// Returns bounds of the round union of a field and a smooth group (program.h) of width k > 0; the second function, of
-/// the field minus the group.
+/// boundRoundUnion() returns bounds of the round union of a field and a smooth group (program.h) of width k > 0;
+/// boundRoundCut() returns bounds of the field minus the group.
 Interval boundRoundUnion(Interval a, Interval b, double k);
 Interval boundRoundCut(Interval a, Interval b, double k);
 

@@ -8,9 +8,9 @@
 
 namespace sgm {
 
-inline constexpr double kLimit = 1e37;  ///< magnitude of the ends of all intervals
+inline constexpr double kLimit = 1e37;  ///< maximum magnitude of the ends of all intervals
 inline constexpr double kHeld = 1e18;   ///< results of expressions are clamped to this magnitude (real.h, settleReal)
-inline constexpr double kTiny = 1e-30;  ///< results of expressions below this magnitude are 0
+inline constexpr double kTiny = 1e-30;  ///< results of expressions with a magnitude below this are 0
 
 /// Returns the relative error that ops.def states for the op.
 constexpr double errorOf(Op op) {
@@ -45,8 +45,8 @@ inline Interval clamped(Interval a, double lo, double hi) {
 
 inline Interval kept(Interval a) { return clamped(a, -kHeld, kHeld); }
 
-/// Returns the offsets of positions from c along one axis, saturated as in the evaluators. Saturation never makes them
-/// change faster with the position, so the bounds on slopes below hold at any distance.
+/// Returns the offsets of positions from c along one axis, saturated as in the evaluators. Saturation never makes an
+/// offset change faster than the position, so bounds that are derived from slopes hold at any distance.
 inline Interval offsets(Interval axis, double c) {
   return clamped({axis.lo - c, axis.hi - c}, -2147483648.0, 2147483647.0);
 }
@@ -56,8 +56,8 @@ inline Interval squared(Interval a) {
   return {a.lo <= 0 && a.hi >= 0 ? 0.0 : std::min(l, h), std::max(l, h)};
 }
 
-/// Returns (1 - t) a + t b over all t, a and b of three intervals. It is linear in each of them, so the ends of the
-/// intervals suffice.
+/// Returns the range of (1 - t) a + t b, for all t, a and b of three intervals. The function is linear in each
+/// variable, so the ends of the intervals suffice.
 inline Interval blend(Interval a, Interval b, Interval t) {
   auto at = [&](double s) {
     const Interval p = product(a, {1 - s, 1 - s}), q = product(b, {s, s});
@@ -67,7 +67,8 @@ inline Interval blend(Interval a, Interval b, Interval t) {
   return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
 }
 
-/// Returns exactly [0, 0] if the kernel is certainly 0, because an operand that adds exactly nothing may be dropped.
+/// Returns bounds of the compact kernel. They are exactly [0, 0] if the kernel is certainly 0, because an operand that
+/// adds exactly 0 may be dropped.
 inline Interval kernelBounds(Interval x, double error) {
   auto cube = [](double v) {
     const double k = std::max(0.0, 1 - v);

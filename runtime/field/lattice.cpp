@@ -9,14 +9,14 @@ namespace sgm {
 
 namespace {
 
-// parameter words (shaders/common/lattice.h)
+// indices of the op's parameter words (shaders/common/lattice.h)
 constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;
 constexpr double kFarAway = double{kFarSample};
 constexpr int64_t kMaxPoints = int64_t{1} << 25;
 constexpr double kFarthest = 1 << 30;
 
-/// Returns the position `at` along an axis in lattice cells, at least 1, because the first and the last cell only
-/// provide slopes.
+/// Converts the position `at` along an axis to lattice cells, and clamps it to the inner cells, because the first and
+/// the last cell only serve to compute slopes.
 double along(const uint32_t* p, int axis, double at) {
   const double last = wholeAt(p, kCountWord + axis) - 2;
   const double offset = std::clamp(at - wholeAt(p, 1 + axis), 0.0, kFarthest);
@@ -32,7 +32,7 @@ double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
   return realAt(p + kSamplesWord, static_cast<int>((z * column + y) * row + x));
 }
 
-/// Interpolates the samples at the corners of a cell. at: position in cells.
+/// Returns the trilinear interpolation of the samples at the corners of a cell. at: position in cells.
 double mixedAt(const uint32_t* p, const std::array<double, 3>& at) {
   std::array<int64_t, 3> cell{};
   std::array<double, 3> t{};
@@ -104,7 +104,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
     }
   }
   const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
-  // The value is linear along each axis within a cell, so the corners of the box suffice.
+  // If the box lies in one cell, the value is linear along each axis, so its values at the box's corners bound it.
   if (last[0] == first[0] + 1 && last[1] == first[1] + 1 && last[2] == first[2] + 1) {
     all = {kFarAway, -kFarAway};
     for (int corner = 0; corner < 8; ++corner) {
@@ -114,7 +114,8 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
       all = {std::min(all.lo, value), std::max(all.hi, value)};
     }
   }
-  // Values that may count as far may be replaced by the far value.
+  // A value at or beyond the limit becomes the far value, so the bounds must include the far value if they reach the
+  // limit.
   const double limit = realAt(p, kLimitWord);
   const double lo = all.lo - slack, hi = all.hi + slack;
   return {lo >= limit    ? kFarAway

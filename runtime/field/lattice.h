@@ -1,5 +1,5 @@
 #pragma once
-// Samples on a lattice of integer positions, the form of a field from outside the grammar (shaders/common/lattice.h).
+// A lattice of samples at integer positions: the form of fields from outside of the grammar (shaders/common/lattice.h).
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ SampleLattice latticeAround(const IntBox& box, int32_t spacing);
 /// an axis).
 std::optional<size_t> latticePoints(const SampleLattice& lattice);
 
-/// boundLattice returns bounds of the lattice op over a box of positions; the other function returns its value at a
+/// boundLattice() returns bounds of the lattice op over a box of positions; referenceLattice() returns its value at a
 /// position in double precision. p: the op's parameter words.
 Interval boundLattice(const uint32_t* p, const PlaceBox& box);
 double referenceLattice(const uint32_t* p, double x, double y, double z);

@@ -1,5 +1,5 @@
-// Defines the lanes that evaluate_kernel.inl and evaluate_blocks.inl require, for a single lane: samples are evaluated
-// one by one.
+// Defines kLanes, and the loads and stores that evaluate_kernel.inl and evaluate_blocks.inl require, for a single lane:
+// samples are evaluated one by one.
 
 inline constexpr size_t kLanes = 1;
 FN Real loadReal(const uint32_t* p) { return uniformFloat(*p); }

@@ -1,5 +1,5 @@
 #pragma once
-// Ops on values: the form of a group until it is complete and its values get registers.
+// A sequence of ops on values: the form of a group until it is complete and its values get registers.
 
 #include <memory_resource>
 #include <vector>
@@ -15,8 +15,8 @@ struct Value {
   uint32_t id = kNone;
 };
 
-/// The ops of one group under construction, and the place that the next op reads. params: index of an op's first
-/// parameter word. Not thread-safe.
+/// The ops of one group under construction, and the place that the next op reads. Parameter `params` of functions:
+/// index of an op's first parameter word. Not thread-safe.
 class OpSequence {
  public:
   explicit OpSequence(std::pmr::memory_resource* memory) : steps_(memory) {}
@@ -28,12 +28,12 @@ class OpSequence {
   /// Appends an op that adds an operand to the two values of an accumulator.
   void accumulate(Op op, uint32_t params, Value nearest, Value operand, Value sum);
 
-  /// The next ops read the place that is warped by x, y, z, until popWarp().
+  /// Makes the following ops read the place that is warped by x, y, z, until popWarp().
   void pushWarp(Value x, Value y, Value z);
   void popWarp() { --place_; }
 
-  /// Appends the ops to `instrs`, on registers, clears the sequence, and returns the register of the root. Error: limit
-  /// if the ops need more registers or places than exist; then `instrs` stays as it was.
+  /// Assigns registers, appends the ops to `instrs`, clears the sequence, and returns the register of the root. Error:
+  /// limit if the ops need more registers or places than exist; then `instrs` stays as it was.
   Result<uint8_t> moveTo(std::pmr::vector<Instr>& instrs, Value root);
 
  private:

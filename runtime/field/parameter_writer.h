@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// The parameter words of one op, at the end of a program's words.
+/// Appends the parameter words of one op to a program's words.
 class ParameterWriter {
  public:
   explicit ParameterWriter(std::pmr::vector<uint32_t>& words)
@@ -20,7 +20,7 @@ class ParameterWriter {
   /// Returns the index of the op's first word.
   uint32_t first() const { return first_; }
 
-  /// Denormals become 0, because devices treat them differently (shaders/common/real.h, settleReal).
+  /// Replaces denormals by 0, because devices treat them differently (shaders/common/real.h, settleReal).
   void put(float f) { words_.push_back(std::bit_cast<uint32_t>(std::abs(f) < 1e-30f ? 0.0f : f)); }
   void put(int32_t i) { words_.push_back(static_cast<uint32_t>(i)); }
   void put(Int3 p) {

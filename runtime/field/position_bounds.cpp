@@ -20,7 +20,7 @@ CentredBox centred(const PlaceBox& b) {
           (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
 }
 
-// Returns the range of squared distances from a ball's centre to points of the box; exact.
+// Returns the exact range of squared distances from a ball's centre to the points of the box.
 Interval distance2(const uint32_t* p, const PlaceBox& b) {
   auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
   const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
@@ -31,8 +31,8 @@ Interval distance2(const uint32_t* p, const PlaceBox& b) {
 // the twelve gradient directions at each of its eight corners.
 constexpr double kNoiseSlope = 3.7501;
 
-// Bounds noise by its value at the box's middle, plus or minus the slope times the distance to the box's corners. Good
-// for small boxes.
+// Bounds noise by its value at the box's middle, plus or minus the slope times the distance to the box's corners. The
+// bounds are tight only for small boxes.
 Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   constexpr Interval all{-1, 1};
   double slope = 0, weight = realAt(p, 5) * kNoiseSlope;
@@ -42,7 +42,8 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   const std::array<Interval, 3> axes{box.x, box.y, box.z};
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = axes[static_cast<size_t>(axis)];
-    // The noise lattice wraps around at the ends of the integers; if an offset could leave them, nothing is known.
+    // The noise lattice wraps around at the ends of int32. If an offset could leave that range, the noise can have any
+    // value.
     const double anchor = wholeAt(p, axis);
     if (side.lo - anchor < -2147483648.0 || side.hi - anchor > 2147483647.0) return all;
     middle[axis] = static_cast<int32_t>(std::floor((side.lo + side.hi) / 2));
@@ -55,8 +56,8 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
 }
 
-// Bounds values that are monotone in the local |x|, |y|, |z|, by the ranges of these over the box. Nearly tight if the
-// frame is axis-aligned, however long the box's diagonal is.
+// Bounds values that are monotone in the local coordinates |x|, |y|, |z|, by the ranges of these coordinates over the
+// box. The bounds are nearly tight if the frame is axis-aligned, however long the box's diagonal is.
 struct LocalRange {
   std::array<double, 3> near{}, far{};  ///< minimum and maximum of |q| along each local axis
 };
@@ -96,8 +97,8 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
 }
 
 // Bounds the distance from a capsule's axis. The distance from a convex set is convex, so it is nowhere below its
-// tangent at the box's middle; and it is nowhere above the distance from that point of the axis that is nearest to the
-// middle. Neither bound is farther from the middle's value than half the diagonal.
+// tangent at the box's middle. It is also nowhere above the distance from the point of the axis that is nearest to the
+// middle. Neither bound differs from the value at the middle by more than half the diagonal.
 Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
@@ -121,7 +122,7 @@ Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
 }
 
 // Bounds a primitive by its geometry, often tighter than its value at the middle plus or minus half the diagonal.
-// Returns everything if nothing is known.
+// Returns an infinite range for primitives without such a bound.
 Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   switch (op) {
     case Op::box: {
@@ -133,7 +134,7 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
       return {cylinderDistance(realAt(p, 13), realAt(p, 14), r.near),
               cylinderDistance(realAt(p, 13), realAt(p, 14), r.far)};
     }
-    case Op::truncone: {  // lies between the inscribed and the enclosing cylinder
+    case Op::truncone: {  // a truncated cone lies between its inscribed and its enclosing cylinder
       const LocalRange r = localRange(p, c);
       const double bottom = realAt(p, 13), top = realAt(p, 14), height = realAt(p, 15);
       return {cylinderDistance(std::max(bottom, top), height, r.near),
@@ -152,9 +153,9 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-// Bounds a power morph. As t increases, the exponent grows, so the norm falls, and the radii change. The bounds treat
-// both effects separately, at both ends of t: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger
-// radii. radius: half the box's diagonal.
+// Bounds a power morph. As t increases, the exponent n grows, so that the norm falls, and the radii change. The bounds
+// treat both effects separately: ||u||_max <= ||u||_n <= ||u||_2, each for the smaller and the larger radii at the ends
+// of t. radius: half the box's diagonal.
 Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, Interval t) {
   const Interval s = clamped(t, 0, 1);
   if (s.lo == s.hi) {
@@ -187,8 +188,8 @@ Interval powerMorphRange(const uint32_t* p, const CentredBox& c, double radius, 
   return {scaled(low, true), scaled(std::sqrt(high2), false)};
 }
 
-// Returns an upper bound for the distance of the box's points from the centre: the sum over axes, which needs no square
-// root.
+// Returns an upper bound of the distance of the box's points from the centre: the sum of the distances along the axes,
+// which needs no square root.
 double farthestOffset(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return std::abs(offsets({at, at}, wholeAt(p, word)).lo); };
   return offset(c.x, 1) + c.hx + offset(c.y, 2) + c.hy + offset(c.z, 3) + c.hz;
@@ -256,14 +257,15 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     default:
       break;
   }
-  // No primitive is steeper than 1 (primitives.h), so its value is that at the centre, plus or minus half the diagonal.
+  // No primitive has a slope above 1 (primitives.h), so its value in the box is the value at the centre, plus or minus
+  // at most half the diagonal.
   const CentredBox c = centred(box);
   const double radius = std::sqrt(c.hx * c.hx + c.hy * c.hy + c.hz * c.hz);
   const double error = errorOf(op) * (farthestOffset(p, c) + sizeSum(op, p)) + radius * 1e-6;
   if (op == Op::power_morph) return widened(powerMorphRange(p, c, radius, t), error);
   if (op == Op::capsule) return widened(capsuleRange(p, c), error);
   const double v = referencePrimitive(op, p, c.x, c.y, c.z);
-  if (op == Op::halfspace) {  // halfspace is linear
+  if (op == Op::halfspace) {  // for a linear function, the range is exact
     const double reach = std::abs(realAt(p, 7)) * c.hx + std::abs(realAt(p, 8)) * c.hy + std::abs(realAt(p, 9)) * c.hz;
     return widened({v - reach, v + reach}, error);
   }

@@ -40,17 +40,18 @@ struct Instr {
   Op op = Op::constant;
   uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;
   uint16_t reserved = 0;
-  uint32_t params = 0;  ///< index of its first parameter word
+  uint32_t params = 0;  ///< index of the op's first parameter word
 };
 static_assert(sizeof(Instr) == 12);
 
 struct ProgramGroup {
   IntBox influence;
-  uint32_t first = 0, count = 0;  ///< range of the group's instructions in instrs
-  uint32_t layer = 0;             ///< groups of a layer are consecutive, its adds before its cuts
+  uint32_t first = 0, count = 0;  ///< range of indices of the group's instructions in ProgramView::instrs
+  uint32_t layer = 0;             ///< the groups of a layer are consecutive, those that add before those that cut
   uint8_t result = 0;             ///< the register that holds the group's value
   bool cut = false;
-  /// false if all samples that will be requested are known to lie in the influence box, so that no test is needed
+  /// true: each sample must be tested against the influence box; false: all samples that will be requested are known to
+  /// lie in the box
   bool guarded = true;
   float smooth = 0;  ///< width of the blend in units, set only if the layer has no other group; 0: no blend
 };

@@ -6,7 +6,7 @@
 
 namespace sgm {
 
-/// The result of pruning. Reads the parameter words of the program that was pruned, which must outlive it. Can be
+/// The result of pruning. Refers to the parameter words of the program that was pruned, which must outlive it. Can be
 /// reused for several boxes, to save allocations.
 struct PrunedProgram {
   std::pmr::vector<Instr> instrs;
@@ -21,12 +21,12 @@ struct PrunedProgram {
       : instrs(memory), groups(memory) {}
 
   ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
-  /// True if all samples of the box are quantised to solid; empty(): to void.
+  /// solid(): true if all samples of the box are quantised to solid; empty(): true if all are quantised to void.
   bool solid() const { return field.hi * static_cast<double>(q_scale) < -0.51; }
   bool empty() const { return field.lo * static_cast<double>(q_scale) > -0.49; }
 };
 
-/// Scratch of one thread.
+/// Scratch memory of one thread.
 class PruneScratch {
  public:
   explicit PruneScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
@@ -35,17 +35,18 @@ class PruneScratch {
     Interval value;
     bool met, whole, live;
   };
-  std::pmr::vector<Interval> marks;  ///< one per instruction: decides whether it stays (prune_kernel.inl)
+  /// one per instruction: intermediate bounds that decide whether the instruction is kept (prune_kernel.inl)
+  std::pmr::vector<Interval> marks;
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };
 
-/// What prune() does with a program that is proven to be solid or void everywhere in the box: drop all instructions, or
-/// keep those that the exact values need.
+/// The treatment of a program that is proven to be solid or void everywhere in the box: drop all instructions, or keep
+/// those that the exact values need.
 enum class Uniform { drop, keep };
 
-/// Prunes `program` to a closed box, which must contain all positions that will be sampled. `out` must not own the
-/// arrays of the view.
+/// Prunes `program` to a closed box, which must contain all positions that will be sampled. `program` must not be a
+/// view of `out`.
 void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out,
            Uniform uniform = Uniform::drop);
 

@@ -1,11 +1,12 @@
 // Interval pruning for any arithmetic of bounds. Include this file in a namespace that defines
-//   Scalar, Bound                      a number, and its lowest and highest value: lo, hi
-//   Places, movePlaces                 a box of positions, and its image under a warp
+//   Scalar, Bound                      a number, and bounds of a number: lo, hi
+//   Places, movePlaces                 a box of positions, and a function that bounds its image under a warp
 //   boundPosition, boundOperands, boundRoundShare, boundRoundEnd, boundSumEnd, boundRoundUnion, boundRoundCut
-//   GroupBounds                        value, a Bound; met, whole, live: the box meets the group's, lies in it,
-//                                      needs it
-//   kNever, kLess, kMore               beyond every bound; factors that exceed the rounding of a sum
-//   minOf, maxOf, floatOf              of two numbers; the float in a parameter's word
+//   GroupBounds                        a struct with bounds of a group; value: a Bound of its result; met: the group's
+//                                      influence box meets the box; whole: it contains the box; live: the group has an
+//                                      effect in the box
+//   kNever, kLess, kMore               a number beyond every bound; factors that exceed the rounding error of a sum
+//   minOf, maxOf, floatOf              minimum and maximum of two numbers; the float in a parameter word
 
 #include "field/operands.inl"
 
@@ -56,9 +57,9 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_WARP
 
 // Registers that contain the floor of another register's current value. The difference of a value and its floor lies in
-// 0..1, which their separate bounds do not show.
+// 0..1, which cannot be concluded from their separate bounds.
 struct FloorSources {
-  uint32_t known = 0;                   // mask of the registers that contain such a floor
+  uint32_t known = 0;                   // mask of the registers that contain the floor of another register
   uint32_t floors[kMaxRegisters] = {};  // for each register: mask of the registers that contain the floor of its value
   uint8_t source[kMaxRegisters] = {};
 
@@ -75,8 +76,8 @@ struct FloorSources {
   }
 };
 
-// Bounds the result of one group. Writes a mark for each instruction, for the backward pass: in lo the choice of a min,
-// max, cut or morph, and the bounds of the operand of an accumulation.
+// Bounds the result of one group. Writes a mark for each instruction, for the backward pass: for a min, max, cut or
+// morph, its lo is the Choice of the operands that matter; for an accumulation, the mark is the bounds of its operand.
 template <class Marks>
 SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, const Places& box, Marks marks) {
   Bound r[kMaxRegisters];
@@ -151,7 +152,8 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
   return r[g.result];
 }
 
-// Walks backwards through a group and calls keep(instr) for each instruction that its result needs.
+// Visits the instructions of a group backwards, and calls keep(instr) for each instruction that the group's result
+// needs.
 template <class Marks, class Keep>
 SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Marks marks, const Keep& keep) {
   uint32_t live = 1u << g.result, live_places = 0;
@@ -212,8 +214,10 @@ SGM_KERNEL void keepGroup(const ProgramView& program, const ProgramGroup& g, Mar
   }
 }
 
-// Joins a smooth group to the field's bounds. If the group is at least k away and not nearer than the field, the field
-// keeps its bits; if that holds for the field instead, the group replaces it.
+// Joins the bounds of a smooth group to the bounds of the field; returns true if the group replaces the field. A group
+// has no effect if its value is at least k (the width of its blend) and not below the value of the field (for a cut, of
+// the negated field). Conversely, a group that adds replaces the field if the field's value is at least k and above the
+// group's value.
 SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) {
   const Scalar k = Scalar{g.smooth};
   const Bound under = field, distance = g.cut ? Bound{-under.hi, -under.lo} : under;
@@ -224,13 +228,15 @@ SGM_KERNEL bool foldSmooth(const ProgramGroup& g, GroupBounds& b, Bound& field) 
   return !g.cut && b.whole && under.lo >= k && under.lo > b.value.hi;
 }
 
-/// The bounds of a program over a box.
+/// The bounds of a field over a box.
 struct FieldBounds {
   Bound field;
-  bool hidden = false;  ///< true: groups hide the domain everywhere, so that its initial value has no effect
+  /// true: groups hide the domain everywhere in the box, so that the program's initial value has no effect
+  bool hidden = false;
 };
 
-// Bounds the field, and marks the groups that have an effect. box and places describe the same box.
+// Bounds the field, and determines the groups that have an effect (GroupBounds::live). box and places describe the same
+// box.
 template <class Marks, class Groups>
 SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box, const Places& places, Marks marks,
                                   Groups bounds) {
@@ -247,7 +253,7 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
     if (b.met) b.value = boundGroup(program, g, places, marks);
     return b;
   };
-  // All groups before this index are hidden by a later layer.
+  // All groups before this index have no effect, since the groups of a later layer hide them.
   size_t keep_from = 0;
   auto replaceBelow = [&](size_t first) {
     for (size_t i = keep_from; i < first; ++i) bounds[i].live = false;
@@ -255,7 +261,7 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
     result.hidden = true;
   };
 
-  // The forward pass, layer by layer.
+  // The forward pass bounds the field layer by layer.
   for (size_t first = 0; first < groups;) {
     if (program.groups[first].smooth > 0) {
       if (foldSmooth(program.groups[first], bound(first), field)) replaceBelow(first);
@@ -279,8 +285,8 @@ SGM_KERNEL FieldBounds boundField(const ProgramView& program, const IntBox& box,
       }
     }
     const Bound joined{minOf(field.lo, adds.lo), minOf(field.hi, adds.hi)};
-    // An add whose lower bound is above the layer's upper bound is never the minimum. A cut has no effect if it is
-    // always weaker than another cut, or always below the surface of what it cuts.
+    // A group that adds is never the minimum if its lower bound is above the layer's upper bound. A group that cuts has
+    // no effect if another cut is always stronger, or if the cut surface is always outside of the solid that it cuts.
     const bool replaced = adds.hi < field.lo;
     for (size_t i = first; i < last; ++i) {
       GroupBounds& b = bounds[i];

@@ -15,11 +15,11 @@ struct Local {
   double x, y, z;
 };
 
-// The C library's hypot and pow are not used: their last bits differ between libraries, and the shapes that derivation
-// makes depend on these bounds.
+// The C library's hypot and pow are not used, because their last bits differ between libraries, and derived shapes
+// depend on these values.
 double hypotenuse(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
-// An offset along an axis, clamped to the range of an int32, where the evaluators saturate (real.h).
+// Returns an offset along an axis, clamped to the range of an int32, where the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
 
 // Returns a position relative to a centre. p: the parameter words of the centre.
@@ -34,14 +34,15 @@ Local toLocal(const uint32_t* p, double x, double y, double z) {
   return {row(4), row(7), row(10)};
 }
 
-// Returns the distance to the planar region {a <= 0 and b <= 0}. a, b: signed distances from its two faces.
+// Returns the signed distance to the planar region {a <= 0 and b <= 0}. a, b: signed distances from two perpendicular
+// sides of the region.
 double corner(double a, double b) {
   return hypotenuse(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0);
 }
 
 double trunconeDistance(double radial, double y, double bottom, double top, double h) {
-  // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h), mirrored at the axis: that of the nearest of its three
-  // outer edges.
+  // The distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h), mirrored at the axis, is the distance to the
+  // nearest of its three outer edges.
   const std::array<std::array<double, 2>, 4> corners{{{0, -h}, {bottom, -h}, {top, h}, {0, h}}};
   double best = 1e300;
   for (size_t i = 0; i < 3; ++i) {
@@ -336,7 +337,7 @@ double referenceField(const ProgramView& program, Int3 p) {
       field = g.cut ? -joined : joined;
       continue;
     }
-    // One cut after another, max(f, -g), equals the removal of their union.
+    // Cutting the groups one after another, max(f, -g), is the same as removing their union.
     field = g.cut ? std::max(field, -r[g.result]) : std::min(field, r[g.result]);
   }
   return field;

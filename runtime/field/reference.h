@@ -14,16 +14,17 @@ namespace sgm {
 inline double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 inline double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
-/// Returns the value of a primitive (sphere to prism) in units, or the weight of a blob, at a position in units.
+/// Returns the value in units of a primitive (an op from sphere to prism), or the weight of a blob, at a position in
+/// units.
 double referencePrimitive(Op op, const uint32_t* params, double x, double y, double z);
 
-/// The noise op at p, -1 to 1.
+/// Returns the value of the noise op at p, -1 to 1.
 double referenceNoise(const uint32_t* params, Int3 p);
 
-/// The power morph at t in 0..1.
+/// Returns the value of the power morph at t in 0..1, in units.
 double referencePowerMorph(const uint32_t* params, double t, double x, double y, double z);
 
-/// The field in units at p.
+/// Returns the value of the field at p, in units.
 double referenceField(const ProgramView& program, Int3 p);
 
 }  // namespace sgm

@@ -12,8 +12,7 @@ namespace {
 
 constexpr int kMaxShapeDepth = 256;
 
-// The ratio of the field's slope to that of the compact kernel, at the surface of a single ball of radius 1 (shape.h,
-// `sum`).
+// Returns the magnitude of the compact kernel's slope at the surface of a single ball of radius 1 (shape.h, `sum`).
 double kernelSlope() {
   const double x = 1.0 / (double{kSumSupport} * double{kSumSupport});
   return 3 * (1 - x) * (1 - x) * 2 * x;
@@ -152,7 +151,7 @@ ShapeCompiler::Emitted ShapeCompiler::round(const Shape& s, int depth, bool nega
 ShapeCompiler::Emitted ShapeCompiler::sum(const Shape& s, int depth) {
   std::optional<KernelSum> acc;
   float largest = 0;
-  // The scale belongs to the group at every level, so operands that this level drops count as well.
+  // The scale of the sum must be the same at every level, so it also depends on operands that this level drops.
   for (uint32_t child : children(s)) largest = std::max(largest, chunk_.shapes[child].inner_radius);
   for (uint32_t child : children(s)) {
     const Shape& c = chunk_.shapes[child];
@@ -182,7 +181,7 @@ bool ShapeCompiler::weighsNothing(const Shape& ball) const {
     const double away = std::max({read_.lo[axis] - at, at - read_.hi[axis], 0.0});
     squared += away * away;
   }
-  // The rounding error of the ball's distance in floats is far below this factor.
+  // The rounding error of the ball's distance in float is far below this safety factor.
   constexpr double kSafely = 1 + 1e-4;
   const double support = double{ball.size[0]} * double{kSumSupport} * kSafely;
   return squared > support * support;
@@ -208,7 +207,7 @@ Value ShapeCompiler::voxels(const Shape& s, uint32_t label) {
 ShapeCompiler::Emitted ShapeCompiler::warp(const Shape& s, int depth) {
   const Value x = exprs_.emit(s.expr), y = exprs_.emit(s.expr + 1), z = exprs_.emit(s.expr + 2);
   builder_.pushWarp(x, y, z);
-  // Values that were read at the outer place must be read again at the warped place.
+  // Expressions that were emitted at the outer place must be emitted again at the warped place.
   const uint64_t outer = exprs_.beginPlace();
   const IntBox outer_read = read_;
   if (!chunk_.blocks.empty()) read_ = warpedBox(chunk_.exprs, s.expr, read_);

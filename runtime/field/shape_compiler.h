@@ -1,5 +1,5 @@
 #pragma once
-// Emits the shapes of a grammar chunk.
+// Compiles the shapes of a grammar chunk to ops of a field program.
 
 #include <memory_resource>
 #include <optional>
@@ -13,11 +13,11 @@
 
 namespace sgm {
 
-/// The place in the tree of shapes of one grammar chunk that is being compiled: the warps and the sweep around it.
+/// Compiles shapes of one grammar chunk recursively, and stores the warps and the sweep around the current shape.
 class ShapeCompiler {
  public:
-  /// box: contains every position that will be sampled; cell_number: as in ShapeLabels::Source; shapes: null, or the
-  /// table in which labels get numbers of shapes.
+  /// box: contains every position that will be sampled; cell_number: ShapeLabels::Source::cell; shapes: null, or the
+  /// table that assigns numbers to shapes, which then serve as labels.
   ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
                 ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk),
@@ -29,7 +29,7 @@ class ShapeCompiler {
         memory_(memory),
         exprs_(chunk, cell, builder, memory) {}
 
-  /// Emits a shape; nullopt if the level drops the whole shape as too small.
+  /// Emits a shape; nullopt if the whole shape is too small for the level and dropped.
   Result<std::optional<Value>> root(uint32_t shape) {
     exprs_.beginGroup();
     return emit(shape, 0);
@@ -47,16 +47,16 @@ class ShapeCompiler {
   uint32_t labelOf(uint32_t index);
 
   Emitted emit(uint32_t index, int depth);
-  /// Emits a hard union or intersection, operand by operand. If an operand of an intersection is dropped, the whole
-  /// intersection is.
+  /// Emits a hard union or intersection, operand by operand. If the level drops an operand of an intersection, it drops
+  /// the whole intersection.
   Emitted chain(const Shape& s, Op op, int depth, bool all);
   Emitted subtract(const Shape& s, int depth);
-  /// Emits the round union of the children. Intersection and subtraction use it by negation: an intersection negates
-  /// all operands, a subtraction only the first: -(round union of -a, b, c, ...).
+  /// Emits the round union of the children. Intersection and subtraction are round unions with negated operands: an
+  /// intersection negates all operands, a subtraction only the first: -(round union of -a, b, c, ...).
   Emitted round(const Shape& s, int depth, bool negated, bool only_first);
   Emitted sum(const Shape& s, int depth);
-  /// True if a ball's weight is 0 at every position that will be sampled, so that leaving it out changes no bit. Always
-  /// false under a warp, where positions differ.
+  /// True if the kernel weight of a ball is 0 at every position that will be sampled, so that omitting the ball changes
+  /// no bit. Always false under a warp, which moves the positions.
   bool weighsNothing(const Shape& ball) const;
   Emitted morph(const Shape& s, int depth);
   Value voxels(const Shape& s, uint32_t label);
@@ -64,7 +64,7 @@ class ShapeCompiler {
 
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
-  IntBox read_;    ///< contains every position that will be sampled
+  IntBox read_;    ///< box that contains every position that will be sampled
   int warps_ = 0;  ///< number of warps around the current shape
   int32_t cell_;
   ShapeLabels* shapes_;

@@ -12,7 +12,7 @@ namespace {
 
 using Counts = std::pmr::vector<uint16_t>;
 
-/// How a level samples a block along an axis: voxels per sample, and the half width of the tent filter.
+/// The sampling of a block along an axis at a level: voxels per sample, and half width of the tent filter in voxels.
 struct Sampling {
   int32_t step = 1, tent = 2;
 };
@@ -23,8 +23,8 @@ Sampling samplingAt(int32_t edge, int32_t cell) {
   return {4, 4};
 }
 
-/// Returns the block's voxels from `first` on, by their index in the world; beyond the end of the block, repeats the
-/// nearest voxels.
+/// Returns the voxels from index `first` on (an index in the world); beyond the end of the block, repeats the nearest
+/// voxels.
 Counts unpacked(const GrammarChunk& chunk, const VoxelBlock& block, Int3 first, const std::array<size_t, 3>& count,
                 std::pmr::memory_resource* memory) {
   const auto held = [&](int axis, int64_t i) {
@@ -47,7 +47,7 @@ Counts unpacked(const GrammarChunk& chunk, const VoxelBlock& block, Int3 first, 
   return out;
 }
 
-/// Filters along an axis with the tent: one weighted sum per sample. Sets `count` to their number.
+/// Applies the tent filter along an axis, with one weighted sum per sample. Sets count[axis] to the number of samples.
 Counts tented(const Counts& in, std::array<size_t, 3>& count, size_t axis, size_t samples, Sampling sampling) {
   size_t inner = 1, outer = 1;
   for (size_t a = 0; a < axis; ++a) inner *= count[a];
@@ -69,7 +69,8 @@ Counts tented(const Counts& in, std::array<size_t, 3>& count, size_t axis, size_
   return out;
 }
 
-/// Returns the value of a sample, in units. solid, all: weighted numbers of solid voxels and of all voxels around it.
+/// Returns the value of a sample, in units. solid, all: weighted number of solid voxels, and of all voxels, around the
+/// sample.
 int64_t valueOf(int64_t solid, int64_t all, int64_t edge, Sampling sampling) {
   const int64_t most = edge - edge / 8;
   return std::clamp(floorDiv((all - 2 * solid) * edge * (sampling.tent / 2), all), -most, most);
@@ -92,7 +93,8 @@ std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape
                                           int32_t cell, std::pmr::vector<float>& samples) {
   const VoxelBlock& block = chunk.blocks[shape.block];
   const Sampling sampling = samplingAt(block.edge, cell);
-  // More than one edge away from the block's box, the box decides, because it is farther from 0 than any sample.
+  // More than one edge away from the block's box, the box determines the shape, because its value is farther from 0
+  // than any sample.
   IntBox decides;
   for (int axis = 0; axis < 3; ++axis) {
     const auto half = static_cast<int64_t>(shape.size[static_cast<size_t>(axis)]) + block.edge;
@@ -131,7 +133,8 @@ std::optional<SampleLattice> sampleVoxels(const GrammarChunk& chunk, const Shape
   const bool sided = sampling.tent == 2;
   samples.clear();
   samples.reserve(size_t{at.count[0]} * at.count[1] * at.count[2]);
-  /// Index of the sample to read (all samples along an axis with count 1 are equal), and of its voxel.
+  /// held() returns the index of a sample along an axis (all samples are equal along an axis with count 1); voxel()
+  /// returns the index of the sample's voxel.
   const auto held = [&](size_t axis, size_t i) { return count[axis] == 1 ? size_t{0} : i; };
   const auto voxel = [&](size_t axis, size_t i) {
     return voxels[axis] == 1 ? size_t{0}

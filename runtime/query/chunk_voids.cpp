@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t kLast = kChunkCells;
 
-/// Labels a run of samples with its void in the faces that contain samples of the run.
+/// Writes the void of a run of samples to the faces of the chunk that contain samples of the run.
 class FaceWriter {
  public:
   explicit FaceWriter(ChunkVoids& chunk) : chunk_(chunk) {}
@@ -45,7 +45,7 @@ ChunkVoids chunkVoids(std::span<const uint64_t> rows, Int3 owned, std::span<cons
   ChunkVoids chunk{std::pmr::vector<ChunkVoids::Void>(memory),
                    {faces(), faces(), faces(), faces(), faces(), faces()},
                    std::vector<std::optional<uint32_t>>(marks.size())};
-  // A root is the lowest label of its void, so it gets its number before other labels of the void are converted.
+  // The root of a void is its lowest label, so its number is known before other labels of the void are converted.
   std::pmr::vector<uint32_t> number(runs.labels(), memory);
   for (size_t label = 0; label < number.size(); ++label) {
     const size_t root = runs.rootOf(label);

@@ -9,30 +9,32 @@ namespace sgm {
 
 namespace {
 
-constexpr int kNearBrick = 4;  // cells on each axis of a brick, whose samples are evaluated together
-// cells: the search starts within this distance, so that a near surface is found without compiling distant parts
+constexpr int kNearBrick = 4;  // edge of a brick in cells; the samples of a brick are evaluated together
+// distance in cells within which the search starts, so that a near surface is found without compiling distant parts
 constexpr int64_t kFirstSearch = 16;
 constexpr int64_t kSearchGrowth = 4;
 constexpr double kNoDistance = std::numeric_limits<double>::infinity();
-constexpr double kNearest = 0.25;  // units: the search for the foot point ends when it improves by less
+// the search along the surface ends when no step decreases the distance to the queried place by at least this many
+// units
+constexpr double kNearest = 0.25;
 
-/// A set of bricks, or a box, that may contain the surface, with a lower bound of its distance.
+/// A range of bricks, or a box, that may contain the surface, with a lower bound of its distance.
 struct Candidate {
   double lower = 0;
-  int rank = 0;  ///< several bricks: 0; one brick: 1; a box: 2
-  IntBox box;    ///< bricks: range of their coordinates; box: in units
+  int rank = 0;  ///< 0: several bricks; 1: one brick; 2: a box
+  IntBox box;    ///< for bricks, the range of their coordinates; for a box, its corners in units
   std::shared_ptr<const PrunedProgram> program;
 
-  /// Orders a priority queue: the nearest candidate comes first. Among equals, bricks come before boxes, and then lower
-  /// coordinates first. So the order in which boxes are found does not depend on the bounds that were proven for bricks
-  /// around them.
+  /// Orders a priority queue: the nearest candidate comes first. Among equally near candidates, bricks come before
+  /// boxes, and then lower coordinates first. So the order in which boxes are found does not depend on the bounds that
+  /// were proven for the bricks around them.
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(b.lower, b.rank, b.box.lo, b.box.hi) < std::tie(a.lower, a.rank, a.box.lo, a.box.hi);
   }
 };
 
-/// Finds the nearest sample on the other side of the surface, by best-first search over an octree; then finds the
-/// surface between that sample and the place.
+/// Finds the surface point nearest to a place: first the nearest sample on the other side of the surface, by best-first
+/// search over an octree, and then the surface between the place and that sample.
 class SurfaceSearch {
  public:
   SurfaceSearch(const QueryField& field, const SplitPosition& place, double radius)
@@ -44,7 +46,7 @@ class SurfaceSearch {
         open_(std::less<Candidate>{}, std::pmr::vector<Candidate>(field.memory)) {}
 
   Result<std::optional<SurfacePoint>> run() {
-    // Cells from world_first to world_last have all of their corners in the world.
+    // All corners of the cells from world_first to world_last lie in the world.
     const int64_t world_first = -(INT64_C(2147483648) / cell_), world_last = INT64_C(2147483647) / cell_ - 1;
     IntBox bricks;
     for (int axis = 0; axis < 3; ++axis) {
@@ -130,8 +132,8 @@ class SurfaceSearch {
     if (longest > 1) sampleLattice(box.box, (longest + 1) / 2, box.program);
   }
 
-  /// Samples a box at this spacing, including its high faces. Keeps the boxes of the lattice whose corners differ in
-  /// sign.
+  /// Samples a box at this spacing, including its high faces, and queues those boxes between the samples whose corners
+  /// differ in sign.
   void sampleLattice(const IntBox& box, int32_t spacing, std::shared_ptr<const PrunedProgram> program) {
     std::array<std::vector<int32_t>, 3> at;
     for (int axis = 0; axis < 3; ++axis) {
@@ -166,7 +168,8 @@ class SurfaceSearch {
     }
   }
 
-  /// Records a sample on the other side of the surface: the surface lies between it and the place.
+  /// Records a sample that lies on the other side of the surface than the queried place, if it is the nearest one so
+  /// far.
   void meet(const Int3& sample) {
     const Vector3 to = place_.to(sample);
     const double distance = std::sqrt(dot(to, to));
@@ -175,7 +178,7 @@ class SurfaceSearch {
     beyond_ = sample;
   }
 
-  /// Moves from the sample to the surface, and then along the surface as long as the distance decreases.
+  /// Moves from the nearest sample to the surface, and then along the surface as long as the distance decreases.
   SurfacePoint foot(const ProgramView& whole) {
     IntBox near = IntBox{place_.base, place_.base}.grown(static_cast<int32_t>(nearest_) + 2);
     PrunedProgram pruned(field_.memory);
@@ -206,7 +209,8 @@ class SurfaceSearch {
     return found;
   }
 
-  /// Bisects the stretch from `open` to `closed`, whose ends differ in sign, down to a quarter of a unit.
+  /// Bisects the interval from `open` to `closed` along the direction, whose ends differ in sign, to a quarter of a
+  /// unit.
   void cut(const ProgramView& view, const Vector3& direction, double& open, double& closed) {
     while (closed - open > kNearest) {
       const double middle = open + (closed - open) / 2;

@@ -13,9 +13,10 @@ namespace sgm {
 
 namespace {
 
-constexpr uint32_t kBrick = 8;  // edge of a brick in points; a brick is evaluated together
+constexpr uint32_t kBrick = 8;  // edge of a brick in points; the points of a brick are evaluated together
 constexpr uint32_t kBlock = 4 * kBrick;
-constexpr size_t kDepths = 3;  // number of levels when a block is halved down to bricks, both included
+// number of edge lengths of parts: a block of 32 points per edge is halved to 16, and to bricks of 8
+constexpr size_t kDepths = 3;
 
 /// A box of the grid's points.
 struct Part {
@@ -42,7 +43,7 @@ IntBox boxOf(const DensityGrid& grid, const Part& part) {
   return box;
 }
 
-/// Calls visit for the parts of this edge length that make up the whole part, in order.
+/// Divides a part into smaller parts of this edge length (in points), and calls visit for each, in order.
 template <class Visit>
 void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   std::array<uint32_t, 3> at{};
@@ -60,7 +61,7 @@ void cut(const Part& whole, uint32_t edge, const Visit& visit) {
   }
 }
 
-/// Fills one block. Not thread-safe.
+/// Writes the densities of one block. Not thread-safe.
 class BlockFill {
  public:
   BlockFill(const DensityGrid& grid, const DensityEdge& edge, const DensityRows& rows,
@@ -74,11 +75,12 @@ class BlockFill {
 
   DensityFigures figures;
 
-  /// Fills a part. edge: edge of the parts that it is divided into at this depth; kBrick at the last depth.
+  /// Writes the densities of a part. edge: maximum edge of the part, in points; a part larger than a brick is halved
+  /// along each axis, unless its density is uniform.
   void fill(const ProgramView& view, const Part& part, uint32_t edge, size_t depth = 0) {
     PrunedProgram& pruned = pruned_[depth];
     prune(view, boxOf(grid_, part), pruning_, pruned, Uniform::keep);
-    // The margin of two steps beyond the edge covers the rounding of samples and of the products of bounds.
+    // The margin of two steps beyond the edge covers the rounding errors of samples and of the products of bounds.
     const bool full = pruned.field.hi * static_cast<double>(pruned.q_scale) < -(edge_.steps + 2);
     if (pruned.empty() || full) {
       figures.bricks += bricksOf(part);
@@ -177,7 +179,7 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
   size_t error_at = 0;
   uint64_t done = 0;
   bool stopped = false;
-  // After an error, earlier blocks continue: they may fail, too, and the error of the first block is reported.
+  // After an error, the work continues only for earlier blocks, since the error of the first failing block is reported.
   const auto ended = [&](size_t i) {
     const std::lock_guard lock(mutex);
     return stopped || (error && i > error_at);
@@ -195,7 +197,7 @@ Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid&
     figures.bricks += block.figures.bricks;
     figures.uniform += block.figures.uniform;
     if (stopped || error || !progress) return;
-    // After the last block there is nothing left to cancel.
+    // After the last block there is nothing left to cancel, so the result of progress is ignored.
     ++done;
     if (!progress(done, blocks.size()) && done < blocks.size()) stopped = true;
   });

@@ -1,5 +1,5 @@
 #pragma once
-// Samples a volume's density on a lattice, from the same field samples that meshes use, for renderers of fog.
+// Samples the density of a volume on a lattice, for renderers of fog. It uses the same field samples as meshing.
 
 #include <array>
 
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// A lattice of points origin + spacing * (x, y, z), 0 <= x < size[0] and so on, in units, and the distance over which
-/// density rises to 1 (`edge`).
+/// A lattice of points origin + spacing * (x, y, z), with 0 <= x < size[0] and so on, in units. The density rises from
+/// 0 at the surface to 1 over the distance `edge`.
 struct DensityGrid {
   Int3 origin;
   int32_t spacing = kUnitsPerMetre;  ///< distance of neighbouring points in units, at least 1
@@ -19,15 +19,16 @@ struct DensityGrid {
   double edge = 10.0 * kUnitsPerMetre;
 };
 
-/// The output array, not owned: rows along x, then y, then slices along z. Pitches are in values, not bytes.
+/// The output array: rows along x, then y, then slices along z. Pitches are in values, not bytes. Does not own the
+/// array.
 struct DensityRows {
   uint8_t* bytes = nullptr;  ///< densities as 0..255, rounded to the nearest
   float* values = nullptr;   ///< densities as 0..1; used if bytes is null
   size_t row_pitch = 0, slice_pitch = 0;
 };
 
-/// Statistics: the number of bricks of 8^3 points, and of the bricks whose density was proven to be 0 or 1 everywhere
-/// without evaluating their points.
+/// Statistics. bricks: number of bricks of 8^3 points; uniform: number of bricks whose density was proven to be 0 or 1
+/// everywhere without evaluating their points.
 struct DensityFigures {
   uint64_t bricks = 0, uniform = 0;
 };
@@ -35,8 +36,8 @@ struct DensityFigures {
 /// Writes the density (shaders/common/density.h) at every point. Gives the same bits regardless of the job system, and
 /// of how a lattice is divided into grids. Each block of 32^3 points (8^3 if the field contains sampled host fields)
 /// has its own program. progress is called after each block, never concurrently; returning false cancels. Errors:
-/// invalid_argument (the edge); range (the grid leaves the world); cancelled; those of compiling the field. Of several
-/// errors, the first block's is returned.
+/// invalid_argument (the edge); range (the grid leaves the world); cancelled; those of compiling the field. If several
+/// blocks fail, the error of the first block is returned.
 Result<DensityFigures> sampleDensity(const QueryField& field, const DensityGrid& grid, JobSystem& jobs,
                                      const DensityRows& rows, const Progress& progress = {});
 

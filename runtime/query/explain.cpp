@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A value above that of any visible shape: the shape is not visible.
+/// A value above the value of any visible shape. It means that the shape is not visible.
 constexpr double kNothing = 1e20;
 
 struct Sample {
@@ -30,7 +30,7 @@ Sample sampleAt(const FieldProgram& program, Int3 p) {
   return sample;
 }
 
-/// Evaluates single nodes of a cell's tree of shapes, and descends to the deciding ones.
+/// Evaluates single nodes of a cell's tree of shapes, and descends to the nodes that decide the field's value.
 class NodeReader {
  public:
   NodeReader(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), copier_(chunk), cell_edge_(cell_edge) {}
@@ -39,7 +39,7 @@ class NodeReader {
   double value(uint32_t shape, Int3 p) { return valueBy(copier_, shape, p); }
 
   /// Returns the nodes of a group. traced: this cell with the origins of its shapes. leaf: receives the index of the
-  /// deciding shape in them.
+  /// deciding shape in the result.
   Result<std::vector<ExplainedNode>> read(const TracedCell& traced, const Group& group, Int3 p, size_t& leaf) {
     traced_ = &traced;
     descend(group.root, p, 0, group.cut);
@@ -65,7 +65,8 @@ class NodeReader {
     return sampleAt(*program, p).value;
   }
 
-  /// Returns the value of an expression. It is measured by how far it displaces the surface of a ball.
+  /// Returns the value of an expression. It is measured by how far a displacement by the expression moves the surface
+  /// of a ball.
   double number(uint32_t expr, Int3 p) {
     if (!ball_) ball_.emplace(chunk_);
     std::pmr::vector<Shape>& shapes = ball_->chunk.shapes;
@@ -74,7 +75,7 @@ class NodeReader {
     return (valueBy(ball_->copier, static_cast<uint32_t>(shapes.size()) - 1, p) + 1) / kUnitsPerMetre;
   }
 
-  /// A copy of the cell with two more shapes, a ball and its displacement. It is made once and used for all
+  /// A copy of the cell with two additional shapes, a ball and its displacement. It is made once and used for all
   /// expressions.
   struct DisplacedBall {
     GrammarChunk chunk;
@@ -166,7 +167,7 @@ class NodeReader {
     }
   }
 
-  /// Descends into the child with the smallest or the largest value.
+  /// Descends into the child with the smallest value, or with the largest value if `largest` is true.
   void nearest(const Shape& s, bool largest, Int3 p, size_t at) {
     uint32_t found = 0;
     double best = largest ? -kNothing : kNothing;
@@ -190,7 +191,7 @@ class NodeReader {
   std::optional<Error> error_;
 };
 
-/// The deciding group among those examined so far.
+/// The group that decides the field's value, among those examined so far.
 struct Decision {
   bool any = false;
   uint32_t layer = 0;

@@ -8,36 +8,37 @@
 
 namespace sgm {
 
-/// A node of the deciding group's tree of shapes.
+/// A node of the shape tree of the group that decides the field's value.
 struct ExplainedNode {
   ShapeKind kind = ShapeKind::sphere;
-  int depth = 0;      ///< number of nodes that enclose it
+  int depth = 0;      ///< depth in the tree: number of nodes that enclose this node
   double value = 0;   ///< value of the node's field at the place, in units; negative inside
   bool cuts = false;  ///< true if the node is cut from the node that encloses it, or from the domain
-  /// smooth unions, cuts and meets: the radius in units; morphs: t; displacements: the amount in units; warps: the
-  /// distance in units
+  /// radius in units for smooth unions, cuts and meets; t for morphs; amount in units for displacements; distance in
+  /// units for warps
   double measure = 0;
-  size_t others = 0;  ///< number of its children that do not decide and are not listed
-  /// path, as an override names it, of the rule's use whose statement made the node; if an override made it, of the use
-  /// whose block the override replaces
+  size_t others = 0;  ///< number of the node's children that do not decide the value and are not listed
+  /// derivation path, in the format of overrides, of the use of a rule that made the node; if an override made the
+  /// node, the path of the use whose block the override replaces
   std::string path;
-  Span span;  ///< place of the statement in the source
+  Span span;  ///< span of the statement in the source text
 };
 
 struct Explanation {
   bool solid = false;
-  /// value of the world's field at the place, in units; a distance only near the surface
+  /// value of the world's field at the place, in units; only near the surface it is a distance
   double value = 0;
-  uint16_t material = 0, tag = 0;  ///< indices into Program::materials and tags of a surface at the place
-  uint32_t layer = 0;              ///< layer of the deciding group
+  uint16_t material = 0, tag = 0;  ///< indices into Program::materials and Program::tags of a surface at the place
+  uint32_t layer = 0;              ///< layer of the group that decides the value
   Int3 cell;
-  /// From the whole group down to the deciding shape: each node follows the node that encloses it. A morph is followed
-  /// by both of its sides. Empty if no shape comes near: then the domain decides.
+  /// The nodes from the root of the group to the deciding shape; each node follows the node that encloses it. A morph
+  /// is followed by both of its operands. Empty if no shape is near the place, so that the domain decides.
   std::vector<ExplainedNode> nodes;
-  size_t leaf = 0;  ///< index of the deciding shape in nodes
+  size_t leaf = 0;  ///< index of the deciding shape in `nodes`
 };
 
-/// Explains a place at level 0, without host fields and edits. Errors: those of WorldField::compile and trace.
+/// Explains the value of the field at a place, at level 0, without host fields and edits. Errors: those of
+/// WorldField::compile and trace.
 Result<Explanation> explain(const WorldField& world, Int3 place);
 
 }  // namespace sgm

@@ -19,11 +19,11 @@ namespace sgm {
 
 /// The field to be queried: that of a world, with or without edits, at level 0.
 struct QueryField {
-  /// Returns a program that is valid in the closed box.
+  /// Returns a program of the field that is valid in the closed box.
   std::function<Result<std::shared_ptr<const FieldProgram>>(const IntBox&)> at;
   int32_t finest_cell = kUnitsPerMetre / 2;  ///< edge of a level-0 cell, in units
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
-  /// true if the cost of a program grows with its box, because host fields are sampled: then queries request small
+  /// true if the cost of a program grows with its box, because host fields are sampled; queries then request small
   /// boxes
   bool sampled = false;
 };
@@ -36,19 +36,20 @@ QueryField queryField(const WorldField& world);
 struct SurfacePoint {
   std::array<double, 3> position{};
   std::array<double, 3> normal{};  ///< unit vector that points out of the solid, as for vertices of meshes
-  double distance = 0;             ///< distance from the queried place, in units
+  double distance = 0;             ///< distance from the queried place or the start of the ray, in units
   uint16_t material = 0, tag = 0;
-  bool inside = false;  ///< true if the queried place itself is solid
+  bool inside = false;  ///< true if the queried place, or the start of the ray, is solid
 };
 
-/// Returns the maximum length of a ray, and of the search distance of closestPoint(), in units.
+/// longestRay() returns the maximum length of a ray, farthestSurface() the maximum search distance of closestPoint(),
+/// in units.
 int64_t longestRay(int32_t finest_cell);
 int64_t farthestSurface(int32_t finest_cell);
 
 /// Finds the first solid along the ray within `length`. A ray that starts in the solid hits it at once (inside = true).
-/// The ray finds every solid that it crosses over at least a sixteenth of a cell and one unit; so it misses no wall as
-/// thick as a cell, which a mesh of level 0 always shows. The hit lies on the void's side, less than a unit from the
-/// solid. A ray ends at the end of the world. direction: any length except 0. length: 0 to longestRay().
+/// The ray finds every solid that it crosses over a length of at least one unit and at least a sixteenth of a cell. So
+/// it misses no wall as thick as a cell, which a mesh of level 0 always shows. The hit lies in the void, less than a
+/// unit from the solid. A ray ends at the end of the world. direction: any length except 0. length: 0 to longestRay().
 ///
 /// Interval bounds over whole stretches of the ray limit the steps: empty space costs almost nothing, and the result
 /// does not depend on the steepness of the field. Only stretches that are not proven empty are sampled.
@@ -57,18 +58,18 @@ Result<std::optional<SurfacePoint>> rayCast(const QueryField& field, const std::
 
 /// Finds the surface nearest to a place within `max_distance` (0 to farthestSurface()); nullopt if there is none.
 /// Considers all of the surface that the samples of level 0 show: no part of it is nearer than the result by more than
-/// a quarter of a cell plus a sixty-fourth of the distance; usually the result is exact to a unit. The side of the
-/// returned position that faces the place is void or, if the place is inside the solid, solid.
+/// a quarter of a cell plus a sixty-fourth of the distance. Usually the result is exact to a unit. The returned
+/// position lies on the same side of the surface as the place: in void or, if the place is inside the solid, in solid.
 Result<std::optional<SurfacePoint>> closestPoint(const QueryField& field, const std::array<double, 3>& place,
                                                  double max_distance);
 
 /// The agent of isWalkable(): an upright cylinder.
 struct Walker {
   double radius = 0.3 * kUnitsPerMetre;  ///< 0 to 64 cells
-  double height = 1.8 * kUnitsPerMetre;  ///< above 0, to 256 cells
-  /// height that the walker can climb or drop from one place to the next; below `height`
+  double height = 1.8 * kUnitsPerMetre;  ///< height of the walker in units: above 0, at most 256 cells
+  /// height in units that the walker can climb or drop from one place to the next; less than `height`
   double step = 0.4 * kUnitsPerMetre;
-  /// minimum y of a floor's unit normal: the cosine of the steepest angle; 0 to 1
+  /// minimum y of a floor's unit normal, 0 to 1: the cosine of the steepest slope
   double slope = 0.7071067811865476;
   /// minimum area of connected floor that makes a box walkable, in square units; 0 or more
   double area = 1024.0 * 1024.0;
@@ -76,18 +77,17 @@ struct Walker {
 
 struct WalkableArea {
   bool walkable = false;  ///< true if `largest` is not 0 and at least the walker's `area`
-  /// area of the floor in the box on which the walker can stand, in square units seen from above
+  /// area of all floor in the box on which the walker can stand, in square units seen from above
   double standing = 0;
-  double largest = 0;  ///< area of the largest connected part of that floor
-  uint8_t sides = 0;   ///< side faces of the box that the largest part reaches: bit (1 << Face)
+  double largest = 0;  ///< area of the largest connected part of the floor in `standing`
+  uint8_t sides = 0;   ///< side faces of the box that the largest connected part reaches: bit (1 << Face)
 };
 
 /// Finds where a walker can stand in a box (closed, not empty) and how far it can walk, on the samples of level 0, one
 /// cell apart. A place to stand is a column of samples with a floor in the box: solid under void, with a normal within
-/// the slope, void over the walker's height, and no solid within the walker's radius that is higher than its step and
-/// lower than its head. Adjacent places are connected if their floors differ by no more than the step. A passage can be
-/// walked through if `sides` contains both of its ends. Errors: limit if the box meets more than 4,096 chunks of 32^3
-/// cells.
+/// the slope, void up to the walker's height, and, within the walker's radius, no solid above its step and below its
+/// head. Adjacent places are connected if their floors differ by no more than the step. A passage can be walked through
+/// if `sides` contains both of its ends. Errors: limit if the box meets more than 4,096 chunks of 32^3 cells.
 Result<WalkableArea> isWalkable(const QueryField& field, const IntBox& box, const Walker& walker);
 
 }  // namespace sgm

@@ -14,13 +14,13 @@
 
 namespace sgm {
 
-/// A position as whole units plus a fraction of 0 to 1: sums with offsets are rounded in the same way everywhere in the
-/// world.
+/// A position as whole units plus a fraction from 0 to 1. Thereby sums with offsets are rounded in the same way
+/// everywhere in the world.
 struct SplitPosition {
   Int3 base;
   Vector3 rest{};
 
-  /// Returns the whole position nearest to this one plus an offset. Precondition: it lies in the world.
+  /// Returns this position plus an offset, rounded to whole units. Precondition: the result lies in the world.
   Int3 at(const Vector3& offset) const {
     Int3 p;
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ struct SplitPosition {
   Vector3 position(const Vector3& offset) const {
     return {base.x + (rest[0] + offset[0]), base.y + (rest[1] + offset[1]), base.z + (rest[2] + offset[2])};
   }
-  /// Returns the vector from this position to a whole position.
+  /// Returns the vector from this position to a position in whole units.
   Vector3 to(const Int3& p) const {
     return {static_cast<double>(int64_t{p.x} - base.x) - rest[0], static_cast<double>(int64_t{p.y} - base.y) - rest[1],
             static_cast<double>(int64_t{p.z} - base.z) - rest[2]};
@@ -54,8 +54,8 @@ inline Result<SplitPosition> splitPosition(const Vector3& position) {
   return split;
 }
 
-/// Checks a length. Errors: invalid_argument if it is negative or NaN; limit if it is more than `most`. name: for the
-/// message.
+/// Checks a length. Errors: invalid_argument if it is negative or NaN; limit if it is more than `most`. name: the
+/// length's name in the error message.
 inline Result<void> checkLength(double length, int64_t most, const char* name) {
   if (!(length >= 0)) return Error{Code::invalid_argument, std::string(name) + " is not a number of at least 0"};
   if (length > static_cast<double>(most)) {
@@ -65,7 +65,7 @@ inline Result<void> checkLength(double length, int64_t most, const char* name) {
   return {};
 }
 
-/// Points that are evaluated together. Not thread-safe.
+/// A list of points that are evaluated together. Not thread-safe.
 class QuerySampler {
  public:
   explicit QuerySampler(std::pmr::memory_resource* memory)

@@ -7,16 +7,16 @@ namespace sgm {
 
 namespace {
 
-// a piece of the ray has one program; its length is the larger of these two
+// length of a piece of the ray, for which one program is compiled: the larger of these two lengths
 constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;
 constexpr int64_t kMaxPieces = 64;
-constexpr int64_t kSampledPieceCells = 32;  // length of a piece if host fields are sampled for each program
-// evaluating this many samples costs as much as one more attempt to prove a stretch empty
+constexpr int64_t kSampledPieceCells = 32;  // length of a piece in cells, if each program samples host fields
+// number of samples whose evaluation costs as much as another attempt to prove a stretch of the ray empty
 constexpr int64_t kLeafSteps = 48;
-// units: the ray ends this far before the end of the world, so that rounded positions stay inside
+// distance in units from the end of the world at which the ray ends, so that rounded positions stay inside
 constexpr double kInWorld = 1.0;
 
-/// One ray. Its positions are `step` apart; the last one is at the ray's length.
+/// One ray, as positions that are `step_` apart; the last one is at the ray's length.
 class RayWalk {
  public:
   RayWalk(const QueryField& field, const SplitPosition& from, const Vector3& direction, double length)
@@ -67,7 +67,7 @@ class RayWalk {
     return first + (hit - q.begin());
   }
 
-  /// Bisects between the solid step and the previous one, down to half a unit. Uses only quantised samples, so that
+  /// Bisects between the first solid step and the step before it, to half a unit. Uses only quantised samples, so that
   /// every machine gets the same result.
   Result<std::optional<SurfacePoint>> surfaceAt(int64_t step) {
     double open = step == 0 ? 0 : along(step - 1), closed = along(step);
@@ -90,10 +90,10 @@ class RayWalk {
   const Vector3 direction_;
   const double length_, step_;
   QuerySampler sampler_;
-  std::vector<std::unique_ptr<PrunedProgram>> pruned_;  ///< one per depth of recursion
+  std::vector<std::unique_ptr<PrunedProgram>> pruned_;  ///< pruned program for each depth of the recursion
 };
 
-/// Returns the length of the ray within the world.
+/// Returns the length of that part of the ray that lies within the world.
 double lengthInWorld(const SplitPosition& from, const Vector3& direction, double length) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const int64_t base = from.base[static_cast<int>(axis)];

@@ -1,5 +1,5 @@
 #pragma once
-// Holds the signs of samples of a window of chunks in memory, and loads them from the field.
+// Keeps the signs of the samples of some chunks in memory, and loads them from the field.
 
 #include <functional>
 #include <map>
@@ -12,8 +12,8 @@
 
 namespace sgm {
 
-/// A lattice of samples one cell apart: sample (x, y, z) lies at (x, y, z) * cell, and chunk (x, y, z) begins with
-/// sample 32 * (x, y, z).
+/// The signs of a lattice of samples one cell apart: sample (x, y, z) lies at (x, y, z) * cell, and chunk (x, y, z)
+/// begins with sample 32 * (x, y, z).
 struct SignField {
   /// Returns the signs of a chunk that lies wholly inside the world. Called from any thread.
   std::function<Result<ChunkSigns>(Int3 chunk)> signs;
@@ -21,16 +21,16 @@ struct SignField {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// Returns the samples of level 0 of a field.
+/// Returns the signs of a field's samples of level 0.
 SignField signField(QueryField field);
 
-/// Holds the signs of chunks until they are dropped. Not thread-safe, except at() and clearance().
+/// Keeps the signs of chunks in memory until they are dropped. Not thread-safe, except at() and clearance().
 class SignWindow {
  public:
   explicit SignWindow(const SignField& field) : field_(field) {}
 
-  /// Loads those of the chunks that are missing, on the job system. Errors: those of the field; of several errors, the
-  /// first chunk's.
+  /// Loads those of the chunks that are missing, on the job system. Errors: those of the field; if several chunks fail,
+  /// the error of the first chunk.
   Result<void> add(std::span<const Int3> chunks, JobSystem& jobs);
   /// Drops the chunks for which keep(chunk) is false.
   template <class Keep>
@@ -38,10 +38,10 @@ class SignWindow {
     std::erase_if(chunks_, [&](const auto& entry) { return !keep(entry.first); });
   }
 
-  /// Precondition: the chunk is loaded.
+  /// Returns the signs of a chunk. Precondition: the chunk is loaded.
   const ChunkSigns& at(Int3 chunk) const { return chunks_.at(chunk); }
-  /// Returns the clearance of a chunk's samples (squaredClearance in mesh/clearance.h). Precondition: the chunk is
-  /// loaded and, if most > 1, the 26 chunks around it, too.
+  /// Returns the squared clearance of a chunk's samples (squaredClearance in mesh/clearance.h). Precondition: the chunk
+  /// is loaded and, if most > 1, also the 26 chunks around it.
   std::pmr::vector<uint16_t> clearance(Int3 chunk, int most) const;
 
  private:

@@ -77,7 +77,7 @@ void VoidGraph::join(const OpenFace& low, const FaceVoids& high, int axis, Int3 
   std::pair<uint32_t, uint32_t> last{};
   Portal* portal = nullptr;
   for (size_t i = 0; i < high.size(); ++i) {
-    // Both chunks have this sample in common, so it is free in both or in neither.
+    // Both chunks contain this sample, so it is free in both or in neither.
     if (high[i] == 0) continue;
     const std::pair<uint32_t, uint32_t> pair{low.first + low.voids[i] - 1, first_.back() + high[i] - 1};
     if (portal == nullptr || pair != last) {
@@ -134,12 +134,12 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
   const Place start{static_cast<double>(from.x), static_cast<double>(from.y), static_cast<double>(from.z)};
   const Place end{static_cast<double>(to.x), static_cast<double>(to.y), static_cast<double>(to.z)};
   const std::vector<std::vector<uint32_t>> portals = portalsByVoid();
-  // A* search whose lower bound is the straight line to the end (Hart, Nilsson, Raphael). A step is a portal together
-  // with the side to which it leads.
+  // A* search (Hart, Nilsson, Raphael), whose lower bound is the length of the straight line to the end. A step is a
+  // portal and the side to which it leads.
   constexpr uint32_t kFirstStep = std::numeric_limits<uint32_t>::max();
   std::vector<double> cost(2 * portals_.size(), std::numeric_limits<double>::infinity());
   std::vector<uint32_t> before(2 * portals_.size(), kFirstStep);
-  using Entry = std::tuple<double, double, uint32_t>;  // cost plus lower bound of the rest, cost, step
+  using Entry = std::tuple<double, double, uint32_t>;  // lower bound of the total cost, cost so far, step
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto leave = [&](uint32_t inside, const Place& place, double so_far, uint32_t step) {
     for (const uint32_t p : portals[inside]) {
@@ -152,7 +152,7 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
       queue.push({there + between(portal.middle, end), there, next});
     }
   };
-  // The end is reached from the void that contains it; `best` is the least cost found for that.
+  // The path can end in any step that leads into b. `best` is the least total cost of such a path found so far.
   double best = a == b ? between(start, end) : std::numeric_limits<double>::infinity();
   uint32_t last = kFirstStep;
   leave(a, start, 0, kFirstStep);

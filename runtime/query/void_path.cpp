@@ -18,17 +18,17 @@ constexpr int kRadiiTogether = 16;  // number of agent sizes that one pass over 
 // number of chunks whose voids are computed in parallel before they are added to the graph
 constexpr size_t kChunksTogether = 64;
 
-/// An end of a path: its sample (nullopt in rock), and the distance from there to the nearest solid sample.
+/// An end of a path: its sample (nullopt in rock), and the distance from that sample to the nearest solid sample.
 struct End {
   std::optional<Int3> sample;
-  int clearance = 0;  ///< squared, in cells
+  int clearance = 0;  ///< squared distance to the nearest solid sample, in cells
 };
 
-/// The result of one pass for agents of one size.
+/// The result of one pass over the region for agents of one size.
 struct Survey {
   int need = 1;  ///< a sample is free if its squared clearance, in cells, is at least this
   VoidGraph graph;
-  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the two ends
+  std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that contain the two ends of the path
 
   bool joined() { return ends[0] && ends[1] && graph.joined(*ends[0], *ends[1]); }
 };
@@ -118,7 +118,7 @@ class VoidSearch {
     return {sample.x - first.x, sample.y - first.y, sample.z - first.z};
   }
 
-  /// Formats a place for a message: x, y, z in the unit that the caller uses.
+  /// Formats a place for an error message: x, y, z in the unit that the caller uses.
   std::string told(const std::array<double, 3>& place) const {
     const double unit = question_.ends->tell_metres ? kUnitsPerMetre : 1;
     return numberText(place[0] / unit) + ", " + numberText(place[1] / unit) + ", " + numberText(place[2] / unit);
@@ -146,7 +146,7 @@ class VoidSearch {
       const double sample = std::floor(place[static_cast<size_t>(axis)] / field_.cell);
       low[axis] = std::min(static_cast<int32_t>(sample), high_[axis] * kChunkCells - 1);
     }
-    // The eight samples around a place always lie in one chunk.
+    // The eight samples around a place always lie in the same chunk.
     const Int3 chunk = chunkOf(low);
     if (const Result<void> added = window_.add(chunksAround(chunk, 1), jobs_); !added) return added.error();
     const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, kMaxNeed);
@@ -168,19 +168,20 @@ class VoidSearch {
     return end;
   }
 
-  /// True if the root of a squared distance in cells is at most the length in units. All code uses this one comparison,
+  /// True if a squared distance in cells is at most the square of a length in units. All code uses this one comparison,
   /// so that a reported length gives the same result when it is used as a query.
   bool isAsNear(int square, double length) const { return length * length >= squaredOf(square); }
   double squaredOf(int square) const { return static_cast<double>(field_.cell) * field_.cell * square; }
 
-  /// Returns the smallest square that is greater than that of the radius: any nearer solid sample blocks the agent.
+  /// Returns the smallest squared distance, in cells, that a free sample must have to the nearest solid sample: the
+  /// smallest one that exceeds the agent's radius.
   int needed() const {
     int need = 1;
     while (need < kMaxNeed && isAsNear(need, question_.radius)) ++need;
     return need;
   }
 
-  /// Returns the smallest length for which isAsNear() holds at this squared distance in cells: the root, or a
+  /// Returns the smallest length in units for which isAsNear() holds at this squared distance in cells: the root, or a
   /// floating-point number next to it.
   double leastAsFar(int square) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -191,8 +192,8 @@ class VoidSearch {
     return least;
   }
 
-  /// Returns values of `need` between the last one known to have a path and the first one known to have none, evenly
-  /// spaced, ascending.
+  /// Returns values of `need`, evenly spaced and ascending, between the largest one known to have a path and the
+  /// smallest one known to have none.
   std::vector<int> between() const {
     const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
@@ -200,8 +201,8 @@ class VoidSearch {
     return needs;
   }
 
-  /// Makes one pass over the region for all of these needs; returns results in ascending order. way: the need for which
-  /// data of the path is stored.
+  /// Makes one pass over the region for several values of `need`; returns the results in ascending order of need. way:
+  /// the value for which the data of a path is stored.
   Result<std::vector<Survey>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
@@ -217,7 +218,8 @@ class VoidSearch {
         seen.insert(seen.end(), around.begin(), around.end());
       }
       window_.dropUnless([&](Int3 chunk) {
-        Int3 last;  // the last chunk in the order whose computation needs this chunk
+        // the last chunk, in the order of processing, whose voids depend on the signs of this chunk
+        Int3 last;
         for (int axis = 0; axis < 3; ++axis)
           last[axis] = std::clamp(chunk[axis] + rings - low_[axis], 0, count_[axis] - 1);
         return order.numberOf(last) >= first;
@@ -270,7 +272,7 @@ class VoidSearch {
     return voids;
   }
 
-  /// Makes passes over the region until the largest need that has a path is known.
+  /// Makes further passes over the region until the largest need that has a path is known.
   Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
@@ -324,10 +326,11 @@ class VoidSearch {
   const VoidQuestion& question_;
   const Progress& progress_;
   SignWindow window_;
-  Int3 low_, high_, count_;  ///< in chunks; high_ is excluded
+  /// the region in chunks: low_ to high_ (excluded), and the number of chunks along each axis
+  Int3 low_, high_, count_;
   std::array<End, 2> ends_;
   int last_holding_ = 0;   ///< the largest need known to have a path
-  int first_failing_ = 1;  ///< the smallest need known to have none
+  int first_failing_ = 1;  ///< the smallest need known to have no path
 };
 
 }  // namespace

@@ -1,14 +1,15 @@
 #pragma once
-// The voids of a region for an agent of one size, and the path through them from one place to another.
+// Finds the voids of a region for an agent of one size, and a path through them from one place to another.
 //
 // Works on the samples of level 0, one cell apart. The agent is a ball. A sample is free if no solid sample, inside or
-// outside of the region, is within the agent's radius (mesh/clearance.h); with radius 0 all of the void is free. Free
-// samples connect along the axes and across the diagonals of faces, as the mesh joins its voids (region/components.h),
-// and a path goes from sample to connected sample within the region. So a path is valid for the ball only to within
-// cells: between two of its samples, the nearest solid sample may be nearer by 0.71 cells; and the surface lies before
-// that sample by less than 1.74 cells, usually less than one.
+// outside of the region, is within the agent's radius (mesh/clearance.h); with radius 0 every void sample is free. Free
+// samples connect along the axes and across the diagonals of faces, as the mesh connects its voids
+// (region/components.h), and a path goes from sample to connected sample within the region. So a path is valid for the
+// ball only approximately: between two samples of the path, the nearest solid sample may be up to 0.71 cells nearer
+// than at the samples; and the surface lies less than 1.74 cells, usually less than one, in front of that solid sample.
 //
-// A place is represented by the nearest void sample of the eight around it; if all eight are solid, it lies in rock.
+// A place is represented by the nearest void sample of the eight around it; if all eight are solid, the place lies in
+// rock.
 
 #include <optional>
 #include <vector>
@@ -20,11 +21,11 @@
 namespace sgm {
 
 struct VoidQuestion {
-  IntBox region;      ///< lo <= p < hi, units; grown to whole chunks
+  IntBox region;      ///< the searched box lo <= p < hi, units; it is enlarged to whole chunks
   double radius = 0;  ///< radius of the agent in units: 0 to less than kMaxClearance cells
   struct Ends {
-    std::array<double, 3> from{}, to{};  ///< ends of the path in units, in the region
-    bool widest = false;                 ///< also find the largest agent for which a path exists
+    std::array<double, 3> from{}, to{};  ///< positions of the ends of the path, in units; they must lie in the region
+    bool widest = false;                 ///< true: also find the largest agent for which a path exists
     bool tell_metres = false;            ///< true: error messages give places in metres; false: in units
   };
   std::optional<Ends> ends;     ///< ends of the requested path; nullopt: no path is requested
@@ -43,23 +44,25 @@ enum class WayVerdict {
 /// A path from one place to another, or the reason why there is none. Lengths in units.
 struct VoidWay {
   WayVerdict verdict = WayVerdict::apart;
-  /// The samples of the path, from that of `from` to that of `to`, each connected with the previous one. It is the
-  /// shortest path within the chunks that VoidGraph::chunksOfWay() chooses. Empty if there is none.
+  /// The samples of the path, from the sample of `from` to the sample of `to`, each connected with the previous one. It
+  /// is the shortest path within the chunks that VoidGraph::chunksOfWay() chooses. Empty if there is no path.
   std::vector<Int3> places;
   double length = 0;
   /// The distance from the sample of each end to the nearest solid sample, in units, at most kMaxClearance cells; 0 in
-  /// rock. Rounded up, so that an agent of this radius does not fit there.
+  /// rock. Rounded up: an agent with this radius does not fit there.
   double from_clearance = 0, to_clearance = 0;
   /// If requested: the smallest radius, in units, for which there is no path; a path exists for every smaller radius.
-  /// 0: no agent has a path. Exact: the next smaller floating-point number has a path. kMaxClearance cells also stand
-  /// for any larger value.
+  /// 0: there is no path for any radius. Exact: the next smaller floating-point number has a path. kMaxClearance cells
+  /// stand for all larger values, too.
   double widest = 0;
-  /// For each end, the number of samples in the void that contains it, for this radius; 0 if the place is not free.
+  /// For each end, the number of samples in the void that contains it, for an agent of this radius; 0 if the place is
+  /// not free.
   uint64_t from_samples = 0, to_samples = 0;
 };
 
 struct VoidAnswer {
-  IntBox extent;  ///< the region grown to whole chunks; hi is excluded, but the samples on it count
+  /// the region enlarged to whole chunks; hi is excluded, but the samples on the high faces are included
+  IntBox extent;
   uint64_t chunks = 0;
   double sample = 0;              ///< volume of one sample in m3
   std::vector<RegionVoid> voids;  ///< connected voids, largest first
@@ -67,14 +70,13 @@ struct VoidAnswer {
 };
 
 /// Processes the region's chunks in order along its longest axis, and stores their voids and connections. Of the
-/// samples, it holds the signs of about two layers of chunks with one layer around them (one bit per sample: 8.7 KB for
+/// samples, it keeps the signs of about two layers of chunks with one layer around them (one bit per sample: 8.7 KB for
 /// a chunk that is neither all solid nor all void), and the faces of one layer (void_graph.h). A path takes 12 bytes
 /// per place, and up to 300 bytes per chunk (void_walk.h). Finding the largest agent takes at most two more passes. The
-/// result does not depend on the job system. progress: counts the chunks of each pass separately, and those of the walk
-/// that finds the path.
-/// Errors: invalid_argument (the region is empty; the radius; an end is outside of the region, or not finite), range
-/// (the region, with one chunk around it, leaves the world), limit (more than max_chunks chunks, or 2^32 voids),
-/// cancelled, and those of compiling the field.
+/// result does not depend on the job system. progress: counts the chunks of each pass separately, and then those of the
+/// search for the shortest path. Errors: invalid_argument (the region is empty; the radius; an end is outside of the
+/// region, or not finite), range (the region, with one chunk around it, leaves the world), limit (more than max_chunks
+/// chunks, or 2^32 voids), cancelled, and those of compiling the field.
 Result<VoidAnswer> findVoids(const SignField& field, JobSystem& jobs, const VoidQuestion& question,
                              const Progress& progress = {});
 

@@ -14,9 +14,10 @@ namespace {
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
-constexpr uint8_t kStart = 27;        // not a step: marks a sample where a walk enters the chunk
-constexpr size_t kChunksAtOnce = 64;  // number of chunks that are processed together
-// costs of a step along an axis and across a face's diagonal: their ratio is the root of 2, to 5 in 100,000
+constexpr uint8_t kStart = 27;        // marks a sample where a walk enters the chunk, instead of the number of a step
+constexpr size_t kChunksAtOnce = 64;  // number of chunks in a group that is processed together
+// costs of a step along an axis, and of a step across a face's diagonal: their ratio is the square root of 2, to 5 in
+// 100,000
 constexpr uint64_t kAlongAxis = 70, kAcrossFace = 99;
 
 Int3 stepOf(int number) { return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1}; }
@@ -34,7 +35,7 @@ Int3 firstSampleOf(Int3 chunk) { return {chunk.x * kChunkCells, chunk.y * kChunk
 /// A sample where a walk enters a chunk, and the walk's cost up to there.
 struct Entry {
   uint64_t cost = 0;
-  uint32_t at = 0;  ///< index of the sample in the chunk
+  uint32_t at = 0;  ///< index of the sample among the chunk's samples
 
   friend auto operator<=>(const Entry&, const Entry&) = default;
 };
@@ -75,8 +76,8 @@ class ChunkWalks {
     }
   }
 
-  /// Returns the entries into the chunk on this side: the reached samples of the common face, with that chunk's
-  /// indices.
+  /// Returns the entries into the adjacent chunk on this side: the reached samples of the common face, as indices in
+  /// the adjacent chunk.
   Entries entriesTo(Int3 side) const {
     Entries found(cost_.get_allocator());
     for (size_t i = 0; i < kSamples; ++i) {
@@ -106,7 +107,7 @@ class Walk {
 
   Result<std::vector<Int3>> between(Int3 from, Int3 to) {
     const size_t last = (chunks_.size() - 1) / kChunksAtOnce;
-    // The last group is visited only once: it is still loaded when the walk is traced backwards.
+    // The last group is visited only once, since its steps are still in memory when the walk is traced backwards.
     total_ = chunks_.size() + last * kChunksAtOnce;
     std::vector<Entries> entries;
     entries.emplace_back(memory_).push_back({0, static_cast<uint32_t>(indexIn(0, from))});
@@ -136,8 +137,8 @@ class Walk {
  private:
   size_t indexIn(size_t chunk, Int3 sample) const { return indexOf(minus(sample, firstSampleOf(chunks_[chunk]))); }
 
-  /// Computes the steps in the chunks of a group. entries: of the group's first chunk; afterwards, of the chunk that
-  /// follows the group.
+  /// Computes the steps in the chunks of a group. entries: the entries into the group's first chunk; receives the
+  /// entries into the chunk after the group.
   Result<void> look(size_t group, Entries& entries, std::vector<Steps>& steps) {
     const size_t first = group * kChunksAtOnce;
     const std::span<const Int3> some = chunks_.subspan(first, std::min(kChunksAtOnce, chunks_.size() - first));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int64_t kMaxWalkChunks = 4096;
 
-/// Columns of samples over a box, one cell apart, and the floors in them on which a walker can stand.
+/// The samples over a box in vertical columns, one cell apart, and the floors in them on which a walker can stand.
 class WalkGrid {
  public:
   WalkGrid(const QueryField& field, const IntBox& box, const Walker& walker)
@@ -20,7 +20,7 @@ class WalkGrid {
         walker_(walker),
         solid_(field.memory),
         floors_(field.memory) {
-    // The largest rise per unit of horizontal distance of a floor within the slope.
+    // The largest rise, per unit of horizontal distance, of a floor within the walker's slope.
     const double flat = walker.slope * walker.slope;
     rise_ = flat > 0 ? std::sqrt((1 - flat) / flat) : 1e9;
     const auto margin = static_cast<int64_t>(std::ceil(walker.radius)) + cell_;
@@ -64,11 +64,11 @@ class WalkGrid {
   }
 
  private:
-  /// A floor: the upper end of solid in a column.
+  /// A floor: the upper end of a run of solid samples in a column.
   struct Floor {
-    int32_t x = 0, z = 0;  ///< the column, relative to first_
-    int32_t y = 0;         ///< the solid sample under the floor, relative to first_
-    double height = 0;     ///< height of the floor above that sample, in units
+    int32_t x = 0, z = 0;  ///< indices of the column, relative to first_
+    int32_t y = 0;         ///< index of the solid sample under the floor, relative to first_
+    double height = 0;     ///< height of the floor above the sample y, in units
   };
 
   size_t index(int64_t x, int64_t y, int64_t z) const {
@@ -122,7 +122,8 @@ class WalkGrid {
     return {};
   }
 
-  /// True if a column has no solid strictly between these heights above the floor. low, high: in units.
+  /// True if a column has no solid sample strictly between two heights above the floor. low, high: these heights in
+  /// units.
   bool clear(int64_t x, int64_t z, const Floor& floor, double low, double high) const {
     const auto first = static_cast<int64_t>(std::floor((floor.height + low) / cell_)) + floor.y + 1;
     const auto last = static_cast<int64_t>(std::ceil((floor.height + high) / cell_)) + floor.y - 1;
@@ -184,7 +185,7 @@ class WalkGrid {
     return area;
   }
 
-  /// Returns the side faces of the box to which this column is nearest, among the columns in the box.
+  /// Returns the side faces of the box within one cell of this column.
   uint8_t sidesOf(const Floor& floor) const {
     const auto onAxis = [&](int axis, int64_t at) {
       const int64_t place = (first_[static_cast<size_t>(axis)] + at) * cell_;
@@ -198,7 +199,8 @@ class WalkGrid {
   const IntBox box_;
   const Walker walker_;
   double rise_ = 0;
-  /// in samples: position of the first column's lowest sample, and the number of samples on each axis
+  /// first_: index of the lowest sample on each axis (its position divided by the cell edge); count_: number of samples
+  /// on each axis
   std::array<int64_t, 3> first_{}, count_{};
   std::pmr::vector<bool> solid_;
   std::pmr::vector<Floor> floors_;

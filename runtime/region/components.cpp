@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t kUnseen = std::numeric_limits<uint32_t>::max();
 
-/// Returns the first sample from x on whose sign is not `solid`; nx if there is none.
+/// Returns the index of the first sample from x on whose sign differs from `solid`; nx if there is none.
 size_t endOfRun(const uint64_t* row, size_t x, size_t nx, bool solid) {
   while (x < nx) {
     const uint64_t other = (solid ? ~row[x / 64] : row[x / 64]) >> (x % 64);
@@ -26,7 +26,7 @@ void add(Piece& piece, const Piece& part) {
   piece.box = piece.box.joined(part.box);
 }
 
-/// Returns true if a comes before b in the order of Pieces.
+/// Returns true if piece a precedes piece b in the order of Pieces.
 bool before(const Piece& a, const Piece& b) {
   const Int3 l = a.box.lo, r = b.box.lo;
   return std::tie(a.samples, l.z, l.y, l.x) < std::tie(b.samples, r.z, r.y, r.x);
@@ -106,7 +106,7 @@ void ComponentCounter::retire() {
     }
   }
   for (uint32_t i = 0; i < open_; ++i) {
-    // Only runs of the new plane can connect pieces, so a piece without a run in it is complete.
+    // Only runs of the new plane can connect pieces, so a piece without such a run is complete.
     const uint32_t number = number_[rootOf(i)];
     if (number != kUnseen) {
       add(pieces[number].piece, pieces_[i].piece);

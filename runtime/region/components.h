@@ -1,11 +1,12 @@
 #pragma once
 // Counts the connected pieces of the solid and of the void in a block of samples.
 //
-// Pieces are those of the mesh, so they follow its rule for the faces of a cell (mesh/case_rule.h): each run of solid
-// corners there is cut off separately. So solid samples connect only along the axes. Void samples connect also across
-// the diagonal of a face: if its other two corners are solid, the rule lets the void through; if one of them is void,
-// the axes connect all three. Nothing connects through the inside of a cell: each loop of a case closes one disk there,
-// and disks divide a cell as their loops divide its surface.
+// The pieces are those of the mesh, so they follow the mesh's rule for the faces of a cell (mesh/case_rule.h): on each
+// face, every run of solid corners is cut off separately. So solid samples connect only along the axes. Void samples
+// also connect across the diagonal of a face: if the other two corners of the face are solid, the rule connects the
+// void between them; if one of them is void, the axes connect all three. No further connections exist through the
+// inside of a cell: each loop of the surface on a cell's faces is closed by one disk inside the cell, and the disks
+// divide the cell exactly as the loops divide its faces.
 
 #include <cstdint>
 #include <memory_resource>
@@ -21,7 +22,7 @@ struct Components {
   friend bool operator==(const Components&, const Components&) = default;
 };
 
-/// A connected piece; lengths in samples.
+/// A connected piece. Lengths and positions are in samples.
 struct Piece {
   uint64_t samples = 0;
   IntBox box;  ///< bounding box of the piece's samples
@@ -29,7 +30,8 @@ struct Piece {
   friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// sorted: smallest first, equal ones by their lowest corner (z, then y, then x)
+/// The pieces of a block, each list sorted by the number of samples, smallest first; equally large ones by their lowest
+/// corner (z, then y, then x).
 struct Pieces {
   std::vector<Piece> solid, air;
 
@@ -41,14 +43,13 @@ struct Pieces {
 /// Returns the pieces with more than `samples` samples. pieces: a sorted member of Pieces.
 std::span<const Piece> largerThan(std::span<const Piece> pieces, double samples);
 
-/// Counts pieces while planes are added one by one. Stores only the last plane, and the sizes and boxes of earlier
-/// pieces.
+/// Counts pieces while planes are added one by one. Stores only the last plane, and the sizes and boxes of pieces.
 class ComponentCounter {
  public:
   /// nx, ny: number of samples in a plane along each axis, at least 1.
   ComponentCounter(size_t nx, size_t ny, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-  /// Returns the number of 64-bit words of a row of nx samples.
+  /// Returns the number of 64-bit words that a row of nx samples takes.
   static size_t rowWords(size_t nx) { return (nx + 63) / 64; }
 
   /// Adds the next plane: ny rows of rowWords(nx) words. Bit x % 64 of word x / 64 is set if sample x is solid; bits
@@ -74,8 +75,8 @@ class ComponentCounter {
   };
 
   void findRuns(std::span<const uint64_t> signs);
-  /// Joins the pieces of runs in two rows that touch. Void runs also count as touching if they are `diagonal` samples
-  /// (0 or 1) apart. solid: true: join solid runs, too.
+  /// Joins the pieces of runs of two rows that overlap along x. diagonal: 1 if void runs are also joined where one ends
+  /// directly before the other begins; otherwise 0. solid: whether to join solid runs, too.
   void joinRows(std::span<const Run> a, std::span<const Run> b, uint32_t diagonal, bool solid);
   void join(uint32_t a, uint32_t b);
   uint32_t rootOf(uint32_t piece);
@@ -91,8 +92,8 @@ class ComponentCounter {
     bool solid = false;
     Piece piece;
   };
-  std::pmr::vector<Open> pieces_;  ///< the pieces that reach the last plane, to which later planes may add samples
-  Pieces closed_;                  ///< the pieces that do not reach the last plane and are complete, unsorted
+  std::pmr::vector<Open> pieces_;  ///< the pieces that reach the last plane, which may continue in later planes
+  Pieces closed_;                  ///< the complete pieces, which do not reach the last plane; unsorted
   int32_t planes_ = 0;
 };
 

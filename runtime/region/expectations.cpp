@@ -46,7 +46,8 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   return wanted;
 }
 
-/// Converts a piece to units and m3. Its box contains the cubes around its samples.
+/// Converts the lengths of a piece to units and its size to m3. The box of the result contains the cubes around the
+/// piece's samples.
 MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   MeasuredPiece out;
   out.volume = static_cast<double>(piece.samples) * region.sample;
@@ -58,7 +59,7 @@ MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
   return out;
 }
 
-/// Extracts the measure that a statement names from those of a region. Not for anchors.
+/// Extracts the measure that a statement names from the measures of a region. Does not support the measure `anchors`.
 Measured read(const Program& program, const Expectation& e, const RegionMeasures& region) {
   Measured result;
   switch (e.measure) {
@@ -99,7 +100,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
   return result;
 }
 
-/// True if an error ends the whole evaluation instead of being the outcome of one statement.
+/// True if an error ends the whole evaluation. Other errors become the outcome of one statement.
 bool isFatal(const Error& error) { return error.code == Code::out_of_memory || error.code == Code::cancelled; }
 
 class Evaluator {
@@ -127,8 +128,8 @@ class Evaluator {
   }
 
  private:
-  /// Groups statements about the same rule (or none) and the same region, in the order of the first of each group; also
-  /// sets the regions of the outcomes.
+  /// Groups statements about the same rule (or none) and the same region, in the order of the first statement of each
+  /// group. Also sets the regions of the outcomes.
   std::vector<std::vector<uint32_t>> together() {
     std::vector<std::vector<uint32_t>> sets;
     for (uint32_t s = 0; s < program_.expectations.size(); ++s) {
@@ -202,8 +203,7 @@ class Evaluator {
       }
       keep(s, std::move(measured));
     }
-    // A region of very many cells was meshed without visiting all of its cells at once: then notes() fails, and there
-    // are none.
+    // If the region meets too many cells of a layer to visit all of them, notes() fails, and no notes are returned.
     const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent, *cell);
     if (!notes && notes.error().code != Code::limit) return notes.error();
     if (notes) result_.notes.insert(result_.notes.end(), notes->begin(), notes->end());
@@ -248,7 +248,7 @@ class Evaluator {
     return {};
   }
 
-  /// Returns a box around all shapes of a rule's use, with air on every side; empty if there is no shape.
+  /// Returns a box around all shapes of a rule's use, with void on every side; empty if there is no shape.
   static IntBox boxOf(const RuleInstance& instance) {
     IntBox box;
     for (const Group& group : instance.chunk.groups) {
@@ -260,7 +260,7 @@ class Evaluator {
     return box;
   }
 
-  /// Returns the measures of a use that has no shapes.
+  /// Returns the measures of a rule's use that has no shapes.
   static RegionMeasures nothing() {
     RegionMeasures measures;
     measures.topology.watertight = true;

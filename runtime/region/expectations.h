@@ -3,24 +3,27 @@
 //
 // Measures
 //   watertight  yes if the surface is a manifold and every open edge lies in the region's outer border
-//   components  connected pieces of the solid (solid, the default) or of the void (air) inside the region, joined as
-//               the mesh joins them (components.h); `above V`: only pieces whose samples stand for more than V; not
-//               measured if one sample stands for more
-//   volume      m3 of the solid inside the region, whatever the domain is made of, by the divergence theorem
+//   components  number of connected pieces of the solid (`solid`, the default) or of the void (`air`) inside the
+//   region,
+//               connected as in the mesh (components.h); `above V`: only pieces whose samples stand for a volume above
+//               V; cannot be measured if one sample stands for more than V
+//   volume      m3 of the solid inside the region, whether the domain is solid or void, by the divergence theorem
 //               (solid_volume.h)
 //   area        m2 of the surface inside the region, without the faces where the border cuts the solid
-//   triangles   of that surface
-//   genus       handles of the surface, summed over its shells; not measured if the border cuts the surface
-//   anchors     inside the region
-// A measure that cannot be computed counts as failed, and the result says why.
+//   triangles   number of triangles of that surface
+//   genus       number of handles of the surface, summed over its shells; cannot be measured if the border cuts the
+//               surface
+//   anchors     number of anchors inside the region
+// A measure that cannot be computed counts as failed, and the result contains the reason.
 //
 // Regions
-//   in block(n)  see blockRegion(); otherwise the region that the caller names, else the box of a finite world, else
-//                block(1). A region is grown to whole chunks of 32 cells.
-//   per Rule     each use of the rule whose frame stands in the region (before it is grown) is measured separately: the
-//                shapes derived below the call, as solid in an empty world (RuleInstance in derive/interpret/derive.h
-//                says what is omitted). The statement must hold for each use, and holds if there is none.
-// The cell is the caller's; otherwise cellFor() of the region, or of all uses of the rule together.
+//   in block(n)  the region is blockRegion(n). Without `in block(n)`, it is the region that the caller names, or else
+//                the box of a finite world, or else block(1). A region is enlarged to whole chunks of 32 cells.
+//   per Rule     each use of the rule whose origin lies in the region (before it is enlarged) is measured separately:
+//                the shapes derived below the call, as solid in an empty world (RuleInstance in
+//                derive/interpret/derive.h says which effects are ignored). The statement must hold for each use, and
+//                holds if there is no use.
+// The cell edge is the caller's, or else that of cellFor() for the region, or for all uses of the rule together.
 
 #include <memory>
 #include <optional>
@@ -37,47 +40,51 @@ struct ExpectationSettings {
   std::shared_ptr<const Program> program;
   ParameterValues parameters;
   uint64_t seed = 0;
-  std::optional<IntBox> region;  ///< lo <= p < hi: the region of statements without `in block(n)`; nullopt: see above
-  int32_t cell = 0;              ///< cell edge in units; 0: chosen for each statement
+  /// the region lo <= p < hi of statements without `in block(n)`; nullopt: the default that regionOf() describes
+  std::optional<IntBox> region;
+  int32_t cell = 0;  ///< cell edge in units; 0: the cell edge is chosen for each statement
   uint64_t max_chunks = kMeasuredChunks;
   size_t cache_bytes = size_t{64} << 20;
 };
 
 struct MeasuredPiece {
-  double volume = 0;  ///< m3, computed from the number of its samples
-  IntBox box;         ///< bounding box of its samples, in units
+  double volume = 0;  ///< volume in m3, computed from the number of the piece's samples
+  IntBox box;         ///< bounding box of the cubes around the piece's samples, in units
 };
 
-/// The maximum number of pieces listed in Measured::pieces: the smallest ones.
+/// The maximum number of pieces listed in Measured::pieces, which lists the smallest ones.
 inline constexpr size_t kMaxPieces = 16;
 
 /// One measurement: of the region as a whole or, with `per`, of one use of a rule.
 struct Measured {
-  /// in SI units; a count; for watertight 1 or 0. nullopt if it cannot be measured
+  /// the value in SI units, or a count; for `watertight`, 1 or 0; nullopt if it cannot be measured
   std::optional<double> value;
-  std::string why;                      ///< the reason why it cannot be measured, or is not watertight; otherwise empty
-  std::string path;                     ///< with `per`: the derivation path of the rule's use
-  Int3 origin;                          ///< with `per`: the origin of the frame of the rule's use, in units
-  bool holds = true;                    ///< whether the expectation holds; true for a report
-  std::vector<MeasuredPiece> pieces{};  ///< for components: the smallest counted pieces, ascending; at most kMaxPieces
-  /// for volume: m3 by counting cubes, equation 8 of the paper (cubeVolume() in measure.h)
+  /// the reason why the value cannot be measured, or why the surface is not watertight; otherwise empty
+  std::string why;
+  std::string path;   ///< with `per`: the derivation path of the rule's use
+  Int3 origin;        ///< with `per`: the origin of the initial scope of the rule's use, in units
+  bool holds = true;  ///< whether the expectation holds; true for a report
+  /// for `components`: the smallest pieces that count, ascending; at most kMaxPieces
+  std::vector<MeasuredPiece> pieces{};
+  /// for `volume`: the volume in m3 by counting cubes, equation 8 of the paper (cubeVolume() in measure.h)
   std::optional<double> cubes{};
 };
 
 struct Outcome {
-  /// the measured region, grown to whole chunks unless a use of a rule is measured; hi is excluded
+  /// the measured region, enlarged to whole chunks unless uses of a rule are measured; hi is excluded
   IntBox region;
-  int32_t cell = 0;                ///< cell edge in units
-  uint64_t chunks = 0;             ///< number of chunks meshed for this statement, alone or together with others
-  std::vector<Measured> measured;  ///< one element; with `per`, one for each use of the rule
-  std::optional<Error> error;      ///< set if the statement could not be evaluated at all
-  /// true if all of `measured` hold and there is no error; for a report, if there is no error
+  int32_t cell = 0;  ///< cell edge in units
+  /// number of chunks meshed for this statement; statements about the same region share these chunks
+  uint64_t chunks = 0;
+  std::vector<Measured> measured;  ///< one element; with `per`, one element for each use of the rule
+  std::optional<Error> error;      ///< set if the statement could not be evaluated
+  /// true if all elements of `measured` hold and there is no error; for a report, true if there is no error
   bool holds() const;
 };
 
 struct Evaluation {
   std::vector<Outcome> outcomes;  ///< one for each element of Program::expectations, in the same order
-  std::vector<DeriveNote> notes;  ///< omissions of derivation in the regions that were measured as a whole
+  std::vector<DeriveNote> notes;  ///< notes on what derivation left out in the regions that were measured as a whole
 };
 
 /// Evaluates all statements of a grammar. Pure. Statements about the same region share its meshes. Errors:

@@ -19,17 +19,18 @@ namespace {
 
 using measure::Point;
 
-/// Edge, in cells, of the boxes that have a program each: so small that a program has few groups.
+/// Edge, in cells, of the boxes into which the vertices are sorted. Each box has its own program; the box is so small
+/// that this program has few groups.
 constexpr int32_t kBoxCells = 16;
 constexpr double kBend = 0.25;
 /// The smallest length of a gradient at which |f| / |grad f| is meaningful.
 constexpr double kLeastGradient = 1e-6;
 
-/// Returns an eighth of a cell, but at least a step for which the rounding of warped positions to whole units does not
-/// matter.
+/// Returns the step of the gradients in units: an eighth of a cell, but so large that the rounding of warped positions
+/// to whole units does not matter.
 int32_t stepFor(int32_t cell) { return std::max(cell / 8, std::min(16, std::max(cell / 2, 1))); }
 
-/// A vertex in units, and the nearest position in whole units.
+/// A vertex's exact position in units, and the nearest position in whole units.
 struct Place {
   Point exact;
   Int3 whole;
@@ -46,7 +47,7 @@ Place placeOf(const WorldMesh& mesh, size_t vertex) {
 
 /// The field's value and gradient at a vertex.
 struct Sample {
-  Point gradient;  ///< change of the value in units per unit
+  Point gradient;  ///< change of the field's value, in units, per unit of distance
   double value = 0;
   bool bent = false, flat = false;
 
@@ -66,7 +67,7 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
     const double bend = (behind - 2 * middle + before) / step;
     bends += bend * bend;
   }
-  // Corrects the value to first order: the vertex is less than a unit from the whole position, so curvature is
+  // Corrects the value to first order. The vertex is less than a unit away from the whole position, so curvature is
   // negligible.
   sample.value = middle + dot(sample.gradient,
                               place.exact - Point{double(place.whole.x), double(place.whole.y), double(place.whole.z)});
@@ -76,7 +77,7 @@ Sample sampleAt(const ProgramView& field, const Place& place, int32_t step) {
   return sample;
 }
 
-/// The vertices in one box of cells.
+/// The range of vertices in one box, in an array sorted by box.
 struct Box {
   Int3 number;
   size_t begin = 0, end = 0;
@@ -110,7 +111,8 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
     }
     const Result<std::shared_ptr<const FieldProgram>> field = world.compile(box.grown(step), level);
     if (!field) {
-      // Of several errors, the first box's is reported, so that the result does not depend on the threads' speed.
+      // If several boxes fail, the error of the first box is reported, so that the result does not depend on the speed
+      // of threads.
       const std::lock_guard lock(mutex);
       if (!failed || b < failed->first) failed.emplace(b, field.error());
       return;
@@ -123,7 +125,7 @@ Result<std::vector<Sample>> samplesOf(const WorldField& world, JobSystem& jobs, 
   return samples;
 }
 
-/// Returns the smallest value that at least this share of all values does not exceed.
+/// Returns the smallest value such that at least this share of all values is not larger. sorted: all values, ascending.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
   const auto rank = static_cast<size_t>(std::ceil(share * static_cast<double>(sorted.size())));
@@ -136,7 +138,7 @@ double meanOf(const std::vector<double>& values) {
 
 class AngleCounter {
  public:
-  /// Adds the angle between two vectors. Precondition: neither has length 0.
+  /// Adds the angle between a normal and a gradient. Precondition: neither has length 0.
   void add(Point normal, Point gradient) {
     const double along = dot(normal, gradient);
     inward_ += !(along > 0);

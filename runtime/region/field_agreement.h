@@ -8,38 +8,41 @@
 
 namespace sgm {
 
-/// Statistics of the angles between normals and the field's gradient, in degrees.
+/// Statistics of the angles between normals and gradients of the field, in degrees.
 struct NormalAngles {
   uint64_t count = 0;
   uint64_t inward = 0;  ///< number of normals that point into the solid: n . grad f <= 0
   double median = 0, p99 = 0, greatest = 0;
 
-  double outward() const {  ///< the share of normals that point outwards
+  double outward() const {  ///< the share of normals that point outwards, 0 to 1
     return count > 0 ? 1 - static_cast<double>(inward) / static_cast<double>(count) : 1;
   }
 };
 
-/// The result. The field is evaluated by the reference in double precision (field/reference.h), and its gradient by
-/// central differences over `step`: neither shares code with meshing, whose errors are measured.
+/// The result of the comparison. The field is evaluated by the reference evaluator in double precision
+/// (field/reference.h), and its gradient by central differences over `step`. Neither shares code with meshing, whose
+/// errors are measured.
 struct FieldAgreement {
-  int32_t step = 0;  ///< distance of the samples for gradients, in units, to each side
+  int32_t step = 0;  ///< distance in units from a vertex to the samples on each side that give the gradient
   uint64_t vertices = 0;
-  /// Vertices for which no normal is right. bent: in a crease, where the gradient turns by more than a quarter of its
-  /// length within a step; flat: on a plateau, without a gradient. The angle statistics exclude both.
+  /// Numbers of vertices for which no normal is correct. bent: vertices in a crease, where the gradient turns by more
+  /// than a quarter of its length within a step; flat: vertices on a plateau, without a gradient. The angle statistics
+  /// exclude both.
   uint64_t bent = 0, flat = 0;
-  uint64_t bent_inward = 0;  ///< number of bent vertices whose own normal points into the solid
+  uint64_t bent_inward = 0;  ///< number of bent vertices whose normal in the mesh points into the solid
   NormalAngles normals;      ///< angles of the vertices' normals
-  NormalAngles faces;        ///< angles of the triangles' normals, at each of their corners
-  /// |f| at the vertices, in units: their distance from the surface, if the field is a distance.
+  NormalAngles faces;        ///< angles of the triangles' normals, compared with the gradient at each of their corners
+  /// Statistics of |f| at the vertices, in units. This is their distance from the surface, if the field is a distance.
   double residual_mean = 0, residual_p99 = 0, residual_max = 0;
-  std::array<double, 3> farthest{};  ///< the vertex with residual_max, in metres from the mesh's origin
-  /// |f| / |grad f| in units: the distance from the surface to first order, however steep the field is. Only vertices
-  /// that the angle statistics include.
+  /// position of the vertex with the value residual_max, in metres from the mesh's origin
+  std::array<double, 3> farthest{};
+  /// Statistics of |f| / |grad f|, in units: the distance from the surface to first order, however steep the field is.
+  /// Includes only those vertices that the angle statistics include.
   double offset_mean = 0, offset_p99 = 0, offset_max = 0;
 };
 
-/// Measures a mesh. mesh: of one level of the world, by any backend, without edits. The same bits for any number of
-/// threads. Errors: those of WorldField::compile.
+/// Measures a mesh. mesh: the mesh of one level of the world, by any backend, without edits. The result has the same
+/// bits for any number of threads. Errors: those of WorldField::compile.
 Result<FieldAgreement> fieldAgreement(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, int level);
 
 }  // namespace sgm

@@ -20,7 +20,7 @@ struct Range {
   }
 };
 
-/// Converts units to metres from the mesh's origin.
+/// Converts a position in units to metres from the mesh's origin.
 Point placeFrom(Int3 units, Int3 origin) {
   Point place;
   for (int axis = 0; axis < 3; ++axis) {
@@ -29,7 +29,7 @@ Point placeFrom(Int3 units, Int3 origin) {
   return place;
 }
 
-/// Returns the extent without a margin of width `border` at those faces that the surface reaches.
+/// Returns the range without a margin of width `border` at those faces of the range that the surface reaches.
 Range innerOf(const std::vector<Point>& points, Range range, double border) {
   Range inner = range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +69,7 @@ Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent,
   result.coarse_left_out = second.triangles.size() - back.size();
 
   if ((!there.empty() && second.triangles.empty()) || (!back.empty() && first.triangles.empty())) return result;
-  // The nearest surface may lie in the margin, so all of the other mesh is searched.
+  // The surface nearest to a triangle may lie in the margin, so all of the other mesh is searched.
   Result<measure::OneSided> one =
       measure::distanceFrom({first.points, there}, {second.points, second.triangles}, settings, jobs);
   if (!one) return one.error();

@@ -29,7 +29,7 @@ const Layer* coarsestLayer(const Program& program) {
   return coarsest;
 }
 
-/// Extends the box to the proven reach of all layers along an axis.
+/// Extends the box along an axis to the proven bounds of all layers.
 Result<void> addBounds(const Program& program, int axis, IntBox& box) {
   IntBox all;
   for (const Layer& layer : program.layers) all = all.joined(layer.bound);

@@ -89,7 +89,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     };
     Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, layer_progress);
     if (!chunks) return chunks.error();
-    // If the last chunk of a layer was cancelled, the layer is complete, but the region is not.
+    // If progress cancels after the last chunk of a layer, meshChunks() succeeds, but the region is not complete.
     if (stopped && z + 1 < counts[2]) return Error{Code::cancelled, "meshing was cancelled"};
     if (planes) planes->add(*chunks, z + 1 == counts[2]);
     if (z == 0) result.extent.lo = chunks->front().grid.origin;

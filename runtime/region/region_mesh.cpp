@@ -18,7 +18,7 @@ Int3 originFor(const IntBox& extent) {
   return {};
 }
 
-/// Meshes the requests of a region. keys: its coarsest chunks, in order z, y, x.
+/// Meshes the requests of a region. keys: the region's chunks at the coarsest level, in order z, y, x.
 Result<RegionMesh> meshRequests(const WorldField& world, Backend& backend, JobSystem& jobs,
                                 std::span<const ChunkKey> keys, std::span<const ChunkRequest> requests,
                                 const Progress& progress) {
@@ -70,7 +70,7 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
     ChunkKey root = request.key;
     while (root.level < tree.top()) root = parentOf(root);
     if (!coarsest.contains(root)) continue;
-    // The border of the region cuts the surface there: no seam closes it towards undrawn space.
+    // The border of the region cuts the surface, so no seam closes the surface towards space that is not meshed.
     if (request.outermost) request = {request.key, 0, Neighbourhood{}};
     request.sharp = sharp;
     requests.push_back(request);

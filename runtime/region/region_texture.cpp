@@ -13,10 +13,10 @@
 namespace sgm {
 namespace {
 
-/// A vertex and its chunk. The vertices of a chunk are evaluated with one program.
+/// A vertex and the chunk that contains it. All vertices of a chunk are evaluated with one program.
 struct Placed {
   ChunkKey block;
-  Int3 point;  ///< its position in units
+  Int3 point;  ///< position of the vertex in whole units
   uint32_t vertex = 0;
 };
 
@@ -40,7 +40,7 @@ class PlacedMesh {
   std::span<const TexturePoint> positions() const { return positions_; }  ///< world positions in units
   std::span<const TexturePoint> normals() const { return normals_; }
 
-  /// Returns the materials at each vertex.
+  /// Returns the materials at each vertex and around it.
   Result<std::pmr::vector<MaterialMix>> materials(const WorldField& world, JobSystem& jobs) const {
     std::pmr::vector<MaterialMix> materials(positions_.size(), memory_);
     std::pmr::vector<std::optional<Error>> errors(blocks(), memory_);
@@ -63,8 +63,8 @@ class PlacedMesh {
     return materials;
   }
 
-  /// Returns the label of the shape at each vertex. Blocks are processed in order, because shapes are numbered as they
-  /// are found.
+  /// Returns the label of the shape at each vertex. Blocks are processed one after another, because shapes are numbered
+  /// in the order in which they are found.
   Result<std::pmr::vector<uint32_t>> labels(SurfaceShapes& shapes) const {
     std::pmr::vector<uint32_t> labels(positions_.size(), memory_), of_block(memory_);
     std::pmr::vector<Int3> points(memory_);
@@ -107,7 +107,7 @@ class PlacedMesh {
 
   std::pmr::memory_resource* memory_;
   std::pmr::vector<TexturePoint> positions_, normals_;
-  std::pmr::vector<Placed> placed_;   ///< sorted by block (chunk)
+  std::pmr::vector<Placed> placed_;   ///< the vertices, sorted by block (chunk)
   std::pmr::vector<size_t> borders_;  ///< index in placed_ of each block's first vertex, and the end of the last block
 };
 

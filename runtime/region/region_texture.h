@@ -1,5 +1,6 @@
 #pragma once
-// Texture coordinates of a region's mesh, for the C interface's surfaces and the command's files and pictures.
+// Texture coordinates of a region's mesh, for the surfaces of the C interface and the files and pictures of the command
+// line tool.
 
 #include <functional>
 
@@ -12,16 +13,16 @@
 
 namespace sgm {
 
-/// The texture coordinates of a region's mesh, and how evenly they are distributed.
+/// The texture coordinates of a region's mesh, and statistics of the texel density on its surface.
 struct TexturedRegion {
   Unwrapped unwrapped;
   TexelDensity density;
 };
 
-/// Returns the chunk whose level applies at a place (in units). Not called concurrently.
+/// A function that returns the chunk whose level applies at a place (in units). It is not called concurrently.
 using ChunkAt = std::function<ChunkKey(Int3 place)>;
 
-/// Returns a function for a world of a single level: the chunk that contains the place.
+/// Returns a function that returns the chunk of one level that contains a place, for worlds that have only this level.
 ChunkAt chunksOfLevel(const WorldField& world, int level);
 
 /// Computes texture coordinates for the whole region in one coordinate system, so that a vertex between two chunks has
@@ -30,8 +31,8 @@ ChunkAt chunksOfLevel(const WorldField& world, int level);
 Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
                                     const ChunkAt& chunk_at, int32_t tile);
 
-/// Computes only the blends of materials, without coordinates, as pairMaterials does. Does not search for texture
-/// spaces, and so is faster.
+/// Computes only the blends of materials, without coordinates, as pairMaterials() does. This is faster, since texture
+/// spaces are not needed.
 Result<Unwrapped> blendRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, const ChunkAt& chunk_at);
 
 }  // namespace sgm

@@ -12,8 +12,8 @@ namespace {
 
 constexpr size_t kChunksTogether = 4096;  ///< number of chunks whose meshes are in memory at the same time
 
-/// Returns which faces of a chunk lie in the upper border of the region. The lower border needs no faces: relative to
-/// the region's lowest corner, the flux of the position vector through it is 0.
+/// Returns the mask of those faces of a chunk that lie in the upper border of the region. The flux through the lower
+/// border is 0, since position vectors are relative to the region's lowest corner.
 uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -21,7 +21,7 @@ uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   return faces;
 }
 
-/// True if a sample is solid, by the rule of meshing.
+/// True if a sample at this position is solid, by the rule that meshing uses.
 Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   const auto program = world.compile(IntBox{at, at}, level);
   if (!program) return program.error();
@@ -33,7 +33,8 @@ Result<bool> isSolidAt(const WorldField& world, Int3 at, int level) {
   return std::floor(value * (*program)->q_scale + 0.5f) < 0;
 }
 
-/// Measures the solid in the upper faces of a region, from the open boundary of the surface there (Green's theorem).
+/// Measures the solid area in the upper faces of a region, from the open edges of the surface in these faces (Green's
+/// theorem).
 class UpperFaces {
  public:
   UpperFaces(const IntBox& region, const WorldMesh& mesh) : mesh_(mesh) {
@@ -43,8 +44,8 @@ class UpperFaces {
     }
   }
 
-  /// Returns the solid area, in m2, of the upper face across an axis. corner_is_solid: sign at the region's highest
-  /// corner.
+  /// Returns the solid area, in m2, of the upper face perpendicular to an axis. corner_is_solid: whether the region's
+  /// highest corner is solid.
   double solidArea(int axis, bool corner_is_solid) const {
     const size_t k = index(axis), u = index((axis + 1) % 3), v = index((axis + 2) % 3);
     double area = 0;
@@ -52,7 +53,7 @@ class UpperFaces {
       const uint32_t from = mesh_.indices[i], to = mesh_.indices[i % 3 == 2 ? i - 2 : i + 1];
       const std::array<double, 3> a = place(from), b = place(to);
       if (a[k] != size_[k] || b[k] != size_[k]) continue;
-      // The boundary of the face runs along the surface's open edges in the opposite direction.
+      // The boundary of the face's solid part runs along the open edges of the surface in the opposite direction.
       area -= (a[u] + b[u]) / 2 * (b[v] - a[v]);
     }
     return area + size_[u] * solidLength(k, u, v, corner_is_solid);
@@ -70,7 +71,8 @@ class UpperFaces {
     return {p[0] - low_[0], p[1] - low_[1], p[2] - low_[2]};
   }
 
-  /// Returns the length of solid, in metres, on the edge along v that the upper faces across k and u share.
+  /// Returns the length of solid, in metres, on the edge along v that the upper faces perpendicular to k and u share.
+  /// is_solid: whether the edge's high end is solid.
   double solidLength(size_t k, size_t u, size_t v, bool is_solid) const {
     std::vector<double> crossings;
     for (uint32_t i = 0; i < mesh_.positions.size(); ++i) {
@@ -90,7 +92,7 @@ class UpperFaces {
 
   const WorldMesh& mesh_;
   std::array<double, 3> size_{};  ///< extent of the region in metres
-  std::array<double, 3> low_{};   ///< the region's lowest corner, relative to the origin of positions
+  std::array<double, 3> low_{};   ///< the region's lowest corner, relative to the origin of positions, in metres
 };
 
 }  // namespace
@@ -110,7 +112,8 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
   for (const ChunkKey& key : keys) {
     const uint8_t faces = upperFaces(key, keys.back());
     if (faces == 0) continue;
-    // Seams towards the domain's own state, as at the end of a world, have the shape of the cut faces.
+    // An outermost chunk's seam leads to a virtual neighbour that is as solid or void as the domain. So the seam covers
+    // the part of the chunk's face where the region's border cuts the solid (in a solid domain: the void).
     ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
     request.outermost = true;
     request.sharp = sharp;
@@ -142,7 +145,8 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
   double flux = 0;
   for (int axis = 0; axis < 3; ++axis) {
     double area = faces.solidArea(axis, *corner_is_solid);
-    // In a solid domain, the surface encloses the void, so the area of the whole face is subtracted.
+    // In a solid domain, the surface encloses the void, so the area of the whole face is subtracted from the solid
+    // area.
     if (world.isSolidDomain()) area -= faces.size((axis + 1) % 3) * faces.size((axis + 2) % 3);
     flux += faces.size(axis) * area / 3;
   }
@@ -151,7 +155,8 @@ Result<double> borderFlux(const WorldField& world, const IntBox& region, int lev
 
 double solidVolume(const WorldField& world, const IntBox& region, double flux) {
   if (!world.isSolidDomain()) return flux;
-  // In a solid domain, the surface bounds the void part, which is subtracted from the whole region.
+  // In a solid domain, the flux is minus the volume of the void. So the solid is the volume of the whole region plus
+  // the flux.
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis)
     volume *= static_cast<double>(int64_t{region.hi[axis]} - region.lo[axis]) / kUnitsPerMetre;

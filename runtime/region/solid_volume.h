@@ -1,6 +1,6 @@
 #pragma once
-// The volume of the solid in a region by the divergence theorem: the region's surface, closed by the faces where its
-// border cuts the solid.
+// Computes the volume of the solid in a region by the divergence theorem, from the region's surface and the faces that
+// close it where the region's border cuts the solid.
 
 #include "chunk/mesh_chunks.h"
 #include "mesh/weld.h"
@@ -10,18 +10,18 @@ namespace sgm {
 /// Returns the vector from a place to a chunk's origin, in metres.
 std::array<double, 3> originFrom(Int3 place, const ChunkGrid& grid);
 
-/// Returns a third of the flux of the position vector, relative to the region's lowest corner, through the faces that
-/// close the region's surface at its border, in cubic metres. keys: the region's chunks, in order z, y, x. Errors:
-/// those of meshChunks.
+/// Returns a third of the flux of the position vector through the faces that close the region's surface at its border,
+/// in m3. Position vectors are relative to the region's lowest corner. keys: the region's chunks, in order z, y, x.
+/// Errors: those of meshChunks.
 Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& jobs, std::span<const ChunkKey> keys,
                           bool sharp);
 
-/// Same as above, computed from the region's welded mesh, whose open edges bound these faces, without meshing again.
-/// mesh: has one vertex per key. level: of the mesh. Errors: those of compiling a field.
+/// Same as above, but computed without meshing again, from the region's welded mesh, whose open edges bound these
+/// faces. mesh: has one vertex per key. level: level of the mesh. Errors: those of compiling a field.
 Result<double> borderFlux(const WorldField& world, const IntBox& region, int level, const WorldMesh& mesh);
 
-/// Returns the volume of the solid in cubic metres, both in solid and in void domains. flux: a third of the flux of the
-/// position vector, relative to any place, through the surface and the faces that close it.
+/// Returns the volume of the solid in m3, in a solid or a void domain. flux: a third of the flux of the position
+/// vector, relative to any origin, through the surface and the faces that close it.
 double solidVolume(const WorldField& world, const IntBox& region, double flux);
 
 }  // namespace sgm

@@ -10,12 +10,12 @@
 namespace sgm {
 namespace {
 
-/// Returns the mask of outer planes that contain the vertex: bit 2 * axis + side.
+/// Returns the mask of the region's outer planes that contain the vertex: bit 2 * axis + side.
 uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   uint32_t planes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (key.axis == axis) continue;  // the vertex lies strictly between two samples on this axis
-    // A feature vertex belongs to one face, or to none.
+    // A feature vertex lies in one face of a cell, or in none.
     if (key.axis >= kFaceVertex && key.axis != kFaceVertex + axis) continue;
     if (key.corner[axis] == extent.lo[axis]) planes |= 1u << 2 * axis;
     if (key.corner[axis] == extent.hi[axis]) planes |= 2u << 2 * axis;
@@ -23,7 +23,7 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   return planes;
 }
 
-/// Returns the number of edges that belong to only one triangle and lie in one outer plane.
+/// Returns the number of edges that belong to only one triangle and lie in one of the outer planes.
 size_t openBorderEdges(const WorldMesh& mesh, const IntBox& extent) {
   std::vector<uint8_t> planes(mesh.keys.size());
   for (size_t v = 0; v < planes.size(); ++v) planes[v] = static_cast<uint8_t>(bordersOf(mesh.keys[v], extent));
@@ -59,7 +59,8 @@ Topology topologyOf(const WorldMesh& mesh, const IntBox& extent) {
   } else if (report.open_edges > 0) {
     result.why = "the region's border cuts the surface";
   } else {
-    // V - E + F = 2 (shells - genus). A closed surface has 3 F = 2 E, so E - F = F / 2.
+    // V - E + F = 2 (shells - genus). A closed surface has 3 F = 2 E, so E - F = F / 2. V: vertices, E: edges, F:
+    // triangles.
     const auto euler = static_cast<int64_t>(report.vertices) - static_cast<int64_t>(report.triangles / 2);
     result.genus = static_cast<uint64_t>(static_cast<int64_t>(measuresOf(mesh).objects) - euler / 2);
   }

@@ -11,17 +11,17 @@ namespace sgm {
 
 struct Topology {
   /// True if the surface is a manifold, and each open edge lies in the outer border of the region, where the solid is
-  /// cut, so that the surface and the cut faces together are closed. True for a region without surface.
+  /// cut; the surface and the cut faces together are then closed. True for a region without surface.
   bool watertight = false;
-  std::string leak;  ///< the problem, if the surface is not watertight
+  std::string leak;  ///< description of the problem, if the surface is not watertight; otherwise empty
   /// The number of handles of a closed surface, summed over its shells: 0 for a ball, 1 for a torus, 2 for two tori.
-  /// nullopt if the surface is not closed, because the number then depends on the part beyond the border; `why` says
-  /// so.
+  /// nullopt if the surface is not closed, because the number then depends on the part beyond the border; the reason is
+  /// in `why`.
   std::optional<uint64_t> genus;
   std::string why;
 };
 
-/// Checks a mesh of one level. extent: the box whose chunks were meshed, hi included.
+/// Checks the mesh of one level. extent: the box whose chunks were meshed, hi included.
 Topology topologyOf(const WorldMesh& mesh, const IntBox& extent);
 
 }  // namespace sgm

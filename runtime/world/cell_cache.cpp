@@ -6,13 +6,13 @@ namespace sgm {
 
 namespace {
 
-/// Above 1 / kIdleShare of its limit, the cache also evicts cells that were not used during the last kIdle insertions.
-/// So memory does not grow up to the limit while a viewer crosses new ground.
+/// If the cache uses more than 1 / kIdleShare of its limit, it also evicts cells that were not used during the last
+/// kIdle insertions. So its memory does not grow up to the limit while a viewer crosses new ground.
 constexpr size_t kIdleShare = 4;
 constexpr uint64_t kIdle = 1024;
 
 size_t bytesOf(const GrammarChunk& c) {
-  // estimated bytes of the cache's entry, the reference count and the heap's overhead
+  // estimated bytes of the map entry, the reference count and the heap's overhead
   constexpr size_t kBookkeeping = 256;
   constexpr size_t kIndexed = 64;  // estimated bytes per group in the index
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
@@ -62,8 +62,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
         hits_.fetch_add(1, std::memory_order_relaxed);
         return use(found->second);
       }
-      // No deadlock: layers request only cells of lower layers, so the thread that derives this cell never waits for
-      // one that this thread derives.
+      // There is no deadlock: a layer's derivation requests only cells of lower layers, so the thread that derives this
+      // cell never waits for a cell that this thread derives.
       derived_.wait(lock);
     }
     ++stats_.misses;
@@ -83,8 +83,8 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     }
     auto cell = std::make_shared<const DerivedCell>(std::move(*chunk), memory_);
     std::lock_guard lock(mutex_);
-    // Evicts before the new cell is inserted: otherwise second chances of all others could evict it. The cell is
-    // inserted however large it is, since the caller owns it anyway.
+    // Room is made before the new cell is inserted; otherwise the new cell could be evicted, if all other cells get a
+    // second chance. The cell is inserted however large it is, since the caller holds it in memory anyway.
     makeRoom(cell->bytes);
     by_use_.push_front(key);
     Entry& entry = entries_[key];
@@ -120,8 +120,8 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   for (const auto& [used, key, cell] : taken) {
     if (stats_.bytes + cell->bytes > byte_limit_) break;
     if (entries_.count(key) != 0) continue;
-    // Inserts the cell completely or not at all: threads would wait for an entry without a cell. Its time of use is 0,
-    // before all others.
+    // Inserts the cell completely or not at all, because threads would wait forever for an entry without a cell. The
+    // entry's time of use is 0, before the uses of all other entries.
     by_use_.push_back(key);
     try {
       Entry& entry = entries_.try_emplace(key).first->second;
@@ -145,7 +145,7 @@ void CellCache::makeRoom(size_t bytes) {
     const bool is_full = stats_.bytes + bytes > byte_limit_;
     if (!is_full && !isIdle(entry.listed_as)) return;
     if (entry.used != entry.listed_as && !isIdle(entry.used)) {
-      // Second chance: the entry was used since it got its place, so it moves to the front.
+      // Second chance: the entry was used since it was put at its place in the list, so it moves to the front.
       entry.listed_as = entry.used;
       by_use_.splice(by_use_.begin(), by_use_, entry.listed);
       continue;

@@ -1,6 +1,6 @@
 #pragma once
-// A cache of derived cells with a limit in bytes; it evicts the least recently used ones. A derived cell is a pure
-// function of its key, so an evicted cell can be derived again and costs only time.
+// A cache of derived cells with a limit in bytes. It evicts the least recently used cells. A derived cell is a pure
+// function of its key, so an evicted cell can be derived again, which only costs time.
 
 #include <atomic>
 #include <condition_variable>
@@ -31,14 +31,14 @@ struct DerivedCell {
 struct CellKey {
   uint32_t layer = 0;
   Int3 cell;
-  /// in units: the cell was derived for levels with cells of this edge or larger ones, without finer detail; 0: with
-  /// all detail
+  /// The cell was derived for levels with cells of this edge (units) or larger, without finer detail; 0: with all
+  /// detail.
   int32_t cell_edge = 0;
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 
 /// Cells that one task has already found. Looking up a cell here, instead of in the cache, writes no memory that
-/// threads share (a shared pointer from the cache changes its reference count). Not thread-safe.
+/// threads share (copying a shared pointer of the cache changes its reference count). Not thread-safe.
 using CachedCells = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
 
 struct CellCacheStats {
@@ -46,7 +46,8 @@ struct CellCacheStats {
   size_t bytes = 0, cells = 0;
 };
 
-/// Thread-safe. If several threads request a missing cell concurrently, one of them derives it and the others wait.
+/// A thread-safe cache. If several threads request a missing cell concurrently, one of them derives it and the others
+/// wait.
 class CellCache {
  public:
   using Derive = std::function<Result<GrammarChunk>()>;
@@ -60,7 +61,7 @@ class CellCache {
   /// Looks up cells without deriving: found[i] becomes the cell of keys[i]; null if it is missing or unfinished.
   void find(std::span<const CellKey> keys, std::vector<std::shared_ptr<const DerivedCell>>& found);
 
-  /// Copies finished cells of another cache that are missing here and that `take` accepts, most recently used first,
+  /// Copies finished cells of another cache that this cache lacks and that `take` accepts, most recently used first,
   /// while the limit allows. take must not call this cache.
   void adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take);
 
@@ -68,8 +69,8 @@ class CellCache {
 
  private:
   struct Entry {
-    std::shared_ptr<const DerivedCell> cell;  ///< null while a thread is deriving it
-    std::atomic<uint64_t> used{0};            ///< value of clock_ at the latest use
+    std::shared_ptr<const DerivedCell> cell;  ///< null while a thread is deriving the cell
+    std::atomic<uint64_t> used{0};            ///< value of clock_ at the latest use of the entry
     std::list<CellKey>::iterator listed;
     uint64_t listed_as = 0;  ///< value of `used` when the entry was put at its place in by_use_
   };
@@ -80,19 +81,19 @@ class CellCache {
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Many threads find cells concurrently, so a hit only stores the time. When an entry reaches the end of the list, it
-  // is evicted only if it was not used since it got its place; otherwise it moves to the front (second chance
-  // algorithm).
+  // Many threads find cells concurrently, so a hit only stores the time of use. When an entry reaches the end of the
+  // list, it is evicted only if it was not used since it was put at its place; otherwise it moves to the front (second
+  // chance algorithm).
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
-  std::list<CellKey> by_use_;  ///< finished cells only; roughly by latest use, the most recent first
-  // The number of cells inserted so far. Eviction happens only at insertions, so uses between two insertions need no
-  // order among each other, and repeated hits write nothing. Cells that adopt() copied have 0, which is before all
-  // uses.
+  std::list<CellKey> by_use_;  ///< finished cells only; roughly in order of latest use, the most recent first
+  // The number of cells inserted so far, which serves as the time of use. Eviction happens only at insertions, so uses
+  // between two insertions need no order among each other, and repeated hits write nothing. Cells that adopt() copied
+  // have the time 0, before all uses.
   std::atomic<uint64_t> clock_{1};
   std::atomic<uint64_t> hits_{0};
-  CellCacheStats stats_;  ///< without the number of hits, which is counted separately
+  CellCacheStats stats_;  ///< all statistics except the number of hits, which hits_ counts
 };
 
 }  // namespace sgm

@@ -15,13 +15,13 @@ constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t
 IntBox movedBy(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
 
 CellKey cellKey(const Program& program, int32_t finest_cell, uint32_t layer, Int3 at, int32_t cell_edge) {
-  // A cell that was derived for one level also serves the next coarser one. It is never made from a cell for finer
-  // levels: the content of a chunk must not depend on the state of the cache.
+  // A cell that was derived for one level also serves the next coarser one. A cell for coarse levels is never made by
+  // reducing a cached cell for finer levels: the content of a chunk must not depend on the state of the cache.
   constexpr int kLevelsTogether = 2;
   int32_t kept = finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // Even the finest level may not show all of a cell: with cells of 50 cm, houses have no glazing bars. But layers
-  // above see these finer parts, too, and so request the whole cell.
+  // Even the finest level may not show everything in a cell: with cells of 50 cm, houses have no glazing bars. But
+  // derivation of the layers above reads these finer parts, too, and so requests the complete cell.
   const Layer& info = program.layers[layer];
   if (!info.by_level || cell_edge < finest_cell || (kept == finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
@@ -30,7 +30,7 @@ CellKey cellKey(const Program& program, int32_t finest_cell, uint32_t layer, Int
 Result<void> walkCells(const Program& program, Int3 shift, uint32_t layer, const IntBox& box, CellsBy by,
                        const std::function<Result<void>(const CellKey&)>& visit) {
   const Layer& info = program.layers[layer];
-  // In a grammar without layers, everything is one cell.
+  // In a grammar without layers, or a layer without cells, all content belongs to one cell.
   if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
   const IntBox home =
       movedBy(box, {saturate(-int64_t{shift.x}), saturate(-int64_t{shift.y}), saturate(-int64_t{shift.z})});

@@ -1,6 +1,6 @@
 #pragma once
-// Finds the cells of a layer whose shapes may reach into a box. A cell has several derivations, each for a range of
-// levels of detail: also finds which of them a level uses.
+// Finds the cells of a layer whose shapes may reach into a box, and which variant of a cell a level of detail uses: a
+// cell has several derivations, each for a range of levels.
 
 #include <functional>
 
@@ -10,13 +10,13 @@
 
 namespace sgm {
 
-/// How the cells that matter in a box are selected: by the proven extent of their shapes, by their declared reach, or
-/// by the points that they own.
+/// The region of a cell that is tested for intersection with a box: the proven extent of its shapes (shapes), the
+/// declared maximum extent of its shapes (reach), or the cell itself (ownership).
 enum class CellsBy { shapes, reach, ownership };
 
-/// Calls visit for each cell of a layer that matters in the box, in order z, y, x, until the first error. shift: all
-/// derived content was moved by this vector, in units. Error: limit if there are more than 2^20 cells by shapes, 2^24
-/// otherwise.
+/// Calls visit for each cell of a layer whose region (CellsBy) intersects the box, in order z, y, x, until the first
+/// error. shift: all derived content was moved by this vector, in units. Error: limit if there are more than 2^20 cells
+/// by shapes, 2^24 otherwise.
 Result<void> walkCells(const Program& program, Int3 shift, uint32_t layer, const IntBox& box, CellsBy by,
                        const std::function<Result<void>(const CellKey&)>& visit);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Numbers the chunks of a box in an order that is good for meshing layer by layer.
+// Numbers the chunks of a box in an order in which layers of chunks can be processed one after another with little
+// memory.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,7 @@ class ChunkOrder {
     return place(chunk, 0) + along(0) * (place(chunk, 1) + along(1) * place(chunk, 2));
   }
 
-  /// Returns the difference between the numbers of two neighbours along this axis.
+  /// Returns the difference between the numbers of two chunks that are neighbours along this axis.
   uint64_t stride(int axis) const { return axis == axes_[0] ? 1 : axis == axes_[1] ? along(0) : along(0) * along(1); }
 
  private:

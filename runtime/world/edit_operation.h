@@ -17,8 +17,8 @@ struct EditId {
   friend auto operator<=>(const EditId&, const EditId&) = default;
 };
 
-/// The order of operations: later ones lie above earlier ones. The time is a Lamport clock: one more than any time that
-/// the author knew.
+/// The order of operations: brushes of later operations lie above those of earlier ones. The time is a Lamport clock:
+/// one more than any time that the author knew.
 struct EditOrder {
   uint64_t time = 0;
   EditId id;
@@ -29,18 +29,19 @@ struct EditOperation {
   enum class Kind : uint8_t {
     brush,  ///< adds a brush
     undo,   ///< hides the brush that `target` added
-    redo,   ///< shows that brush again
+    redo,   ///< shows the brush that `target` added again
   };
   Kind kind = Kind::brush;
   EditOrder order;
-  EditId target;  ///< the operation that an undo or a redo refers to
+  EditId target;  ///< the operation that an undo or a redo refers to: the one that added the brush
   Brush brush;    ///< the brush that a brush operation adds
 };
 
 /// upper limit of times and of operation numbers; both start at 1
 inline constexpr uint64_t kMaxEditTime = uint64_t{1} << 62;
 
-/// Checks an operation from outside. Errors: invalid_argument or range if no edit log could have created it.
+/// Checks an operation from an untrusted source. Errors: invalid_argument or range if no edit log could have created
+/// it.
 Result<void> checkEdit(const EditOperation& operation);
 
 /// Appends the encoded brush to `bytes`. Equal brushes give equal bytes, even if members that their shape does not use
@@ -55,6 +56,6 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);
 Result<EditOperation> decodeEdit(ByteReader& bytes);
 
 inline constexpr size_t kLeastEditBytes = 41,
-                        kMaxEditBytes = 75;  ///< minimum and maximum encoded size of an operation
+                        kMaxEditBytes = 75;  ///< minimum and maximum size of an encoded operation in bytes
 
 }  // namespace sgm

@@ -7,11 +7,11 @@ namespace sgm {
 
 namespace {
 
-// The levels of the octree: the edge of a node is 2^level units.
+// Octree levels of the root and of the leaves: the edge of a node is 2^level units.
 constexpr int kWorldLevel = 32, kLeafLevel = 12;
 
-// Returns the deepest level whose edge is not shorter than the box. A brush is stored in the node of that level that
-// contains its middle, and extends at most half an edge beyond the node.
+// Returns the deepest octree level whose nodes are not shorter than the box. A brush is stored in the node of that
+// level that contains its middle, and extends at most half an edge beyond the node.
 int homeLevel(const IntBox& box) {
   int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis) longest = std::max(longest, int64_t{box.hi[axis]} - box.lo[axis]);
@@ -33,10 +33,10 @@ size_t childOfMiddle(const IntBox& box, int level) {
 
 struct EditSnapshot::Node {
   std::array<NodePtr, 8> children;
-  std::pmr::vector<Entry> entries;  ///< brushes of this node, sorted by order
+  std::pmr::vector<Entry> entries;  ///< brushes of this node, sorted by EditOrder
   IntBox bounds;                    ///< bounds of all brushes in this node and below
   size_t count = 0;                 ///< number of brushes in this node and below
-  uint64_t batch = 0;               ///< the batch that created the node
+  uint64_t batch = 0;               ///< number of the batch of changes that created the node; 0: none
 
   explicit Node(std::pmr::memory_resource* memory) : entries(memory) {}
   Node(const Node& other, std::pmr::memory_resource* memory)
@@ -63,7 +63,7 @@ struct EditSnapshot::Change {
 
 EditSnapshot::NodePtr EditSnapshot::changed(const NodePtr& node, int level, const Change& change) const {
   const std::pmr::polymorphic_allocator<Node> allocator(memory_);
-  // A node that was created by this batch has no other reader yet, so it may be changed.
+  // A node that was created by this batch is not part of any other snapshot in use, so it may be changed.
   const bool ours = node && change.batch != 0 && node->batch == change.batch;
   const std::shared_ptr<Node> own = ours   ? std::const_pointer_cast<Node>(node)
                                     : node ? std::allocate_shared<Node>(allocator, *node, memory_)

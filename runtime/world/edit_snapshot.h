@@ -1,5 +1,5 @@
 #pragma once
-// The brushes that are visible at one moment, searchable by position. Snapshots share their unchanged parts.
+// The set of brushes that are visible at one moment, searchable by position. Snapshots share their unchanged parts.
 
 #include <memory>
 #include <memory_resource>
@@ -21,13 +21,15 @@ class EditSnapshot {
   void query(const IntBox& box, int32_t cell, std::pmr::vector<Brush>& brushes) const;
 
   size_t brushes() const;
-  /// Returns a box around everything that the brushes change.
+  /// Returns the bounding box of everything that the brushes change.
   IntBox bounds() const;
 
-  /// Returns a snapshot with one brush more. Precondition: the brush was checked and is absent (for without():
-  /// present). A series of changes is cheap if all use the same batch number, not 0: then these snapshots may share
-  /// even changed nodes, so that only the last one is valid, and earlier ones must not have been passed on. Use each
-  /// number for one series only.
+  /// with() returns a snapshot with one additional brush, without() one from which a brush is removed. Precondition:
+  /// the brush was checked, and is absent (with) or present (without).
+  ///
+  /// A series of changes is cheap if all of them use the same batch number, other than 0. The snapshots of a series may
+  /// then share even changed nodes: only the last snapshot is valid, and earlier ones must not be used elsewhere. Use
+  /// each number for one series only.
   EditSnapshot with(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
   EditSnapshot without(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
 

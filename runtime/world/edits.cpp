@@ -91,7 +91,7 @@ Result<EditLog::Edited> EditLog::make(EditOperation operation) {
     return Error{Code::limit,
                  "the world cannot hold more edits than the " + std::to_string(known_.size()) + " that it has"};
   }
-  // The time of a received operation may already be the largest possible. Then all later operations get that time, and
+  // The time of a received operation may already be kMaxEditTime. Then all later operations get that time, too, and
   // their ids order them.
   operation.order = {std::min(latest_ + 1, kMaxEditTime), {settings_.author, number_ + 1}};
   if (Result<void> good = checkEdit(operation); !good) return good.error();
@@ -138,7 +138,8 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
     return Error{Code::limit, "the world would have " + std::to_string(known_.size() + fresh.size()) +
                                   " edits, but it holds at most " + std::to_string(settings_.max_operations)};
   }
-  // Undos and redos come first, the latest before earlier ones, so that no brush appears or disappears more than once.
+  // Undos and redos are inserted first, the latest before earlier ones, so that no brush appears or disappears more
+  // than once.
   std::vector<const EditOperation*> order;
   for (const auto& [id, operation] : fresh) order.push_back(operation);
   std::sort(order.begin(), order.end(), [](const EditOperation* a, const EditOperation* b) {

@@ -21,8 +21,8 @@ struct EditSettings {
   /// log: a number must not be used again after operations may have been lost (such as those of a journal's last
   /// second).
   uint64_t author = 1;
-  /// The largest material and tag of brushes added here. Imported brushes may have larger ones, for example of another
-  /// grammar.
+  /// The largest material and tag of brushes that add() accepts. Imported brushes may have larger ones, for example
+  /// those of another grammar.
   uint16_t max_material = 0xFFFF, max_tag = 0xFFFF;
   size_t max_operations = size_t{1} << 20;
 };
@@ -33,7 +33,7 @@ class EditLog {
  public:
   struct Edited {
     EditId id;
-    IntBox box;  ///< the region that changes; empty if nothing changes
+    IntBox box;  ///< the region where the field changes; empty if nothing changes
   };
 
   explicit EditLog(EditSettings settings, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
@@ -48,8 +48,8 @@ class EditLog {
     settings_.max_tag = max_tag;
   }
 
-  /// Adds a brush on top of all known ones. Errors: those of checkBrush; invalid_argument (material or tag too large);
-  /// limit.
+  /// Adds a brush on top of all known brushes. Errors: those of checkBrush; invalid_argument (material or tag too
+  /// large); limit.
   Result<Edited> add(const Brush& brush);
   /// Undoes an operation: hides the brush if `id` added it; shows it again if `id` is an undo; hides it again if `id`
   /// is a redo. Errors: invalid_argument (the operation or its brush is unknown); limit.
@@ -59,8 +59,8 @@ class EditLog {
   /// the regions that change: a box for each brush that appears or disappears. Errors: bad_input (no edit log could
   /// have created an operation, or it is known with other content); limit.
   Result<std::vector<IntBox>> merge(std::span<const EditOperation> operations);
-  /// Decodes the result of exportBytes(), and merges it. Errors: those of merge; bad_input if the bytes are anything
-  /// else.
+  /// Decodes the result of exportBytes(), and merges its operations. Errors: those of merge(); bad_input if the bytes
+  /// are not such a result.
   Result<std::vector<IntBox>> import(std::span<const std::byte> bytes);
 
   /// Returns the number of known operations. New operations are appended in operations() and exportBytes().
@@ -75,7 +75,7 @@ class EditLog {
   std::shared_ptr<const EditSnapshot> snapshot() const;
 
  private:
-  struct Observation {  ///< the latest undo or redo of a brush
+  struct Observation {  ///< the latest undo or redo of one brush
     EditOrder order;
     bool hidden = false;
   };
@@ -89,18 +89,19 @@ class EditLog {
 
   EditSettings settings_;
   std::pmr::vector<EditOperation> known_;
-  std::pmr::map<EditId, size_t> places_;       ///< index in known_ of each operation
-  std::pmr::map<EditId, Observation> sights_;  ///< by the id of the brush, which itself may be unknown yet
+  std::pmr::map<EditId, size_t> places_;  ///< index in known_ of each operation
+  /// the latest undo or redo of each brush, by the brush's id; the brush itself may not be known yet
+  std::pmr::map<EditId, Observation> sights_;
   EditSnapshot shown_;
-  uint64_t latest_ = 0;  ///< the largest known time
+  uint64_t latest_ = 0;  ///< the largest time of all known operations
   uint64_t number_ = 0;  ///< the largest number among the operations of this log's author
   uint64_t sum_ = 0;     ///< sum of the checksums of all operations
-  uint64_t batch_ = 0;   ///< number of the last batch (EditSnapshot::with)
+  uint64_t batch_ = 0;   ///< number of the last batch of changes (EditSnapshot::with)
 };
 
 /// Returns the box to mesh again after the field has changed in the box `changed`, at a level whose cells have the edge
-/// `cell` (units): every chunk whose closed box meets the result must be meshed again. The result includes the places
-/// that the seams of these chunks read of the next coarser level.
+/// `cell` (units): every chunk whose closed box meets the result must be meshed again. The result includes the
+/// positions at which seams of these chunks sample the next coarser level.
 IntBox editReach(const IntBox& changed, int32_t cell);
 
 /// Returns a subset of operations that shows the same brushes. It contains the visible brushes; the latest undo or redo

@@ -11,7 +11,7 @@ namespace sgm {
 
 uint64_t countChunks(const IntBox& region, int64_t cell) {
   const int64_t edge = kChunkCells * cell;
-  // The product of three counts may overflow an integer; each count is below 2^28.
+  // The product of the three counts may overflow an integer, since each count can be almost 2^28.
   long double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t first = floorDiv(region.lo[axis], edge), last = floorDiv(int64_t{region.hi[axis]} - 1, edge);
@@ -33,7 +33,7 @@ std::optional<double> fittingCell(std::span<const IntBox> regions, int level, in
   };
   for (int64_t power = 1; power <= kThousandths; power *= 10) {
     for (const int round : kRound) {
-      const int64_t tenths = round * power;  // the edge in tenths of a millimetre
+      const int64_t tenths = round * power;  // cell edge in tenths of a millimetre
       const int64_t units = (tenths * kUnitsPerMetre + 5000) / 10'000;
       if (tenths > 10 * kThousandths || units < cell) continue;
       if (fits(units)) return static_cast<double>(tenths) / 10'000;

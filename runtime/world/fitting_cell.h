@@ -1,5 +1,5 @@
 #pragma once
-// Finds the cell edge at which a region has few enough chunks to be meshed.
+// Finds a cell edge large enough that a region has no more chunks than allowed.
 
 #include <optional>
 #include <span>

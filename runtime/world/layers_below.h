@@ -12,7 +12,7 @@
 
 namespace sgm {
 
-/// Used for one derivation, on its thread. The caller must check error() after the derivation.
+/// An object of this class serves one derivation, on its thread. The caller must check error() after the derivation.
 class LayersBelow final : public LowerLayers {
  public:
   LayersBelow(const WorldField& world, const IntBox& around);
@@ -28,13 +28,13 @@ class LayersBelow final : public LowerLayers {
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
-  /// Adds the shift of the world's settings, which derivation does not know about.
+  /// Adds the shift of the world's settings, since derivation works without that shift.
   Int3 shifted(Int3 p) const;
 
   const WorldField& world_;
   IntBox around_;
   mutable std::map<uint32_t, std::shared_ptr<const FieldProgram>> programs_;
-  /// the program for the last queried box outside of `around_`
+  /// the program for the last queried box that is not contained in `around_`
   mutable std::shared_ptr<const FieldProgram> elsewhere_;
   mutable EvalScratch scratch_;
   mutable PruneScratch prune_scratch_;

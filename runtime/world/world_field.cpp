@@ -80,8 +80,8 @@ std::vector<std::byte> WorldField::identityWith(uint64_t grammar) const {
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
   const ProfileScope scope(profiler(), zone::kDerive);
-  // Probes start in the cell and end within its reach, and queries stay within its reach, so this box contains all of
-  // them.
+  // Probes start in the cell and end within its reach, and all other queries stay within its reach, so this box
+  // contains all of them.
   const IntBox around = movedBy(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);
@@ -113,7 +113,7 @@ Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_ed
     return derived;
   });
   if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
-  // Cells that were derived for coarse levels would report the same notes again.
+  // Derivations for coarse levels report no notes, since they would repeat the notes of the finest level.
   if (chunk && settings_.on_notes && !chunk->notes.empty() && cell_edge <= settings_.finest_cell)
     settings_.on_notes(*chunk);
   return chunk;
@@ -309,7 +309,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CachedC
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
   };
-  // Anchors always lie inside their own cell.
+  // Anchors always lie inside their own cell, so only cells that intersect the box are visited.
   const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, cached_cells);
   if (!visited) return visited.error();
   return found;

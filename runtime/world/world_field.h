@@ -1,5 +1,6 @@
 #pragma once
-// The field of one world, at every position and level: a grammar with its parameters, seed and finest cell.
+// The field of one world, at every position and level. It is defined by a grammar with its parameters, seed and finest
+// cell.
 
 #include <functional>
 #include <memory>
@@ -23,29 +24,30 @@ struct WorldFieldSettings {
   uint64_t seed = 0;
   int32_t finest_cell = kUnitsPerMetre / 2;  ///< edge of a level-0 cell in units
   size_t cache_bytes = size_t{64} << 20;
-  /// For tests: all derived content is moved by this vector, in units, before it is meshed.
+  /// Moves all derived content by this vector, in units, before it is meshed. Used by tests.
   Int3 shift;
-  /// Called after a cell was derived that has left something out, each time (also again after its eviction). Called
-  /// from any thread, also concurrently; must not call the field.
+  /// Called each time after the derivation of a cell has left out shapes, also if an evicted cell is derived again.
+  /// Called from any thread, also concurrently; must not call the field.
   std::function<void(const GrammarChunk&)> on_notes;
   Profiler profiler;
-  /// Fields above all derived content, in this order, and below edits. Derivation does not see them.
+  /// Fields above all derived content and below the edits, in this order. Derivation cannot query them.
   std::vector<HostField> hosts;
 };
 
-/// A field program whose labels name the shapes that make its surface, instead of materials.
+/// A field program whose labels identify shapes instead of materials: the label of a surface point names its shape.
 struct ShapeField {
   std::shared_ptr<const FieldProgram> program;
-  std::vector<std::shared_ptr<const DerivedCell>> cells;  ///< the cells by the numbers in ShapeLabels::Source::cell
+  std::vector<std::shared_ptr<const DerivedCell>> cells;  ///< the cells, in the order of ShapeLabels::Source::cell
   ShapeLabels labels;
 };
 
-/// Thread-safe. Results are a pure function of the settings; only the cache has state.
+/// The class is thread-safe. Results are a pure function of the settings; only the cache has state.
 class WorldField {
  public:
   /// memory must outlive the field and everything that it returns.
   WorldField(WorldFieldSettings settings, std::pmr::memory_resource* memory);
-  /// Makes an empty world with a single derived cell, `alone`, instead of the program's content and domain.
+  /// Makes a field whose only content is one derived cell, `alone`, in an empty domain, instead of the program's
+  /// content and domain.
   WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone, std::pmr::memory_resource* memory);
 
   const WorldFieldSettings& settings() const { return settings_; }
@@ -59,24 +61,25 @@ class WorldField {
   bool isSolidDomain() const { return !isAlone() && settings_.program->domain.solid; }
 
   /// Returns bytes that identify the field: they change with everything that changes a result, but not with the layout
-  /// and comments of the grammar. nullopt if the field was made of a single cell, whose content has no name.
+  /// and comments of the grammar. nullopt if the field was made of a single cell, since this content has no identifier.
   std::optional<std::vector<std::byte>> identity() const;
-  /// The bytes that identify the field in files of version 0.2. The first call for a program parses it again
+  /// Returns the bytes that identify the field in files of version 0.2. The first call for a program parses it again
   /// (formerHash).
   std::optional<std::vector<std::byte>> formerIdentity() const;
 
-  /// Copies the derived cells of another field that this field would derive alike, because the parameters that they
-  /// have read do not differ. Copies none if the program, seed or shift differ.
+  /// Copies those derived cells of another field that this field would derive identically, because the parameters that
+  /// they have read have equal values in both fields. Copies none if the program, seed or shift differ.
   void adopt(const WorldField& other) const;
 
-  /// True if both fields derive the same cell, given the parameters that it has read (GrammarChunk::parameters).
+  /// True if both fields derive the same cell. parameters: mask of the parameters that the cell has read
+  /// (GrammarChunk::parameters).
   bool derivesAlike(const WorldField& other, uint64_t parameters) const;
 
   /// Returns a cell of a layer with all detail: from the cache, or derived now.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
-  /// Returns the cell's content for levels whose cells have this edge, in units. If only coarse levels request a cell,
-  /// it is cached with their content only.
+  /// Returns the cell's content for levels whose cells have this edge, in units. A cell that only coarse levels request
+  /// is cached without its finer content.
   Result<std::shared_ptr<const DerivedCell>> cellFor(uint32_t layer, Int3 cell, int32_t cell_edge) const;
 
   /// Derives the cell without the cache, and records the origin of its shapes.
@@ -87,32 +90,32 @@ class WorldField {
   Result<void> cellsAround(uint32_t layer, const IntBox& box,
                            const std::function<Result<void>(Int3 cell)>& visit) const;
 
-  /// Compiles all groups that matter in the closed box at a level, below the host fields and the edits, neither of
-  /// which derivation sees. cached_cells: cached cells of this field, which are searched first; all cells used are
-  /// added. Errors: limit if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a
-  /// host field; errors of derivation and of the host fields.
+  /// Compiles all groups that matter in the closed box at a level; the host fields and the edits become layers above
+  /// them. cached_cells: cached cells of this field, which are searched first; all cells used are added. Errors: limit
+  /// if more than 2^20 cells of a layer reach into the box, or the box is too large to sample a host field; errors of
+  /// derivation and of the host fields.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level, const EditSnapshot* edits = nullptr,
                                                       CachedCells* cached_cells = nullptr) const;
 
-  /// Same as compile(), but with labels that name shapes instead of materials and tags.
+  /// Same as compile(), but with labels that identify shapes instead of materials and tags.
   Result<ShapeField> compileShapes(const IntBox& box, int level, const EditSnapshot* edits = nullptr) const;
 
-  /// Returns the edits that compile() adds on top, in order.
+  /// Returns the brushes of `edits` that compile() adds above all other content, in order.
   std::pmr::vector<Brush> brushes(const IntBox& box, int level, const EditSnapshot* edits) const;
 
-  /// Returns a program that is the domain's own state (solid or void) everywhere: the field beyond the drawn world.
+  /// Returns a program for the field beyond the meshed world: solid or void everywhere, like the domain.
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
 
   /// Returns the anchors in the box lo <= p < hi, by layer, cell and key. cached_cells: cached cells, which are
   /// searched first. Errors: limit if the box holds points of more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<Anchor>> anchors(const IntBox& box, const CachedCells* cached_cells = nullptr) const;
 
-  /// Returns notes on what derivation had to leave out in cells whose reach meets the box, of layers that are visible
-  /// at cells of this edge or that may have anchors. The notes of each cell occur once. Errors: limit if there are more
-  /// than 2^24 cells of a layer; errors of derivation.
+  /// Returns notes on content that derivation has left out. Considers cells whose reach meets the box, of layers that
+  /// are visible at levels with this cell edge or that may have anchors. The notes of each cell occur once. Errors:
+  /// limit if there are more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<DeriveNote>> notes(const IntBox& box, int32_t cell_edge) const;
 
-  /// Returns the uses of a rule whose frames stand in the box lo <= p < hi, by layer and cell, in order of derivation.
+  /// Returns the uses of a rule whose origins lie in the box lo <= p < hi, by layer and cell, in order of derivation.
   /// Searches only cells whose reach meets the box. Errors: limit if there are more than `most` uses, or more than 2^24
   /// cells of a layer; errors of derivation.
   Result<std::vector<RuleInstance>> instances(uint32_t rule, const IntBox& box, size_t most) const;
@@ -120,7 +123,7 @@ class WorldField {
   CellCacheStats cacheStats() const { return cache_.stats(); }
 
   /// Compiles the layers up to and including `layer` in full detail, for derivations of the layers above. parameters:
-  /// receives, in addition, the parameters that these layers have read; may be null.
+  /// if not null, the parameters that these layers have read are added to this mask.
   Result<std::shared_ptr<const FieldProgram>> compileBelow(uint32_t layer, const IntBox& box,
                                                            uint64_t* parameters = nullptr) const;
 
@@ -135,21 +138,23 @@ class WorldField {
                                                             std::span<const HostField> hosts,
                                                             std::span<const Brush> brushes, CachedCells& cached_cells,
                                                             GatheredCells* gathered = nullptr) const;
-  /// Calls visit for the cells of all layers that `wanted` accepts and that matter in the box, in order.
+  /// Calls visit for the content of all cells whose region (CellsBy) intersects the box, of the layers that `wanted`
+  /// accepts, in order.
   Result<void> forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit,
                            const CachedCells* cached_cells = nullptr) const;
-  /// Loads the cells of the keys that are missing in cached_cells into it, from the cache or by derivation.
+  /// Adds the cells of the keys to cached_cells, unless it contains them already; takes them from the cache, or derives
+  /// them.
   Result<void> load(std::span<const CellKey> keys, CachedCells& cached_cells) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
-  /// Calls `derive` with access to the layers below the cell.
+  /// Calls `derive` with access to the layers below the cell, and returns its result or the error of that access.
   template <class T, class Derive>
   Result<T> overLayersBelow(uint32_t layer, Int3 cell, const Derive& derive) const;
 
-  /// Derives a cell without the cache. cell_edge: as in CellKey.
+  /// Derives a cell without the cache. cell_edge: CellKey::cell_edge.
   Result<GrammarChunk> derive(uint32_t layer, Int3 cell, int32_t cell_edge) const;
 
-  /// The identity with this hash of the grammar.
+  /// Returns the bytes that identify the field, with this hash of the grammar.
   std::vector<std::byte> identityWith(uint64_t grammar) const;
 
   WorldFieldSettings settings_;

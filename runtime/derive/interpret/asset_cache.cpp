@@ -6,7 +6,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// Budget steps for fitting one triangle of an asset.
+/// Number of budget steps that fitting one triangle of an asset takes.
 constexpr uint64_t kStepsATriangle = 64;
 
 FittedAsset cover(const asset::Polyhedron& body) {

@@ -16,22 +16,22 @@ namespace sgm::interpret {
 /// The convex pieces of an asset that is fitted to one size.
 struct FittedAsset {
   std::vector<asset::ConvexPiece> pieces;
-  std::string trouble;  ///< why it cannot be fitted; empty: `pieces` is valid
+  std::string trouble;  ///< reason why the asset cannot be fitted; empty if `pieces` is valid
 };
 
-/// The fitted assets of the cell, by asset, size and zones.
+/// Caches the fitted assets of one cell, keyed by asset, size and zones.
 class AssetCache {
  public:
   explicit AssetCache(const Program& program) : program_(program) {}
 
-  /// number: index in Program::assets. size: metres. Counts steps in the budget for a new size. The result is valid as
-  /// long as the cache, and is empty if the budget has failed.
+  /// Returns an asset fitted to a size; fits it, and counts the steps in the budget, if it is not cached. number: index
+  /// in Program::assets. size: metres. The result is valid as long as the cache, and is empty if the budget has failed.
   const FittedAsset& fit(uint32_t number, asset::Point size, const std::vector<asset::FitZone>& zones, const Span& span,
                          uint32_t activation, Budget& budget);
 
  private:
   const Program& program_;
-  std::map<std::vector<uint64_t>, FittedAsset> fitted_;  ///< key: asset, size and zones
+  std::map<std::vector<uint64_t>, FittedAsset> fitted_;  ///< key of an entry: asset, size and zones
 };
 
 }  // namespace sgm::interpret

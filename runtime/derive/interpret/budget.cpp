@@ -46,7 +46,7 @@ void Budget::addFile(const Span& span, std::string& message) const {
 
 void Budget::moveNotes(std::pmr::vector<DeriveNote>& out) {
   if (dropped_notes_ > 0) {
-    // The count of dropped notes has no position of its own in the text; the layer's start is the best one.
+    // The number of dropped notes refers to no single place in the grammar, so it is reported at the layer's start.
     const Span& span = in_.program.expr(in_.layer.start).span;
     const std::string_view what =
         dropped_notes_ == 1 ? " more note on this cell is left out" : " more notes on this cell are left out";

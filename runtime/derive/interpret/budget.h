@@ -16,7 +16,7 @@
 
 namespace sgm::interpret {
 
-/// Counts one more level of recursion during its lifetime.
+/// Counts one more level of recursion while the object exists.
 class [[nodiscard]] Nested {
  public:
   explicit Nested(uint32_t& depth) : depth_(depth) { ++depth_; }
@@ -28,8 +28,8 @@ class [[nodiscard]] Nested {
   uint32_t& depth_;
 };
 
-/// What the cell has consumed of its limits so far, the error that ended it, and notes on shapes left out. Messages
-/// contain the span in the grammar and the derivation path of the activation.
+/// The work and memory that the derivation of one cell has used, the error that ended it, and its notes on shapes left
+/// out. Messages contain the span in the grammar and the derivation path of the activation.
 class Budget {
  public:
   Budget(const CellInputs& in, const Activations& activations, const Draft& draft)
@@ -43,15 +43,15 @@ class Budget {
     failBySteps(span, activation);
     return false;
   }
-  /// Undefined if the cell has failed.
+  /// Number of steps that the cell may still take. Undefined if the cell has failed.
   uint64_t stepsLeft() const { return limits_.steps - steps_; }
 
-  /// Counts memory of the cell that is not part of the draft or the activations.
+  /// Counts memory of the cell that belongs neither to the draft nor to the activations.
   void hold(size_t bytes) { held_bytes_ += bytes; }
   /// Fails the cell and returns false if it uses too much memory.
   bool withinBytes(const Span& span, uint32_t activation);
 
-  /// Counts one level of nested statements or expressions, for the lifetime of the result.
+  /// Counts one level of nested statements or expressions, while the returned object exists.
   Nested nest() { return Nested(nesting_); }
   /// Fails the cell and returns false if statements and expressions are nested too deep.
   bool withinNesting(const Span& span, uint32_t activation) {
@@ -66,17 +66,17 @@ class Budget {
   /// Precondition: failed().
   const Error& error() const { return *error_; }
 
-  /// Stores a note; if there are already too many, only counts it.
+  /// Stores a note; if there are already too many notes, only counts it.
   void note(const std::string& message, const Span& span, uint32_t activation);
   bool isFullOfNotes() const { return notes_.size() >= limits_.notes; }
   void dropNote() { ++dropped_notes_; }
-  /// Moves the notes to the end of `out`, followed by a note with the number of dropped ones, if any.
+  /// Moves the notes to the end of `out`, followed by a note with the number of dropped notes, if any.
   void moveNotes(std::pmr::vector<DeriveNote>& out);
 
  private:
   void failBySteps(const Span& span, uint32_t activation);
   void failByNesting(const Span& span, uint32_t activation);
-  /// Appends the file name of a span to the message if the file is not the root.
+  /// Appends the file name of a span to the message, unless the file is the grammar's root file.
   void addFile(const Span& span, std::string& message) const;
 
   const CellInputs& in_;

@@ -2,8 +2,8 @@
 
 namespace sgm::interpret {
 
-// Overrides by path count all activations of a rule, including those in shapes that a coarse derivation would leave
-// out, so such a cell is derived completely.
+// An override by path names an activation by its index among all activations of its rule, including those that a coarse
+// derivation would leave out. Therefore a cell to which such overrides may apply is derived completely.
 CellContext::CellContext(const CellInputs& inputs, const CellOptions& options, std::pmr::memory_resource* memory)
     : in(inputs),
       program(in.program),

@@ -24,9 +24,10 @@
 namespace sgm::interpret {
 
 struct CellOptions {
-  /// derive only what is visible at levels with this cell edge (units) or a larger one; 0: derive everything
+  /// derive only the content that is visible at levels with this cell edge (units) or a larger one; 0: derive
+  /// everything
   int32_t coarse_edge = 0;
-  RuleWatch* watch = nullptr;  ///< records the calls of one rule; null: none. Must outlive the context
+  RuleWatch* watch = nullptr;  ///< records the calls of one rule; may be null; must outlive the context
 };
 
 /// The state shared by all statements of one cell. Not movable, since its members refer to each other.
@@ -40,10 +41,11 @@ struct CellContext {
   bool skips(int32_t detail, const Env& env) const { return !env.whole && detail > 0 && coarse_edge > detail; }
 
   const CellInputs in;
-  const Program& program;  ///< same as in.program
+  const Program& program;  ///< reference to in.program
   Activations activations;
   PathOverrides path_overrides;
-  const int32_t coarse_edge;  ///< CellOptions::coarse_edge; 0 if overrides by path may apply in the cell
+  /// CellOptions::coarse_edge; 0 if overrides by path may apply in the cell, which is then derived completely
+  const int32_t coarse_edge;
   Draft draft;
   Budget budget;
   ShapeSink sink;

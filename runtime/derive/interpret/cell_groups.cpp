@@ -15,7 +15,7 @@ namespace {
 
 std::string metresText(int64_t units) { return fixedText(static_cast<double>(units) / kUnitsPerMetre, 2); }
 
-/// The amount by which `box` exceeds `limit`, in units.
+/// Returns the distance in units by which `box` exceeds `limit`.
 int64_t excess(const IntBox& box, const IntBox& limit) {
   int64_t most = 0;
   for (int a = 0; a < 3; ++a) {
@@ -24,7 +24,7 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
-/// True if a box is unbounded only because the cell is at the end of the world, without space beyond.
+/// True if a box counts as unbounded only because it reaches the end of the world, as the cell's limit does, too.
 bool endsWithWorld(const Layer& layer, const IntBox& limit, IntBox box) {
   const IntBox all = IntBox::everything();
   for (int a = 0; a < 3; ++a) {
@@ -52,11 +52,13 @@ void noteBeyond(uint32_t shape, const IntBox& box, CellContext& c) {
       origin.span, origin.activation);
 }
 
-/// Adds a group that is within the cell's limit, and checks it against the proven bounds of the layer.
+/// Adds a group that is within the cell's limit, and clips it to the bounds that are proven for the layer
+/// (Layer::bound).
 void addGroup(Group group, CellContext& c, GrammarChunk& out) {
   const IntBox proven = shapeLimit(c.program, c.in.layer_index, c.in.cell);
   if (!proven.contains(group.bounds)) {
-    // A warp rounds positions to units, and its bounds include a margin for that, which the proven bound lacks.
+    // A warp rounds positions to units. The bounds of a shape include a margin for that, but the proven bound does not,
+    // so a group may exceed it by one unit for each warp.
     const std::pmr::vector<Shape>& shapes = c.draft.chunk().shapes;
     const auto warps =
         std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
@@ -68,8 +70,8 @@ void addGroup(Group group, CellContext& c, GrammarChunk& out) {
                         " m and ends there: a bug in the library, please report it",
                     origin.span, origin.activation);
     }
-    // A chunk loads only the cells whose proven bounds reach it, so parts beyond that would be visible in only some
-    // chunks.
+    // A chunk loads only the cells whose proven bounds reach it, so parts beyond the proven bound would be visible in
+    // only some chunks.
     group.bounds = group.bounds.clipped(proven);
   }
   if (!group.bounds.empty()) out.groups.push_back(group);

@@ -11,11 +11,11 @@
 namespace sgm::interpret {
 
 /// Appends a group to `out` for each shape of a list. Leaves out shapes, or parts of shapes, that exceed cellLimit(),
-/// with a note. cut: the shapes cut the domain. Modifies the draft: removes the children that are left out.
+/// with a note. cut: whether the shapes cut the domain. Modifies the draft: removes the children that are left out.
 void collectGroups(const ShapeList& list, bool cut, CellContext& c, GrammarChunk& out);
 
-/// Appends a group to `out` for each shape of a list, ignoring cellLimit(). Returns false if the shapes add (`cut` is
-/// false) and one has no bound. bounds: of the shapes in the draft.
+/// Appends a group to `out` for each shape of a list, ignoring cellLimit(). Returns false if a shape has no bound and
+/// `cut` is false. cut: whether the shapes cut the domain. bounds: computes bounds of the draft's shapes.
 bool collectAlone(const ShapeList& list, bool cut, const ShapeBounds& bounds, const CellContext& c,
                   std::vector<Group>& out);
 

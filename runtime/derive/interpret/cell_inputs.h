@@ -18,8 +18,8 @@ struct CellInputs {
   CellInputs(const Program& of, const ParameterValues& values, uint64_t world_seed, uint32_t layer_number, Int3 at,
              const LowerLayers& below, const DeriveLimits& most);
 
-  /// Returns the origin of the start rule's scope in metres from `base`. It is 0, except for a top-level start, whose
-  /// only cell is centred on the origin of its scope.
+  /// Returns the origin of the start rule's scope in metres from `base`. It is 0, except in a grammar without layers,
+  /// whose only cell is centred on the origin of its scope.
   Vec3 origin() const;
 
   const Program& program;
@@ -29,7 +29,7 @@ struct CellInputs {
   const Layer& layer;
   const uint32_t layer_index;
   const Int3 cell;
-  const uint64_t seed;  ///< combines the seeds of the world and the grammar
+  const uint64_t seed;  ///< hash of the seeds of the world and the grammar
   Lattice lattice;
   Int3 base;  ///< low corner of the cell, units
 };

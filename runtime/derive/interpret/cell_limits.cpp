@@ -1,4 +1,4 @@
-// The boxes of cells, and the limits of their shapes.
+// Boxes of cells, and limits of the shapes of cells.
 
 #include <algorithm>
 
@@ -7,8 +7,8 @@
 namespace sgm {
 namespace {
 
-/// The amount by which the bounds of shapes of this size may exceed their proven bounds: ShapeBounds::level() includes
-/// a margin for the rounding of floats.
+/// Returns how far (units) the bounds of a shape may exceed its proven bound: ShapeBounds::level() includes a margin
+/// for float rounding, which depends on the size.
 int64_t roundingOf(const IntBox& bound) {
   const IntBox all = IntBox::everything();
   int64_t longest = 0;

@@ -1,4 +1,4 @@
-// Combiners: unions, cuts, intersections, sums, displacements, warps.
+// Derives combiners: unions, cuts, intersections, sums, displacements, warps.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// Statements that add no shape to their block.
+/// True for kinds of statements that add no shape to their block.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
          kind == StmtKind::anchor || kind == StmtKind::footprint;
@@ -26,7 +26,8 @@ std::optional<double> smoothRadius(const StmtNode& s, CellContext& c, const Env&
   return std::nullopt;
 }
 
-/// Rotates and scales a sample-time vector from the scope to world axes.
+/// Converts a vector from the scope's axes to world axes, by rotation and scale. Its components may be expressions that
+/// are evaluated per sample.
 std::array<Num, 3> inWorld(const std::array<Num, 3>& local, const Placement& place, Draft& draft) {
   std::array<Num, 3> world;
   for (size_t i = 0; i < 3; ++i) {
@@ -70,7 +71,7 @@ void runCut(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
     c.sink.layerCuts().insert(c.sink.layerCuts().end(), body.begin(), body.end());
     return;
   }
-  if (out.empty()) return;  // nothing precedes: there is nothing to cut
+  if (out.empty()) return;  // no shape precedes this cut in its block, so there is nothing to cut
   ShapeList operands{c.sink.unite(out, s, env)};
   operands.insert(operands.end(), body.begin(), body.end());
   Shape node = shapeIn(env, radius ? ShapeKind::subtract_smooth : ShapeKind::subtract);
@@ -91,7 +92,7 @@ void runMeet(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
   for (uint32_t i = 0; i < body.children.count && !c.budget.failed(); ++i) {
     const StmtNode& child = c.program.stmt(c.program.idAt(body.children, i));
     if (c.program.stmt(c.program.innermost(c.program.idAt(body.children, i))).kind == StmtKind::cut) {
-      // A cut within a meet cuts from the intersection of the operands before it.
+      // A cut within a meet cuts from the intersection of the operands that precede the cut.
       if (operands.size() > 1)
         operands = {c.sink.addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
       runStatement(c.program.idAt(body.children, i), c, inner, operands);

@@ -40,7 +40,7 @@ Result<void> checkArguments(const Program& program, const ParameterValues& param
   return {};
 }
 
-/// Derives the layer's start call; returns the shapes that it adds.
+/// Derives the layer's call of its start rule; returns the shapes that the call adds.
 ShapeList runStart(CellContext& c) {
   interpret::Env env;
   env.place.base = c.in.base;
@@ -56,7 +56,7 @@ ShapeList runStart(CellContext& c) {
   return adds;
 }
 
-/// Derives the whole cell. from: if not null, receives each shape's index in the draft.
+/// Derives the whole cell. from: if not null, receives for each shape of the result its index in the draft.
 Result<GrammarChunk> runCell(CellContext& c, std::vector<uint32_t>* from, std::pmr::memory_resource* memory) {
   const ShapeList adds = runStart(c);
   if (c.budget.failed()) return c.budget.error();
@@ -76,7 +76,7 @@ Result<GrammarChunk> runCell(CellContext& c, std::vector<uint32_t>* from, std::p
   return out;
 }
 
-/// Returns each activation of the rule separately; the cell has been derived with `watch` recording them.
+/// Returns each activation of the rule separately. `watch` must have recorded them during the derivation of the cell.
 Result<std::vector<RuleInstance>> instancesOf(uint32_t rule, const RuleWatch& watch, const CellContext& c,
                                               std::pmr::memory_resource* memory) {
   const ShapeBounds bounds(c.draft.chunk());
@@ -95,7 +95,7 @@ Result<std::vector<RuleInstance>> instancesOf(uint32_t rule, const RuleWatch& wa
     if (instance.bounded) copier.copy(groups, instance.chunk);
     instance.chunk.anchors.assign(c.sink.anchors().begin() + static_cast<std::ptrdiff_t>(call.first_anchor),
                                   c.sink.anchors().begin() + static_cast<std::ptrdiff_t>(call.end_anchor));
-    // Shapes of nested activations are copied several times, so the total number of shapes must be limited.
+    // Shapes of nested activations are part of several copies, so the total number of copied shapes must be limited.
     shapes += instance.chunk.shapes.size();
     if (shapes > c.in.limits.shapes) {
       return Error{Code::limit, "the uses of `" + std::string(c.program.text(c.program.rules[rule].name)) +
@@ -126,7 +126,7 @@ Result<TracedCell> traceCell(const Program& program, const ParameterValues& para
   Result<GrammarChunk> chunk = runCell(c, &from, memory);
   if (!chunk) return chunk.error();
   TracedCell traced{std::move(*chunk), {}, {}};
-  std::map<uint32_t, uint32_t> use_of;  // index in TracedCell::uses, by activation
+  std::map<uint32_t, uint32_t> use_of;  // maps an activation to its index in TracedCell::uses
   for (const uint32_t shape : from) {
     const Origin& origin = c.draft.origin(shape);
     const uint32_t activation = c.activations.outsideOfEdits(origin.activation);

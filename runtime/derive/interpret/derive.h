@@ -18,35 +18,35 @@ namespace sgm {
 /// Limits of the derivation of one cell, for untrusted grammars. Exceeding a limit fails the whole cell. No limit
 /// depends on time, so the result is reproducible.
 struct DeriveLimits {
-  /// counts statements, expressions, candidates of point sets, segments, samples of probes
+  /// maximum number of steps of work: statements, expressions, candidates of point sets, segments, samples of probes
   uint64_t steps = 4'000'000;
-  uint32_t depth = 64;        ///< maximum depth of rules that call rules
-  uint32_t nesting = 768;     ///< maximum depth of nested statements, over all rules; bounds the stack
-  uint32_t shapes = 200'000;  ///< counts all derived shapes, including those that are later dropped as unused
-  /// memory of the draft, activations, anchors, segments and candidates of point sets
+  uint32_t depth = 64;        ///< maximum depth of calls of rules by rules
+  uint32_t nesting = 768;     ///< maximum depth of nested statements, over all rules; limits the stack
+  uint32_t shapes = 200'000;  ///< maximum number of derived shapes, including those that are later dropped as unused
+  /// maximum memory in bytes of the draft, activations, anchors, segments and candidates of point sets
   size_t bytes = size_t{64} << 20;
-  uint32_t notes = 64;  ///< maximum number of notes; further ones are only counted
+  uint32_t notes = 64;  ///< maximum number of stored notes; further notes are only counted
 };
 
-/// Whether the layer is the top-level start of a grammar without layers. It is derived once for the whole domain, as
-/// cell 0 0 0, with its scope at the origin.
+/// Whether the layer is the top-level start of a grammar without layers. Such a layer is derived once for the whole
+/// domain, as cell 0 0 0, with its scope at the origin.
 bool isWhole(const Layer& layer);
 
-/// Returns the box of a cell in units, both ends included. It covers the whole axis where the layer has no cells, and
-/// everything for a top-level start. Saturates.
+/// Returns the box of a cell in units, both ends included. The box is unlimited along axes without cells, and on all
+/// axes for a top-level start. Saturates at the ends of the world.
 IntBox cellBox(const Layer& layer, Int3 cell);
 
 /// Tolerance in units by which bounds may exceed the declared reach: bounds are rounded outwards, and a shape that
-/// extends exactly to the declared reach must not fail because of that.
+/// extends exactly to the declared reach must be accepted.
 inline constexpr int32_t kReachSlack = 64;
 
 /// Returns the box within which shapes of the cell must lie: cellBox() grown by the reach and kReachSlack, unlimited
 /// along axes without cells. For a top-level start: the domain's box grown by kReachSlack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
-/// The interval along one axis that may contain shapes of a layer's cell, both ends included, in units. Relative to the
-/// cell's low corner; along axes without cells, and for a top-level start, relative to the world's origin. Empty if lo
-/// > hi.
+/// The interval along one axis, in units, that may contain shapes of a layer's cell; both ends are included. It is
+/// relative to the cell's low corner; along axes without cells, and for a top-level start, it is relative to the
+/// world's origin. Empty if lo > hi.
 struct ShapeSpan {
   int64_t lo = 0, hi = 0;
 };
@@ -54,11 +54,12 @@ struct ShapeSpan {
 /// Returns the interval of cellLimit() along an axis, which is the same for all cells.
 ShapeSpan reachSpan(const Program& program, const Layer& layer, int axis);
 
-/// Returns the part of reachSpan() that lies within Layer::bound plus a margin for rounding, if the layer is proven;
-/// otherwise the whole reachSpan().
+/// Returns the part of reachSpan() that lies within Layer::bound plus a margin for rounding, if that bound is proven
+/// (Layer::proven); otherwise the whole reachSpan().
 ShapeSpan shapeSpan(const Program& program, const Layer& layer, int axis);
 
-/// Returns the box that contains all groups of the cell, from shapeSpan() on each axis. Saturates.
+/// Returns the box that contains all groups of the cell: the interval shapeSpan() on each axis. Saturates at the ends
+/// of the world.
 IntBox shapeLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// Derives a cell. Pure: depends only on the arguments and on the answers of `lower` for layers that this one uses.
@@ -88,20 +89,20 @@ Result<GrammarChunk> deriveCoarseCell(const Program& program, const ParameterVal
                                       const DeriveLimits& limits = {},
                                       std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Where a shape comes from.
+/// The origin of a shape: its rule activation and its place in the grammar.
 struct ShapeOrigin {
   uint32_t use = 0;  ///< index in TracedCell::uses of the activation that contains the shape's statement
-  Span span;         ///< of the shape's statement, or of the call in that statement
+  Span span;         ///< source span of the shape's statement, or of the call in that statement
 };
 
 /// A derived cell with the origin of each shape.
 struct TracedCell {
   GrammarChunk chunk;                ///< the result of deriveCell
-  std::vector<ShapeOrigin> origins;  ///< one for each of chunk.shapes
-  std::vector<std::string> uses;     ///< derivation paths of the activations, as in DeriveNote
+  std::vector<ShapeOrigin> origins;  ///< origin of each shape of `chunk`, in the same order
+  std::vector<std::string> uses;     ///< derivation paths of the activations, in the format of DeriveNote::path
 };
 
-/// deriveCell with the origin of every shape. Takes longer and much more memory.
+/// Returns the result of deriveCell() with the origin of every shape. Takes longer and much more memory.
 Result<TracedCell> traceCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
                              uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                              std::pmr::memory_resource* memory = std::pmr::get_default_resource());
@@ -112,14 +113,14 @@ Result<TracedCell> traceCell(const Program& program, const ParameterValues& para
 /// cut the rule's other shapes; if it has only such cuts, the removed solids count as its shapes.
 struct RuleInstance {
   Int3 origin;          ///< origin of the rule's initial scope, units
-  std::string path;     ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as in overrides
+  std::string path;     ///< derivation path, such as "net(0, 0, -1)/Node/Chamber[0]", in the format of overrides
   bool bounded = true;  ///< false: some shape has no bound, and the chunk contains no groups
-  GrammarChunk chunk;   ///< includes the anchors below the call that lie within the cell; no notes
+  GrammarChunk chunk;   ///< shapes of the activation, and the anchors below its call that lie within the cell; no notes
 };
 
-/// Like deriveCell(), but returns each activation of `rule` in the cell separately, in order of derivation; nested ones
-/// follow their enclosing one. Shapes may exceed the layer's reach. Errors: those of deriveCell(); also limit, if all
-/// copies together have more than limits.shapes shapes.
+/// Like deriveCell(), but returns each activation of `rule` in the cell separately, in order of derivation: a nested
+/// activation follows the activation that encloses it. Shapes may exceed the layer's reach. Errors: those of
+/// deriveCell(); also limit, if all copies together have more than limits.shapes shapes.
 Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const ParameterValues& parameters,
                                                   uint64_t world_seed, uint32_t layer, Int3 cell, uint32_t rule,
                                                   const LowerLayers& lower, const DeriveLimits& limits = {},

@@ -1,5 +1,5 @@
-// Expressions. One evaluator for both stages: a number is a constant, or a node of the field that Draft folds and
-// shares.
+// Evaluates expressions. A number that is known during derivation is a constant; a number that depends on the sample
+// position is an expression of the field, which Draft folds and shares.
 
 #include <algorithm>
 #include <bit>
@@ -176,7 +176,8 @@ Value Evaluator::sampleCoordinates(const Env& env, bool local) {
     const Num z = draft_.coordinate({}, {0, 0, 1});
     return Value::vector(x, y, z);
   }
-  // The anchor of a coordinate is the scope's origin rounded to units; the rounding error is added back below.
+  // The anchor of a coordinate expression is the scope's origin rounded to units; the rounding error is added back
+  // below.
   const Placement& at = env.place;
   const Int3 anchor = at.snap({});
   const Int3 from_base = saturatingSub(anchor, at.base);
@@ -192,7 +193,7 @@ Value Evaluator::sampleCoordinates(const Env& env, bool local) {
 
 Value Evaluator::evaluateMember(const ExprNode& node, const Env& env) {
   const Value v = evaluate(program_.idAt(node.children, 0), env);
-  // After an error, evaluation may have returned a value of another kind.
+  // After an error, evaluation may have returned a value of another kind than a segment.
   const auto segmentOf = [&](const Value& of) {
     return of.kind == ValueKind::segment ? segments_[of.first] : Segment{};
   };
@@ -255,7 +256,8 @@ Value Evaluator::evaluateCall(const ExprNode& node, const Env& env) {
 Value Evaluator::evaluateLet(const ExprNode& node, const Env& env) {
   const Let& let = program_.lets[node.id];
   std::vector<Value> slots(std::max(let.slot_count, let.formals.count));
-  // Random draws in a let depend on the path and the arguments, so that uses with different arguments are independent.
+  // Random draws in a `let` depend on the path and the arguments, so that uses with different arguments are
+  // independent.
   uint64_t given = 0;
   for (uint32_t i = 0; i < let.formals.count; ++i) {
     slots[i] = evaluate(boundAt(node, i), env);
@@ -296,7 +298,7 @@ PathKey Evaluator::keyOf(const Value& v) const {
   if (v.kind == ValueKind::segment) return segments_[v.first].key;
   PathKey key{in_.seed};
   for (size_t i = 0; i < partsOf(v); ++i) {
-    // -0 and 0 are the same number.
+    // Adding 0 turns -0 into 0, so that both give the same key.
     key = {hashCombine(key.value, std::bit_cast<uint64_t>(v.n[i].value + 0.0))};
   }
   return key;

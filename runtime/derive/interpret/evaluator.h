@@ -1,7 +1,7 @@
 #pragma once
-// Evaluates expressions, both those known at derivation time and those evaluated per sample: a number is either a
-// constant, or a node of the field, which Draft folds and shares. evaluate.cpp: operators and names. functions.cpp: the
-// functions of the language.
+// Evaluates expressions, both those known during derivation and those evaluated per sample: a number is either a
+// constant, or an expression of the field, which Draft folds and shares. evaluate.cpp implements operators and names;
+// functions.cpp implements the functions of the language.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,22 +24,22 @@ class Evaluator {
   Evaluator(const CellInputs& in, const Activations& activations, Draft& draft, Budget& budget)
       : in_(in), program_(in.program), activations_(activations), draft_(draft), budget_(budget) {}
 
-  /// Returns zeros if the cell has failed, or fails while the expression is evaluated.
+  /// Evaluates an expression. Returns zeros if the cell has failed, or fails during the evaluation.
   Value evaluate(ExprId id, const Env& env);
   double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
 
   /// Returns the expression of a call's argument, by index into its bound arguments; kNoId if it is omitted.
   ExprId boundAt(const ExprNode& node, uint32_t index) const;
-  /// Returns the key for random draws that depend only on this value.
+  /// Returns a key for random draws that depends only on this value.
   PathKey keyOf(const Value& value) const;
 
   const Segment& segment(uint32_t i) const { return segments_[i]; }
   const PlanPiece& piece(uint32_t i) const { return pieces_[i]; }
   uint32_t pieceCount() const { return static_cast<uint32_t>(pieces_.size()); }
-  /// Invalidates references to other pieces.
+  /// Stores a plan piece. Invalidates references to other pieces.
   void addPiece(PlanPiece piece);
 
-  /// The parameters read so far, as a bit set like GrammarChunk::parameters.
+  /// Returns the parameters read so far, as a bit set like GrammarChunk::parameters.
   uint64_t parametersRead() const { return parameters_read_; }
 
  private:
@@ -50,7 +50,7 @@ class Evaluator {
   Value evaluateBuiltin(const ExprNode& node, const Env& env);
   Value evaluatePure(const ExprNode& node, const Env& env);      ///< arithmetic
   Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
-  Value evaluateCellular(const ExprNode& node, const Env& env);  ///< cells, faces, noise
+  Value evaluateCellular(const ExprNode& node, const Env& env);  ///< evaluates the functions of cells, faces and noise
   Value evaluateBranch(const ExprNode& node, const Env& env);
   Value evaluateQuery(const ExprNode& node, const Env& env);
   Value evaluateLet(const ExprNode& node, const Env& env);

@@ -1,4 +1,5 @@
-// Derives the statement fit, an asset in a scope. The box of its scope is centred on its origin.
+// Derives the statement `fit`, which places an asset in its scope. The box of the scope is centred on the scope's
+// origin.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,8 @@
 namespace sgm::interpret {
 namespace {
 
-/// Units by which the box around an asset is enlarged, so that the asset's faces, never the box's, form the surface.
+/// Margin in units by which the box around an asset is enlarged, so that the box's own faces never become part of the
+/// surface.
 constexpr double kBoxMargin = 2;
 constexpr double kUnitsOfMetre = kUnitsPerMetre;
 
@@ -51,7 +53,8 @@ Frame frameOn(const Placement& place) {
         const Vec3 off{from_base.x - kUnitsOfMetre * cell.x, from_base.y - kUnitsOfMetre * cell.y,
                        from_base.z - kUnitsOfMetre * cell.z};
         const double away = std::fabs(dot(off, out));
-        // Points that are nearer only because of rounding do not count.
+        // A candidate must be nearer by more than the rounding error, so that rounding never decides between
+        // candidates.
         if (away >= least - 1e-6) continue;
         least = away;
         frame.origin = candidate;
@@ -81,7 +84,7 @@ void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   if (!body.trouble.empty()) return c.budget.note(body.trouble + "; it is left out", s.span, env.activation);
   const Asset& from = c.program.assets[node.asset];
   const Vec3 corner = -0.5 * env.scope;
-  // Pieces behind the same face share its half-space, and thus its texture coordinates.
+  // Pieces behind the same face of the asset share its half-space, and thus its texture coordinates.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
   ShapeList pieces;
   for (const asset::ConvexPiece& piece : body.pieces) {

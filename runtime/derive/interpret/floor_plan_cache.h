@@ -11,16 +11,16 @@
 
 namespace sgm::interpret {
 
-/// A cache of the most expensive part of treemaps: floor plans of the cell.
+/// Caches the floor plans of one cell, the most expensive part of treemaps.
 class FloorPlanCache {
  public:
-  /// Returns the result of layOutFloor(), cached by all inputs. Counts steps in the budget; if the budget fails, the
-  /// result must not be used.
+  /// Returns the result of layOutFloor() for these inputs, from the cache if possible. Counts steps in the budget; if
+  /// the budget fails, the result must not be used.
   FloorPlan layOut(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
                    const Span& span, uint32_t activation, Budget& budget);
 
  private:
-  std::map<std::vector<uint64_t>, FloorPlan> plans_;  ///< key: all inputs of layOutFloor()
+  std::map<std::vector<uint64_t>, FloorPlan> plans_;  ///< key of an entry: all inputs of layOutFloor()
 };
 
 }  // namespace sgm::interpret

@@ -1,4 +1,4 @@
-// The functions of the language.
+// Evaluates the functions of the language.
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,14 @@
 namespace sgm::interpret {
 namespace {
 
-/// Whether bound[0] of a call is a receiver, which precedes the parameters in the builtin table.
+/// Whether the function is a method: the first bound argument of its calls is the receiver, which precedes the
+/// parameters in the builtin table.
 bool isMethod(Builtin id) {
   return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
 }
 
-/// Whether detSin and detCos support the angle. The proof of reach relies on results between -1 and 1 for any number.
+/// Whether detSin and detCos support the angle. The proof of reach relies on sines and cosines between -1 and 1 for any
+/// number.
 bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace
@@ -55,7 +57,8 @@ Value Evaluator::evaluateBuiltin(const ExprNode& node, const Env& env) {
 Value Evaluator::evaluatePure(const ExprNode& node, const Env& env) {
   const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
   const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
-  // Arguments are evaluated in sequence: the compiler's evaluation order of arguments must not affect the chunk.
+  // Arguments are evaluated in sequence, since the result must not depend on the C++ compiler's evaluation order of
+  // arguments.
   const auto all = [&](uint32_t count) {
     std::array<Num, 3> values;
     for (uint32_t i = 0; i < count; ++i) values[i] = num(i);

@@ -33,7 +33,7 @@ class PartSearch {
   }
 
  private:
-  /// The group as shown at a level.
+  /// The group without the shapes that are invisible at one level, and a flag for each shape: true if it is visible.
   struct Shown {
     GrammarChunk chunk;
     std::vector<bool> shows;
@@ -62,8 +62,9 @@ class PartSearch {
     return end;
   }
 
-  /// Removes parts that become visible at this level (index): those that exceed the limit by themselves, or else all of
-  /// them. Returns false if the whole group first becomes visible there.
+  /// Removes parts that become visible at this level (an index in levels_): first the parts that exceed the limit by
+  /// themselves, then, if the group still exceeds it, all parts that become visible here. Returns false if the whole
+  /// group first becomes visible at this level.
   bool takeOut(size_t level) {
     if (level == 0) return false;
     const std::vector<bool> sooner = shown(level - 1).shows;

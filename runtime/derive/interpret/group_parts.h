@@ -9,7 +9,8 @@
 
 namespace sgm {
 
-/// A part that is removed from a group, and the bounds that it, or the shape that contains it, would have.
+/// A part that is removed from a group. bounds: the bounds of the part if it exceeds the limit by itself; otherwise the
+/// bounds of the group including the part, which exceed the limit.
 struct LeftOutPart {
   uint32_t shape = 0;
   IntBox bounds;
@@ -21,9 +22,9 @@ struct GroupParts {
   std::vector<LeftOutPart> left_out;
 };
 
-/// Removes parts until the bounds of the remainder are within `limit`. A part is removed or kept by the coarsest level
-/// that shows it: a derivation for coarse levels only must give the same result as the complete one, although it does
-/// not derive parts that are invisible at these levels.
+/// Removes parts until the bounds of the rest are within `limit`. Parts are removed level by level, from coarse to
+/// fine, so that a derivation for coarse levels only gives the same result as the complete one, although it does not
+/// derive parts that are invisible at these levels.
 ///
 /// group: a chunk that contains only that group. step: called with the amount of work before each step; if it returns
 /// false, the function returns nullopt.

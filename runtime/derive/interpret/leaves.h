@@ -16,7 +16,7 @@ void addPrimitive(Primitive kind, const ExprNode& node, uint32_t ordinal, CellCo
 /// Derives the primitive `ca`: the voxels of a cellular automaton in the whole cell (voxels.cpp).
 void addAutomaton(const ExprNode& node, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out);
 
-/// The exponent of a superquadric: 2 at squareness 0, kMaxPower at 1.
+/// Returns the exponent of a superquadric: 2 at squareness 0, kMaxPower at 1.
 double exponentOfSquare(double square);
 
 }  // namespace sgm::interpret

@@ -9,7 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Whether the ball intersects the box. The box's point nearest to the centre is found for each coordinate separately.
+/// Whether the ball intersects the box. The point of the box nearest to the ball's centre is found separately for each
+/// coordinate.
 bool meets(const Ball& ball, const IntBox& box) {
   uint64_t square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +29,7 @@ Int3 middleOf(const IntBox& box) {
   return {half(box.lo.x, box.hi.x), half(box.lo.y, box.hi.y), half(box.lo.z, box.hi.z)};
 }
 
-/// The eight octants of a box; fewer if an axis has only one position.
+/// Appends the eight octants of a box to `out`; fewer if an axis has only one position.
 void halve(const IntBox& box, std::vector<IntBox>& out) {
   const Int3 middle = middleOf(box);
   for (int corner = 0; corner < 8; ++corner) {
@@ -57,7 +58,7 @@ BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<Box
       const BoxContent found = content(piece);
       if (found == wanted) continue;
       if (found != BoxContent::unknown) return proof;
-      // If the middle of the piece differs, the proof has failed, and the search ends early.
+      // If the middle of the piece is not `wanted`, the proof has failed, and the search ends early.
       const IntBox middle = onePosition(middleOf(piece));
       if (meets(ball, middle) && content(middle) != wanted) return proof;
       halve(piece, halves);

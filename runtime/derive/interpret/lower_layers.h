@@ -1,6 +1,6 @@
 #pragma once
-// Access of a layer's derivation to the layers below it. A pure function of the world; stream/ implements it for
-// finished cells.
+// The interface through which a layer's derivation queries the layers below it. Answers are a pure function of the
+// world. world/layers_below.h implements it.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// Units between samples of a probe. Walls thinner than this may be missed.
+/// Distance in units between samples of a probe. A probe may miss walls that are thinner than this.
 inline constexpr int32_t kProbeStep = 256;
 
 /// What is proven about all positions in a box: all void (open), all solid, or neither (unknown).
@@ -23,14 +23,14 @@ struct Ball {
   int32_t radius = 0;
 };
 
-/// number of times that the ball's box is halved along each axis; 64 pieces per axis
+/// number of times that the ball's box is halved along each axis: up to 64 pieces along each axis
 inline constexpr int kBallHalvings = 6;
 /// maximum number of pieces to visit; if a ball needs more, nothing is proven
 inline constexpr uint32_t kMaxBallPieces = 4096;
 
 struct BallProof {
   bool holds = false;
-  uint32_t pieces = 0;  ///< number of visited pieces, a measure of the work
+  uint32_t pieces = 0;  ///< number of pieces visited, as a measure of the work
 };
 
 /// Tries to prove that all positions in the ball are `wanted`. Subdivides the ball's box, halving each axis, until
@@ -38,7 +38,8 @@ struct BallProof {
 /// content: classifies a box of positions; must not return `unknown` for a box of one position.
 BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<BoxContent(const IntBox&)>& content);
 
-/// Thread-safe: called concurrently by all deriving threads.
+/// Answers queries about the layers below the layer that is derived. Thread-safe: called concurrently by all deriving
+/// threads.
 class LowerLayers {
  public:
   virtual ~LowerLayers() = default;

@@ -1,4 +1,4 @@
-// Morphs: linear, and by the exponent of a superquadric.
+// Derives morphs: a linear blend of two fields, or one superquadric whose exponent changes.
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,15 @@
 namespace sgm::interpret {
 namespace {
 
-/// A shape as a superquadric: its radii, and its squareness, from 0 (an ellipsoid) to 1 (used as a box).
+/// A leaf described as a superquadric: its radii, and its squareness from 0 (an ellipsoid) to 1 (the largest exponent,
+/// which stands for a box).
 struct Squared {
   std::array<double, 3> radii{};
   double square = 0;
-  bool turns = true;  ///< the shape's axes matter; false for a sphere
+  bool turns = true;  ///< true if the orientation of the axes matters; false for a sphere
 };
 
-/// Converts a sphere, an ellipsoid, a box or a superquadric.
+/// Describes a sphere, an ellipsoid, a box or a superquadric as a superquadric.
 Squared squaredOf(const Shape& s) {
   Squared result;
   const bool ball = s.kind == ShapeKind::sphere;
@@ -43,8 +44,8 @@ void morphByPower(const StmtNode& s, CellContext& c, const Env& env, uint32_t a,
     out.push_back(c.sink.addShape(node, s.ordinal, s.span, env));
     return;
   }
-  // The morph_power node runs from squareness 0 to 1. If the two shapes have squarenesses in between, radii and t are
-  // extrapolated linearly to that range.
+  // A morph_power shape always runs from squareness 0 to 1. If the two shapes have squarenesses in between, radii and t
+  // are extrapolated linearly to that range.
   node.kind = ShapeKind::morph_power;
   const double step = to.square - from.square;
   for (size_t i = 0; i < 3; ++i) {
@@ -74,7 +75,8 @@ double exponentOfSquare(double square) {
 
 void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   const StmtId from = c.program.idAt(s.children, 0), to = c.program.idAt(s.children, 1);
-  // A sample-time t may use `u` along the morphed shapes, so it is evaluated after both shapes are derived.
+  // A t that is evaluated per sample may use `u` along the morphed shapes, so it is evaluated after both shapes are
+  // derived.
   const bool sampled = c.program.expr(s.expr).type.sample;
   Num t = sampled ? Num{} : c.evaluator.evaluate(s.expr, env).n[0];
   if (!sampled && !(t.value > 0)) return runStatement(from, c, env, out);

@@ -22,7 +22,7 @@ std::vector<uint32_t> overridesOf(uint16_t tag, const Program& program, const En
   return found;
 }
 
-/// Derives the block of the override what.edits[at].
+/// Derives the block of the override with index what.edits[at].
 void runEdit(const UnderEdit& what, size_t at, CellContext& c, const Env& env, ShapeList& out) {
   const uint32_t index = what.edits[at];
   const Override& edit = c.program.overrides[index];
@@ -46,7 +46,7 @@ void runEdit(const UnderEdit& what, size_t at, CellContext& c, const Env& env, S
   own.under = &inside;
   const size_t first = out.size();
   what.room ? runContents(c.program.stmt(edit.body), c, own, out) : runStatement(edit.body, c, own, out);
-  // A morphic rule must produce one node.
+  // A morphic rule must produce exactly one shape, so several shapes are united.
   if (what.rule == nullptr || !what.rule->morphic || out.size() <= first + 1 || c.budget.failed()) return;
   const ShapeList parts(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   out.resize(first);
@@ -74,15 +74,16 @@ void runUnderEdits(const UnderEdit& what, size_t below, CellContext& c, Env& env
 void runInner(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   if (env.under == nullptr) return;
   const UnderEdit& what = *env.under;
-  // Derives the replaced content as without the override, except for the position, labels and levels of this `inner`.
+  // Derives the replaced content as without the override, except for the position, labels and levels of this `inner`
+  // statement.
   Env below = env;
   below.activation = what.env->activation;
   below.slots = what.env->slots;
   below.under = what.env->under;
   below.within = what.env->within;
   below.top = env.top && s.layer_level;
-  // The first `inner` keeps the key of the replaced content, so that its result is bitwise identical; further ones get
-  // keys of their own.
+  // The first `inner` keeps the key of the replaced content, so that its result is bitwise identical; further `inner`
+  // statements get keys of their own.
   below.key = env.key == what.own_key && s.extra == 0 ? what.env->key : env.key.child(what.env->key.value, s.ordinal);
   if (env.forced_material == 0) below.forced_material = env.written_material;
   if (env.forced_tag == 0) below.forced_tag = env.written_tag;

@@ -1,5 +1,5 @@
 #pragma once
-// Derives the blocks of overrides, and `inner` in these blocks.
+// Derives the blocks of overrides, and the statement `inner` in these blocks.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace sgm::interpret {
 
-/// Derives the target with the first `below` of its overrides applied; the last of these is the outermost.
+/// Derives the target with only the first `below` of its overrides applied; the last of these is the outermost.
 void runUnderEdits(const UnderEdit& what, size_t below, CellContext& c, Env& env, ShapeList& out);
 
-/// Derives a block, or the meet or extrusion that contains it, with the overrides of its tag applied. room: see
-/// UnderEdit.
+/// Derives a block, or the meet or extrusion that contains it, with the overrides of its tag applied. room:
+/// UnderEdit::room.
 void runTagged(const StmtNode& s, uint16_t tag, CellContext& c, const Env& env, ShapeList& out, bool room = false);
 
-/// Derives `inner`: the content that the override's block replaces.
+/// Derives the statement `inner`: the content that the override's block replaces.
 void runInner(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
 }  // namespace sgm::interpret

@@ -18,7 +18,7 @@ bool PathOverrides::isAt(uint32_t activation, const Override& edit, uint32_t cou
     if (activation == kNone) return false;
     const Activation& use = activations_[activation];
     const PathStep& step = in_.program.path_steps[edit.steps.first + i];
-    // A path cannot lead into the block of an override: what that block derives is edited in the block itself.
+    // A path cannot lead into the block of an override: the block itself can be edited instead.
     if (use.edit != kNone || use.rule != step.rule) return false;
     if (step.index != kNoId && step.index != use.index) return false;
   }
@@ -66,7 +66,7 @@ void PathOverrides::noteMissed(Budget& budget) const {
       budget.dropNote();
       continue;
     }
-    // Find the longest prefix of the path that exists in the cell; the start always exists.
+    // Find the longest prefix of the path that exists in the cell. The first step, the start rule, always exists.
     uint32_t known = edit.steps.count, last = kNone;
     while (last == kNone && known > 1) {
       --known;
@@ -75,7 +75,7 @@ void PathOverrides::noteMissed(Budget& budget) const {
     }
     if (last == kNone) continue;
     const PathStep& step = in_.program.path_steps[edit.steps.first + known];
-    // If several activations match that prefix, report the one that uses the next rule most often.
+    // If several activations match the prefix, report the one below which the next rule of the path is used most often.
     std::vector<uint32_t> uses(activations_.count(), 0);
     uint32_t count = 0;
     for (uint32_t i = 0; i < activations_.count(); ++i) {

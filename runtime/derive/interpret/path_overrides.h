@@ -17,12 +17,12 @@ class PathOverrides {
 
   bool isEmpty() const { return all_.empty(); }
 
-  /// Advances paths into a new activation of a rule. Returns the overrides whose path ends there, in the order of
-  /// Program::overrides.
+  /// Advances the paths of overrides into a new activation of a rule. Returns the overrides whose path ends at this
+  /// activation, in the order of Program::overrides.
   std::vector<uint32_t> enter(uint32_t activation);
 
-  /// Adds a note for each override that names this cell but whose path leads to no activation; the note says how much
-  /// of the path exists.
+  /// Adds a note for each override that names this cell but whose path leads to no activation. The note says how far
+  /// the path exists in the cell.
   void noteMissed(Budget& budget) const;
 
  private:

@@ -1,4 +1,4 @@
-// Transforms, loops and anchors.
+// Derives transforms, loops and anchors.
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,8 @@ void transform(IdRange xforms, CellContext& c, Env& env) {
         if (whole) {
           env.scope = first.vec();
         } else {
-          // All edges are evaluated in the original scope, so that `size(scope.z, scope.y, scope.x)` swaps two edges.
+          // All edges are evaluated in the scope before the statement, so that `size(scope.z, scope.y, scope.x)` swaps
+          // two edges.
           Vec3 edges = env.scope;
           if (x.a != kNoId) edges.x = first.real();
           if (x.b != kNoId) edges.y = part(x.b);

@@ -12,10 +12,10 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's edge
+constexpr double kLargest = 1073741824.0;  ///< largest size of a primitive in units: a quarter of the world's edge
 
-/// Adds a leaf. metres: sizes to append to shape.size after the entries already set (an exponent), scaled to units.
-/// inner: inner radius in metres.
+/// Adds a leaf shape. metres: sizes that are scaled to units and appended to the entries of shape.size that are already
+/// set (such as an exponent). inner: inner radius in metres.
 void addLeaf(Shape shape, std::initializer_list<double> metres, double inner, const ExprNode& node, uint32_t ordinal,
              CellContext& c, const Env& env, ShapeList& out) {
   if (c.budget.failed()) return;
@@ -104,7 +104,8 @@ void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, CellContext&
     return c.budget.note("a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out",
                          node.span, env.activation);
   }
-  // The key of the bend depends only on the ends, so that a tube and a beam between the same points bend equally.
+  // The key of the bend depends only on the two end points, so that a tube and a beam between the same points bend
+  // equally.
   PathKey key = c.in.lattice.cellKey(c.in.cell).child(kBendSalt, 0);
   for (const Int3& end : {saturatingSub(a, c.in.base), saturatingSub(b, c.in.base)}) {
     for (int i = 0; i < 3; ++i) key = {hashCombine(key.value, static_cast<uint32_t>(end[i]))};
@@ -162,7 +163,7 @@ void addPrimitive(Primitive kind, const ExprNode& node, uint32_t ordinal, CellCo
     case Primitive::blob: {
       const double r = number(0);
       Shape shape = leaf(ShapeKind::sphere);
-      shape.frame.rows = Frame{}.rows;  // a ball has no direction: equal balls get equal bits
+      shape.frame.rows = Frame{}.rows;  // A sphere has no orientation, so equal spheres get bitwise equal frames.
       return addLeaf(shape, {r}, r, node, ordinal, c, env, out);
     }
     case Primitive::box:

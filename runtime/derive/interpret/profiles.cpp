@@ -1,4 +1,4 @@
-// Footprints, their extrusions, and roofs.
+// Derives footprints, their extrusions, and roofs.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr double kLargestSolid = 1073741824.0;  ///< units; a quarter of the world's edge
+constexpr double kLargestSolid = 1073741824.0;  ///< largest size of a solid in units: a quarter of the world's edge
 
 std::string broken(const ValueRange& range) {
   return std::string(range.rule).append(", ").append(range.example).append("; this one is left out");
@@ -62,7 +62,7 @@ std::optional<PlanPiece> planPiece(const FootprintNode& node, CellContext& c, co
   return std::nullopt;
 }
 
-/// A polygon to be extruded from y = 0 to height, metres; x, z: edges of its box.
+/// A polygon that is extruded from y = 0 to `height` metres. x, z: edges of its bounding box, metres.
 struct Profile {
   std::vector<PlanCorner> corners;
   double x, z, height;
@@ -127,7 +127,7 @@ void roofOver(const PlanPiece& piece, double floor, const StmtNode& s, CellConte
   if (!body) return;
   ShapeList parts{*body};
   for (size_t i = 0; i < corners.size() && !flat && !c.budget.failed(); ++i) {
-    // Corner 0 of a rectangle is the lowest: edges 0 and 2 run along x.
+    // Corner 0 of a rectangle has the lowest x and z, so edges 0 and 2 run along x.
     if (gable && (i % 2 == 0) != (x >= z)) continue;
     const PlanCorner a = corners[i], b = corners[(i + 1) % corners.size()];
     const double out_x = b.z - a.z, out_z = a.x - b.x;

@@ -1,4 +1,5 @@
-// Derives the statement treemap, a floor divided into rooms. The box of its scope is centred on its origin; y is up.
+// Derives the statement `treemap`, which divides a floor into rooms. The box of its scope is centred on the scope's
+// origin; y is up.
 
 #include <algorithm>
 #include <span>
@@ -15,9 +16,10 @@
 namespace sgm::interpret {
 namespace {
 
-constexpr double kWidestFloor = 1 << 20;  ///< units
+constexpr double kWidestFloor = 1 << 20;  ///< maximum edge of a floor, in units
 
-/// Walls, doors and corridors are laid out in steps of four units, so that their halves are even integers.
+/// Converts metres to a multiple of four units. Walls, doors and corridors have such sizes, so that their halves are
+/// even integers.
 int32_t inSteps(double metres) {
   return std::max(4, 4 * static_cast<int32_t>(detFloor(metres * (kUnitsPerMetre / 4.0) + 0.5)));
 }
@@ -52,8 +54,8 @@ void addBox(const PlanRect& r, double y, double height, const StmtNode& s, CellC
   out.push_back(c.sink.addShape(shape, s.ordinal, s.span, env));
 }
 
-/// Derives a room or corridor: its open space, to which the part's block adds and from which it cuts. The block's scope
-/// is the first rectangle.
+/// Derives a room or a corridor: boxes that fill its open space, to which the part's block adds shapes and from which
+/// it cuts. clear: rectangles of the open space; the first one is the block's scope.
 void runRoom(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, CellContext& c,
              const Env& env, ShapeList& out) {
   if (!c.budget.step(1, s.span, env.activation)) return;
@@ -128,7 +130,9 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   sizes.x = static_cast<int32_t>(edges.x * kUnitsPerMetre);
   sizes.z = static_cast<int32_t>(edges.z * kUnitsPerMetre);
 
-  std::vector<uint32_t> rooms, number(s.parts.count, kNone);  // rooms: their part indices; number: room index by part
+  // rooms: index of the part of each room that is laid out; number: for each room of the statement, in order, its index
+  // in `rooms`; kNone if the room is left out because of its size
+  std::vector<uint32_t> rooms, number(s.parts.count, kNone);
   std::vector<double> areas;
   for (uint32_t i = 0, room = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::room) continue;
@@ -147,7 +151,7 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   }
   std::vector<RoomLink> links;
   std::vector<double> heights;
-  std::vector<uint32_t> doors;  // parts
+  std::vector<uint32_t> doors;  // index of the part of each link
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::link) continue;
     const LinkNode& link = c.program.ast.links[c.program.stmt(c.program.idAt(s.children, i)).extra];
@@ -170,7 +174,7 @@ void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& ou
   std::vector<PathKey> keys;
   for (size_t i = 0; i < plan.rooms.size(); ++i) {
     const PartNode& part = parts[rooms[i]];
-    // Rooms are keyed by their names, so that they do not depend on each other.
+    // Rooms are keyed by their names, so that the content of a room does not depend on the other rooms.
     keys.push_back(key.child(hashText(c.program.text(part.label)), 0));
     runRoom(s, rooms[i], plan.rooms[i].clear, keys[i], c, env, out);
     if (c.budget.failed()) return;

@@ -14,7 +14,7 @@
 namespace sgm::interpret {
 namespace {
 
-/// ordinal of the call that replaces the body at a `depth` or `minsize` limit
+/// ordinal of the call that replaces a rule's body when a `depth` or `minsize` limit is reached
 constexpr uint32_t kInsteadOrdinal = 0xFFFFFFFEu;
 
 std::vector<Value> frameOf(const Alternative& alternative, const std::vector<Value>& arguments) {
@@ -30,7 +30,7 @@ RuleRunner::RuleRunner(CellContext& context, RuleWatch* watch)
 
 bool RuleRunner::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
   if (alternative.guard != Guard::when) return true;
-  // Conditions in a head depend only on the rule's arguments, so no frame with locals is needed.
+  // Conditions in a rule's head depend only on the arguments, so slots for local variables are not needed.
   env.slots = &arguments;
   const bool holds = c_.evaluator.evaluate(alternative.when, env).truth();
   env.slots = nullptr;
@@ -106,13 +106,14 @@ void RuleRunner::call(uint32_t index, const ExprNode& node, uint32_t ordinal, co
   if (!c_.budget.step(edits.size(), node.span, env.activation)) return;
   runUnderEdits({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), c_, inner, out);
   if (!watched) return;
-  // The call only appended to `out` and to the cuts, so its own shapes are those behind the counts before the call.
+  // The shapes of this call are those that were appended to `out` and to the layer's cuts since the call began.
   const ShapeList& cuts = c_.sink.layerCuts();
   watch_->end(number, std::span(out).subspan(before), std::span(cuts).subspan(cuts_before), c_.sink.anchors().size());
 }
 
 void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
-  // Alternatives are grouped by `lod`: one of each group is derived, for that group's range of levels.
+  // Alternatives with the same `lod` (the cell edge from which they apply) form a group. One alternative of each group
+  // is derived, for that group's range of levels.
   std::vector<const Alternative*> plain;
   std::vector<std::pair<int32_t, std::vector<const Alternative*>>> coarse;
   for (const Alternative& a : rule.alternatives) {
@@ -137,7 +138,7 @@ void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& 
     c_.sink.limitLevels(c_.sink.layerCuts(), first_cut, coarsest, detail_edge);
   };
   run(choose(plain, env, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
-  // Anchors are the same at every level, so only one group may emit them.
+  // Anchors are the same at every level, so only the first derived group of alternatives emits them.
   if (!plain.empty()) env.anchors = false;
   for (size_t i = 0; i < coarse.size(); ++i) {
     const int32_t end = i + 1 < coarse.size() ? coarse[i + 1].first - 1 : 0;
@@ -148,7 +149,7 @@ void RuleRunner::runAlternatives(const Rule& rule, Env env, std::vector<Value>& 
 
 void RuleRunner::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
                         ShapeList& out) {
-  // Filling the frame costs time in proportion to its slots.
+  // Setting up the slots takes time in proportion to their number, so it counts as steps.
   if (!c_.budget.step(chosen.slot_count, chosen.span, env.activation)) return;
   std::vector<Value> slots = frameOf(chosen, arguments);
   Env inner = env;
@@ -170,7 +171,8 @@ void RuleRunner::derive(const Rule& rule, const Alternative& chosen, Env& env, s
     }
   }
   const Nested active(active_[index]);
-  // A morphic rule must produce one node; others produce all shapes of their block.
+  // A morphic rule must produce exactly one shape, so several shapes are united. Other rules keep all shapes of their
+  // block.
   const size_t first = out.size();
   runStatement(chosen.body, c_, inner, out);
   if (rule.morphic && out.size() > first + 1) {

@@ -12,7 +12,7 @@ namespace sgm::interpret {
 
 struct CellContext;
 
-/// Calls rules. Counts the rules that are being derived at the moment: in total, and the activations of each rule.
+/// Calls rules. Counts the activations on the current path, in total and of each rule, to limit the recursion.
 class RuleRunner {
  public:
   /// watch: records the calls of one rule; may be null. Both arguments must outlive the runner.
@@ -20,7 +20,8 @@ class RuleRunner {
 
   /// Derives a call of a rule with its overrides, and appends its shapes to `out`. node: the call.
   void call(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
-  /// Derives an activation of a rule without overrides: one of the alternatives without `lod`, and one of those with.
+  /// Derives an activation of a rule, without its overrides: one of the alternatives without `lod` for the finest
+  /// levels, and one alternative for each range of coarser levels that begins at the cell edge of a `lod`.
   void runAlternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out);
 
  private:
@@ -31,7 +32,7 @@ class RuleRunner {
 
   CellContext& c_;
   RuleWatch* const watch_;
-  std::vector<uint32_t> active_;  ///< by rule: number of its activations on the current path
+  std::vector<uint32_t> active_;  ///< number of activations on the current path, by rule index
   uint32_t depth_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Records what the calls of one rule derive.
+// Records the shapes, cuts and anchors that the calls of one rule derive.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace sgm::interpret {
 
-/// What one call of the watched rule derived: shapes, cuts of the domain, and anchors first_anchor to end_anchor - 1 of
-/// the cell.
+/// The output of one call of the watched rule: shapes, cuts of the domain, and anchors first_anchor to end_anchor - 1
+/// of the cell.
 struct WatchedCall {
   uint32_t activation = 0;
   ShapeList shapes, layer_cuts;
@@ -30,7 +30,8 @@ class RuleWatch {
     calls_.push_back({activation, {}, {}, anchors, anchors});
     return calls_.size() - 1;
   }
-  /// Records the end of a call. shapes, layer_cuts: what the call derived. anchors: number of the cell's anchors now.
+  /// Records the end of a call. number: the call's index; shapes, layer_cuts: output of the call; anchors: current
+  /// number of the cell's anchors.
   void end(size_t number, std::span<const uint32_t> shapes, std::span<const uint32_t> layer_cuts, size_t anchors) {
     WatchedCall& call = calls_[number];
     call.shapes.assign(shapes.begin(), shapes.end());

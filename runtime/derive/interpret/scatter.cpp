@@ -1,4 +1,4 @@
-// Derives the statement scatter: its body at each point of a point set.
+// Derives the statement `scatter`, which derives its body at each point of a point set.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,8 +19,8 @@ struct ProbedPoints {
   uint64_t all = 0, buried = 0;
 };
 
-/// Adds a note if most probed points started in solid. Not in a solid domain, where most points are inside the rock and
-/// are meant to find the caves; elsewhere the points were probably meant to lie on the ground.
+/// Adds a note if at least half of the probed points started inside a solid: they were probably meant to start above
+/// the ground. Adds none in a solid domain, where most points lie in rock and are meant to find the caves.
 void noteBuried(const StmtNode& s, CellContext& c, const Env& env, const ProbedPoints& probed) {
   if (c.program.domain.solid || 2 * probed.buried < probed.all) return;
   const ScatterNode& node = c.program.ast.scatters[s.extra];
@@ -63,7 +63,8 @@ void scatterPoint(const StmtNode& s, CellContext& c, const Env& at, ProbedPoints
   const ScatterNode& node = c.program.ast.scatters[s.extra];
   if (!c.budget.step(1, s.span, at.activation)) return;
   const auto wanted = [&] { return node.when == kNoId || c.evaluator.evaluate(node.when, at).truth(); };
-  // Probes are expensive, so the condition is evaluated first, unless it may use the gap that the probe measures.
+  // Probes are expensive, so the condition is evaluated first, unless it may use the gap: the free distance that the
+  // probe measures.
   const bool asks_gap = node.gap != kNoId;
   if (!asks_gap && !wanted()) return;
   Env moved = at;
@@ -83,7 +84,7 @@ void scatterPoints(const StmtNode& s, CellContext& c, const Env& env, ProbedPoin
     return !c.budget.failed();
   };
   if (node.area == ScatterArea::cell) {
-    // The point set extends over the whole layer: its key depends on the statement, not on the cell.
+    // The point set extends over the whole layer: its key depends on the statement, not on the cell or the position.
     const Activation& use = c.activations[env.activation];
     const uint64_t owner = use.edit == kNone ? c.program.rules[use.rule].name_hash : c.program.overrides[use.edit].hash;
     const PathKey set = PathKey{c.in.lattice.seed}.child(kSetSalt + owner, s.ordinal);
@@ -91,7 +92,7 @@ void scatterPoints(const StmtNode& s, CellContext& c, const Env& env, ProbedPoin
       c.budget.note("the distance between points must be positive; there are no points", s.span, env.activation);
       return;
     }
-    // All candidates are in memory at once, so their number is limited by the memory before they are allocated.
+    // All candidates are in memory at once, so their number is limited before they are allocated.
     constexpr size_t kCandidate = 64;
     const size_t most = std::min<size_t>(c.budget.stepsLeft(), c.in.limits.bytes / kCandidate);
     const auto points = poissonInCell(c.in.lattice, c.in.cell, set, toUnits(amount), most);

@@ -1,4 +1,5 @@
-// Divides scopes into parts: split and comp. The box of a scope is centred on its origin, as in box(scope).
+// Derives `split` and `comp`, which divide a scope into parts. The box of a scope is centred on its origin, as in
+// box(scope).
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +18,13 @@ namespace {
 
 constexpr double kMaxParts = 1e6;
 
-/// A face of a box, with the rotation that turns z outwards.
+/// A face of a box, with the rotation that makes z point out of the face.
 struct Face {
   BoxPart part;
   int turn_axis;
   double quarters;
-  int width, height, depth;  ///< axes of the box that run along its x, y and z
-  double sign;               ///< +1 or -1: on which side of the box's centre the face is
+  int width, height, depth;  ///< axes of the box (0 to 2) along the face's x, y and z
+  double sign;               ///< +1 or -1: the side of the box's centre on which the face lies
 };
 
 constexpr Face kFaces[] = {{BoxPart::front, 1, 0, 0, 1, 2, 1}, {BoxPart::right, 1, 1, 2, 1, 0, 1},
@@ -38,7 +39,7 @@ Placement facePlace(const Face& face, const Placement& box, Vec3 edges) {
   return box.moved(out).turned(axis, face.quarters * (kPi / 2));
 }
 
-/// Returns the signed distance from a point along the axis to the nearest snap plane; 0 if none is within `reach`.
+/// Returns the signed distance along the axis from a point to the nearest snap plane; 0 if no plane is within `reach`.
 double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis, Vec3 local, double reach) {
   constexpr double kParallel = 1 - 1e-9;
   Vec3 along;
@@ -160,8 +161,9 @@ void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out)
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);
     const double below = std::min(low, kSeamOverlap);
-    // A part's scope is longer than its place by the seam overlaps, while the rigid parts in it were sized for the
-    // place alone; the last part fills the rest.
+    // Each part overlaps its neighbours, so its scope is longer than its place by up to two overlaps. If rigid parts of
+    // a nested split were sized for the place alone, such a gap remains at the end; the last part is extended to fill
+    // it.
     const bool last = &place == &layout.places.back();
     const double above = !last ? std::min(rest, kSeamOverlap) : rest <= 2 * kSeamOverlap ? rest : 0;
     Vec3 at, scope = env.scope;
@@ -196,7 +198,8 @@ void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) 
         continue;
       }
       const Placement place = facePlace(face, env.place, edges);
-      // The key depends only on the face, so that adding other faces to the comp does not change this one.
+      // The key depends only on the face, so that adding further faces to the `comp` does not change the content of
+      // this face.
       const uint64_t number = static_cast<uint64_t>(face.part);
       if (edge)
         runPart(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, c, env, out);

@@ -1,4 +1,4 @@
-// The dispatch of statements, and blocks.
+// Dispatches statements to the functions of their kinds, and derives blocks.
 
 #include "derive/interpret/statements.h"
 
@@ -118,10 +118,10 @@ void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out) {
     case StmtKind::inner:
       runInner(s, c, env, out);
       break;
-    case StmtKind::field:  // evaluated when used
-    case StmtKind::mat:    // the checker has put both on the block
+    case StmtKind::field:  // The value is evaluated where its name is used.
+    case StmtKind::mat:    // The checker has already stored the material or tag in the enclosing block.
     case StmtKind::tag:
-    case StmtKind::link:  // evaluated by its treemap
+    case StmtKind::link:  // The enclosing treemap evaluates its links.
     case StmtKind::border:
       break;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// One function for each kind of statement. It derives the statement in an environment, and appends to `out` the shapes
-// that the statement adds to its block. After the budget has failed, results are ignored.
+// One function for each kind of statement. Each derives its statement in an environment, and appends to `out` the
+// shapes that the statement adds to its block. After the budget has failed, results are ignored.
 
 #include <cstdint>
 
@@ -9,10 +9,10 @@
 
 namespace sgm::interpret {
 
-// statements.cpp
+// Defined in statements.cpp:
 /// Derives any statement, with the overrides of its tag; does nothing for kNoId.
 void runStatement(StmtId id, CellContext& c, const Env& env, ShapeList& out);
-/// A call of a rule or a primitive.
+/// Derives a call of a rule or a primitive.
 void runCall(ExprId id, uint32_t ordinal, CellContext& c, const Env& env, ShapeList& out);
 void runBlock(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 /// Derives the statements of a block directly into the block that owns `out`, without a block of their own.
@@ -21,7 +21,7 @@ void runDetail(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out
 /// Sets the environment's material and tag to those of a block.
 void label(const StmtNode& block, Env& env);
 
-// combine.cpp and morph.cpp
+// Defined in combine.cpp and morph.cpp:
 void runUnite(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runCut(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runMeet(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
@@ -30,28 +30,28 @@ void runDisplace(const StmtNode& s, CellContext& c, const Env& env, ShapeList& o
 void runWarp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runMorph(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// placement.cpp and scatter.cpp
+// Defined in placement.cpp and scatter.cpp:
 void runTransform(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runRepeat(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runForEach(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runAnchor(const StmtNode& s, CellContext& c, const Env& env);
 void runScatter(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// split.cpp
+// Defined in split.cpp:
 void runSplit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runSnap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runComp(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
-/// Derives a child of a split, comp or wfc as a block of its own, in `scope` at `place`. index: of the child; number:
-/// distinguishes parts, for their keys.
+/// Derives a child of a split, comp or wfc as a block of its own, in `scope` at `place`. index: index of the child;
+/// number: distinguishes the keys of parts that share a child.
 void runPart(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, CellContext& c,
              const Env& env, ShapeList& out);
 
-// rooms.cpp, tiles.cpp and fit.cpp
+// Defined in rooms.cpp, tiles.cpp and fit.cpp:
 void runTreemap(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runFit(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 
-// profiles.cpp
+// Defined in profiles.cpp:
 void runFootprint(const StmtNode& s, CellContext& c, const Env& env);
 void runExtrude(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);
 void runRoof(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out);

@@ -1,4 +1,5 @@
-// Derives the statement wfc, a lattice of tiles. The box of its scope is centred on its origin.
+// Derives the statement `wfc` (wave function collapse), which fills a lattice with tiles. The box of its scope is
+// centred on the scope's origin.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,8 @@
 namespace sgm::interpret {
 namespace {
 
-/// All tiles in all their orientations; for each, the part of the wfc and the rotation about y in quarter turns.
+/// All tiles of a wfc in all their orientations. stands: for each of `tiles`, the index of its part and its rotation
+/// about y in quarter turns.
 struct StandingTiles {
   struct Stand {
     uint32_t part;
@@ -27,15 +29,16 @@ struct StandingTiles {
   std::vector<Stand> stands;
 };
 
-/// Weights are scaled so that the heaviest tile has this weight.
+/// Weights are scaled so that the heaviest tile has the weight kFullWeight.
 constexpr double kFullWeight = 1 << 20;
-/// The limit of visits is this number times (places + this number).
+/// A search for tiles may make at most kMaxVisits * (places + kMaxVisits) visits of places.
 constexpr uint64_t kMaxVisits = 128;
-/// One search may use 1 / kSearchShare of the cell's steps; kVisitsOfStep cheap visits (with few tiles) count as a
-/// step.
+/// A search may also make at most 1 / kSearchShare as many visits as DeriveLimits::steps. kVisitsOfStep units of its
+/// work count as one step of the cell.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
-/// The interval of an edge that belongs to one place; it overlaps those of its neighbours, as parts of a split do.
+/// The interval along an edge of the scope that one place of the lattice occupies, in metres. It overlaps the intervals
+/// of the neighbouring places, as parts of a split do.
 struct Stretch {
   double low, high;
 };
@@ -46,8 +49,8 @@ Stretch stretchOf(double edge, uint32_t count, uint32_t at) {
   return {at == 0 ? from : from + at * step - over, at + 1 == count ? 0.5 * edge : from + (at + 1) * step + over};
 }
 
-/// True if a side is front, right or top. The search receives matches as common labels: a high side has its own kind as
-/// its label, a low side all kinds that it matches.
+/// True if a side is front, right or top. collapseWave() matches sides that have a label in common: a high side gets
+/// its own kind as its only label, a low side gets all kinds that match it.
 constexpr bool isHigh(size_t side) { return side < 2 || side == 4; }
 
 std::span<const SideKind> sideKinds(const Program& program, const StmtNode& s) {
@@ -87,7 +90,7 @@ void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLat
       for (size_t k = 0; k < kinds.size(); ++k)
         if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
     }
-    // A side that every tile fits does not explain the failure.
+    // A side that matches every tile does not explain the failure.
     if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
                     [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
       continue;
@@ -108,7 +111,8 @@ void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLat
                 s.span, env.activation);
 }
 
-/// Computes the lattice of places. Returns false, with a note, if the scope has no room for a tile.
+/// Computes the size and the border labels of the lattice. Returns false, with a note, if the scope has no room for a
+/// tile.
 bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice& lattice) {
   const Vec3 edges = env.scope;
   const Value size = c.evaluator.evaluate(s.expr, env);
@@ -137,14 +141,15 @@ bool waveLattice(const StmtNode& s, CellContext& c, const Env& env, WaveLattice&
   const std::span<const SideKind> kinds = sideKinds(c.program, s);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     const PartNode& part = c.program.ast.parts[s.parts.first + i];
-    // Border labels belong to the places outside the lattice: beyond the front there is a back side.
+    // The labels of a border are those of imaginary tiles outside of the lattice: the front of the lattice touches the
+    // back side of such a tile, and so on.
     for (size_t side = 0; part.label == kNoId && side < kWaveSides; ++side)
       lattice.border[side] = sideLabels(kinds, c.program.ast.tiles[part.tile].sides[side], !isHigh(side));
   }
   return true;
 }
 
-/// Collects the tiles in all their orientations. Returns false, with a note, if there are no tiles.
+/// Collects the tiles of the wfc in all their orientations. Returns false, with a note, if there are no tiles.
 bool waveTiles(const StmtNode& s, CellContext& c, const Env& env, StandingTiles& out) {
   std::vector<double> weights(s.parts.count, 0);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
@@ -171,7 +176,7 @@ bool waveTiles(const StmtNode& s, CellContext& c, const Env& env, StandingTiles&
     WaveTile stand;
     stand.weight = static_cast<uint32_t>(std::max(1.0, detFloor(weights[i] / heaviest * kFullWeight + 0.5)));
     for (int quarters = 0; quarters < (tile.turns ? 4 : 1); ++quarters) {
-      // After a quarter turn, the front is on the right.
+      // A quarter turn moves the front side to the right.
       for (size_t side = 0; side < kWaveSides; ++side) {
         const size_t outwards = side < 4 ? (side + static_cast<size_t>(quarters)) % 4 : side;
         stand.sides[outwards] = sideLabels(kinds, tile.sides[side], isHigh(outwards));
@@ -190,13 +195,14 @@ void runWfc(const StmtNode& s, CellContext& c, const Env& env, ShapeList& out) {
   WaveLattice lattice;
   StandingTiles standing;
   if (!waveLattice(s, c, env, lattice) || !waveTiles(s, c, env, standing)) return;
-  // The limit of visits must not depend on the remaining steps of the cell, or other content of the cell would change
-  // the tiles.
+  // The limit of visits does not depend on the remaining steps of the cell; otherwise other content of the cell would
+  // change the tiles.
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
   const uint64_t most = std::min(kMaxVisits * (places + kMaxVisits), c.in.limits.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
   const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, c.in.limits.bytes);
-  // Visits count only as fractions of a step: a hundred scopes without tiles are better than a failed cell.
+  // A unit of work counts as only a fraction of a step, so that even a hundred scopes whose searches find no tiles
+  // rarely exceed the limit of steps, which would fail the whole cell.
   if (!c.budget.step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, c, env);
   uint64_t number = 0;

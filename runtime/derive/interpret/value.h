@@ -13,16 +13,16 @@
 
 namespace sgm::interpret {
 
-/// A value of an expression. Members by kind: numbers, vectors and pairs use n; a cell uses `cell`; a face `cell` and
-/// `axis`; a list of faces `faces`; a range n[0] and n[1]; a segment `first`; a list of segments and a plan `first` and
-/// `count`.
+/// A value of an expression. Members used by each kind: numbers, vectors and pairs: n; a cell: `cell`; a face: `cell`
+/// and `axis`; a list of faces: `faces`; a range: n[0] and n[1]; a segment: `first`; a list of segments and a plan:
+/// `first` and `count`.
 struct Value {
   ValueKind kind = ValueKind::number;
   std::array<Num, 3> n{};
   Int3 cell;
   int axis = 0;
   std::vector<FaceId> faces;
-  uint32_t first = 0, count = 0;  ///< range in the evaluator's list of segments or of plan pieces
+  uint32_t first = 0, count = 0;  ///< range of indices in the evaluator's list of segments or of plan pieces
 
   static Value number(Num v) {
     Value result;

@@ -11,16 +11,17 @@
 namespace sgm::interpret {
 namespace {
 
-/// voxel updates that count as one step: an update costs far less than an expression
+/// number of voxel updates that count as one step: an update costs far less than an expression
 constexpr uint64_t kUpdatesInStep = 16;
 
-/// Half extent along an axis without cells: beyond the world.
+/// Half extent in units of a box that is unlimited along an axis without cells: larger than the world.
 constexpr float kEndless = 2147483648.0f;
 
 int32_t solidNeighbours(double threshold, int32_t radius, int axes) {
   double all = 1;
   for (int i = 0; i < axes; ++i) all *= 2 * radius + 1;
-  // Rounded up, with a tolerance since a fraction such as 5/9 is not exact.
+  // The required number of solid voxels is rounded up. The tolerance prevents a threshold such as 5/9, which is inexact
+  // in binary, from increasing the number by 1.
   return static_cast<int32_t>(-detFloor(-(threshold * all - 1e-6)));
 }
 

@@ -7,11 +7,12 @@
 namespace sgm {
 namespace {
 
-using Counts = std::vector<uint16_t>;  // up to 31^3 neighbours
+using Counts = std::vector<uint16_t>;  // number of solid voxels in a neighbourhood, at most 31^3
 
 size_t countAlong(const VoxelBox& box, int axis) { return static_cast<size_t>(box.count[axis]); }
 
-/// The random fill of a box: 16 bits per voxel from its own indices, one hash for four voxels of a row.
+/// Returns the random initial state of a box. Each voxel uses 16 random bits that depend only on its indices; one hash
+/// gives the bits of four voxels of a row.
 Counts filled(const Automaton& automaton, const VoxelBox& box) {
   const auto under = [](uint64_t above, int32_t index) { return hashCombine(above, static_cast<uint32_t>(index)); };
   const auto indexAt = [&](int axis, int32_t i) {
@@ -35,8 +36,8 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
   return out;
 }
 
-/// Sums of 2 radius + 1 neighbours along an axis: the box loses `radius` at both ends, where not all neighbours are
-/// known.
+/// Returns the sum of 2 * radius + 1 neighbours along an axis for each voxel. The box loses `radius` voxels at both
+/// ends, where not all neighbours are known.
 Counts summed(const Counts& in, VoxelBox& box, int axis, int32_t radius) {
   size_t inner = 1, outer = 1;
   for (int a = 0; a < axis; ++a) inner *= countAlong(box, a);

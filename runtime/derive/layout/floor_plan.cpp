@@ -14,15 +14,17 @@ namespace {
 struct Carving {
   std::vector<Rects> rooms;
   Rects corridor;
-  std::vector<size_t> part;  ///< by corridor rectangle: number of the connected part of the corridor it belongs to
-  /// False if the corridor divides a room or leaves it narrower than a door. That room is then the last in `rooms`.
+  /// for each corridor rectangle: number of the connected part of the corridor that contains it
+  std::vector<size_t> part;
+  /// False if the corridor divides a room or leaves the room narrower than a door. That room is then the last in
+  /// `rooms`.
   bool sound = true;
 };
 
 struct Access {
   std::vector<PlanDoor> doors;
   std::vector<bool> reached;
-  size_t count = 0;  ///< number of rooms reached
+  size_t count = 0;  ///< number of rooms that can be reached
 };
 
 class FloorLayout {
@@ -36,7 +38,7 @@ class FloorLayout {
     middle_ = grown(floor_, -half);
     if (middle_.width() <= 0 || middle_.depth() <= 0) return;
     cells_ = linkedRooms(middle_, areas, links, sizes.wall, kPlanStep, work_);
-    // Mirror the treemap, so that the largest rooms are in front (+z).
+    // Mirrors the treemap in z, so that the largest rooms are in front (+z).
     for (PlanRect& cell : cells_) cell = {cell.x0, -cell.z1, cell.x1, -cell.z0};
     graph_ = wallGraph(middle_, cells_);
     near_ = roomsNearCorners();
@@ -81,7 +83,8 @@ class FloorLayout {
     return out;
   }
 
-  /// Adds corridor strips along walls. They overlap where walls meet, and stop before the wall that crosses their end.
+  /// Adds corridor strips along walls. Where two corridor walls meet, their strips overlap; at a free end, a strip
+  /// stops at the face of the wall that it runs into.
   void corridor(const std::vector<bool>& walls, Carving& out) const {
     std::vector<int> degree(graph_.corners.size(), 0);
     for (size_t e = 0; e < walls.size(); ++e) {
@@ -174,14 +177,15 @@ class FloorLayout {
                                              [](const PlanDoor& d) { return d.link != PlanDoor::kNoLink; }));
   }
 
-  /// A possible extension of the corridor. most: upper bound of its value, in rooms gained per length.
+  /// A possible extension of the corridor. most: upper bound of its gain, the number of additional rooms reached per
+  /// length of corridor.
   struct Candidate {
     double most = 0;
     double length = 0;
     std::vector<bool> walls;
   };
 
-  /// All shortest paths to rooms that are not reached, the most promising first.
+  /// Returns all shortest paths that may reach further rooms, in descending order of Candidate::most.
   std::vector<Candidate> candidates(const std::vector<bool>& walls, const Access& access) const {
     const WallPaths paths(graph_, walls);
     std::vector<Candidate> out;
@@ -202,7 +206,8 @@ class FloorLayout {
     return out;
   }
 
-  /// For each corner of the graph: a bit set of the rooms that touch it, and of those that links may reach from these.
+  /// Returns a bit set for each corner of the graph: the rooms that touch the corner, and the rooms that links may
+  /// reach from these.
   std::vector<uint64_t> roomsNearCorners() const {
     std::vector<uint64_t> beyond(cells_.size());
     for (size_t room = 0; room < beyond.size(); ++room) beyond[room] = uint64_t{1} << room;
@@ -218,17 +223,18 @@ class FloorLayout {
     return near;
   }
 
-  /// The best of the candidates so far; a later candidate is worth at most its promise.
+  /// The best candidate so far. Candidates are visited in descending order of their upper bound Candidate::most.
   struct Best {
     double gain = 0;
-    bool found = false;  ///< the best candidate is known: no other can have a larger gain
+    bool found = false;  ///< true: the best candidate is known, since no other can have a larger gain
     std::vector<bool> walls;
 
     bool takes(double other) const { return !found && other > gain; }
   };
 
-  /// Extends the corridor by the path with the largest number of rooms reached per length. Prefers paths that keep all
-  /// doors of links. Losing such a door is still better than an unrequested passage through another room.
+  /// Extends the corridor by the path that reaches the largest number of further rooms per length. Prefers paths that
+  /// keep all doors requested by links. If there is none, it accepts the loss of such a door, since without a corridor,
+  /// rooms would be reached only through other rooms.
   bool extend(std::vector<bool>& walls, Carving& carving, Access& access) {
     Best keeping, any;
     const size_t corners = graph_.corners.size();
@@ -238,7 +244,7 @@ class FloorLayout {
       keeping.found = keeping.found || one.most <= keeping.gain;
       any.found = any.found || one.most <= any.gain;
       if (keeping.found) break;
-      // Different paths may consist of the same new walls, if they share the existing corridor.
+      // Paths that differ only within the existing corridor add the same new walls, so only the first of them is tried.
       if (!seen.insert(one.walls).second) continue;
       Carving with = carved(one.walls);
       work_.done += cells_.size() + with.corridor.size();
@@ -258,7 +264,7 @@ class FloorLayout {
     return true;
   }
 
-  /// Returns the stretches of a room's outer walls along which the room is open space.
+  /// Returns the stretches of a room's outer walls behind which the room is open space.
   std::vector<PlanFacade> facadesOf(const Carving& carving, size_t room) const {
     const PlanRect inner = grown(middle_, -sizes_.wall / 2);
     std::vector<PlanFacade> out;
@@ -295,7 +301,7 @@ class FloorLayout {
       const PlanRect hole = f.side % 2 == 0 ? PlanRect{low, std::min(a, b), high, std::max(a, b)}
                                             : PlanRect{std::min(a, b), low, std::max(a, b), high};
       plan.doors.push_back({hole, PlanDoor::kOutside, f.room, PlanDoor::kNoLink});
-      // The facade is split into the stretches on both sides of the entrance.
+      // The entrance splits the facade into the stretches on both of its sides.
       plan.facades[i].high = low - sizes_.wall;
       plan.facades.insert(plan.facades.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                           {f.room, f.side, high + sizes_.wall, f.high});
@@ -310,13 +316,15 @@ class FloorLayout {
 
   FloorPlanSizes sizes_;
   std::span<const RoomLink> links_;
-  /// the floor, measured to the outer faces of walls (floor_) and to their centre lines (middle_)
+  /// outlines of the floor: floor_ at the outer faces of the outer walls, middle_ at their centre lines
   PlanRect floor_, middle_;
   std::vector<PlanRect> cells_;
   WallGraph graph_;
   std::vector<uint64_t> near_;  ///< see roomsNearCorners()
   PlanWork work_;
-  size_t entered_ = 0;  ///< index of the room with the entrance; the number of rooms if no room has a suitable wall
+  /// index of the room with the entrance; the number of rooms if no room has a wall that is wide enough for the
+  /// entrance
+  size_t entered_ = 0;
 };
 
 }  // namespace

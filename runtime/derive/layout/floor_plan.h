@@ -20,13 +20,13 @@ inline constexpr double kTreemapWall = 0.2;
 struct FloorPlanSizes {
   int32_t x = 0, z = 0;  ///< edges of the floor, including outer walls
   int32_t wall = 0;      ///< thickness of all walls, inner and outer
-  int32_t door = 0;      ///< width of doors that no link requests
+  int32_t door = 0;      ///< width of doors that are not requested by a link
   int32_t corridor = 0;  ///< clear width of the corridor
 };
 
 /// The open space of a room: rectangles, largest first; several overlapping ones if the room is not a rectangle.
 struct PlanRoom {
-  PlanRect cell;  ///< the room's part of the treemap, which extends to the middle of its walls
+  PlanRect cell;  ///< the room's rectangle in the treemap, which extends to the centre lines of its walls
   std::vector<PlanRect> clear;
 };
 
@@ -34,7 +34,7 @@ struct PlanRoom {
 struct PlanDoor {
   static constexpr size_t kCorridor = SIZE_MAX - 1, kOutside = SIZE_MAX, kNoLink = SIZE_MAX;
   PlanRect hole;
-  size_t from = 0, to = 0;  ///< indices of rooms, or kCorridor or kOutside
+  size_t from = 0, to = 0;  ///< indices of the rooms that the door connects, or kCorridor or kOutside
   size_t link = kNoLink;    ///< index of the link that requested the door; kNoLink: none
 };
 
@@ -48,9 +48,9 @@ struct PlanFacade {
 
 /// A finished floor plan. Positions are in units, relative to the centre of the floor.
 struct FloorPlan {
-  bool fits = false;  ///< every room has open space between its walls; if false, all other members are empty
+  bool fits = false;  ///< true: every room has open space between its walls; false: all other members are empty
   std::vector<PlanRoom> rooms;
-  std::vector<PlanRect> corridor;  ///< rectangles, which may overlap
+  std::vector<PlanRect> corridor;  ///< open space of the corridor: rectangles, which may overlap
   std::vector<PlanDoor> doors;     ///< the entrance comes first, if there is one
   std::vector<PlanFacade> facades;
   std::vector<size_t> closed;  ///< indices of inaccessible rooms, none of whose walls is wide enough for a door
@@ -58,12 +58,12 @@ struct FloorPlan {
   std::vector<size_t> unmet;   ///< indices of links whose rooms share no wall of sufficient width
 };
 
-/// areas: above 0, one per room. Room sizes are exact except for walls and the corridor, which take space from the
-/// rooms that they pass. Linked rooms are placed side by side if a squarified treemap of these areas allows it. The
-/// entrance leads into room 0, or into the first room with a suitable outer wall. Every room except those in `closed`
-/// can be reached from there: by links; otherwise by a door from the entrance's room if they share a wall; otherwise by
-/// a corridor from it; or by a door from any other room if no corridor fits. If that takes more than max_work, only
-/// `work` of the result is meaningful.
+/// Lays out a floor. areas: relative areas of the rooms, above 0. Each room gets its share of the floor, except that
+/// walls and the corridor take space from the rooms that they pass. Linked rooms are placed side by side if a
+/// squarified treemap of these areas allows it. The entrance leads into room 0, or into the first room with a suitable
+/// outer wall. Every room except those in `closed` can be reached from there: by links; otherwise by a door from the
+/// entrance's room if they share a wall; otherwise by a corridor from it; or by a door from any other room if no
+/// corridor fits. If the work exceeds max_work, only `work` of the result is meaningful.
 FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
                       uint64_t max_work = UINT64_MAX);
 

@@ -5,7 +5,7 @@
 namespace sgm {
 namespace {
 
-/// Rows with at most this many parts are tried in all permutations; longer ones only with two parts swapped.
+/// Rows with at most this many parts are tried in all permutations; for longer rows only swaps of two parts are tried.
 constexpr size_t kMaxPermuted = 3;
 
 size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links, int32_t wall) {
@@ -16,8 +16,9 @@ size_t linksMet(std::span<const PlanRect> rooms, std::span<const RoomLink> links
   }));
 }
 
-/// Returns variants of a row: its parts in other orders, at either end. The largest rooms stay in front, where the
-/// entrance is. first: the row is the first one, with the largest rooms.
+/// Returns variants of a treemap's row: its parts in other orders, and the row at the other end of the space that
+/// previous rows have left. The first row, with the largest rooms, is not moved, since the entrance is in front. first:
+/// whether the row is the first one.
 std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
   std::vector<TreemapRow> out{row};
   TreemapRow other = row;

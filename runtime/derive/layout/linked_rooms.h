@@ -1,5 +1,5 @@
 #pragma once
-// Arranges rooms of a treemap so that rooms to be joined by a door share a wall.
+// Arranges the rooms of a treemap so that rooms that a door shall connect share a wall.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace sgm {
 
-/// A request to join rooms a and b by a door, if they share a wall of sufficient width. width: of the door, units.
+/// A request to connect rooms a and b by a door, if they share a wall of sufficient width. width: width of the door in
+/// units.
 struct RoomLink {
   size_t a = 0, b = 0;
   int32_t width = 0;
@@ -23,9 +24,10 @@ struct PlanWork {
   bool spent() const { return done > most; }
 };
 
-/// Computes a squarified treemap of the areas, and permutes its rows and the rooms within rows, so that a local search
-/// satisfies as many links as possible. wall: thickness of walls in units. Areas and shapes of the rooms do not change.
-/// If the treemap already satisfies all links, or the search finds no improvement, the treemap is returned as it is.
+/// Computes a squarified treemap of the areas. A local search then permutes its rows, and the rooms within rows, so
+/// that as many links as possible are satisfied. wall: thickness of walls in units. The areas and shapes of the rooms
+/// do not change. If the treemap already satisfies all links, or the search finds no improvement, the treemap is
+/// returned as it is.
 std::vector<PlanRect> linkedRooms(const PlanRect& whole, std::span<const double> areas, std::span<const RoomLink> links,
                                   int32_t wall, int32_t step, PlanWork& work);
 

@@ -20,9 +20,9 @@ struct PlanCorner {
 /// middle.
 struct PlanPiece {
   PlanCorner middle;    ///< centre of the bounding box in the plan's scope, metres; for a regular polygon: its centre
-  double x = 0, z = 0;  ///< edges of a box that is centred on the middle and contains the polygon
-  bool rect = false;    ///< a rectangle; its first corner has the lowest x and z
-  std::vector<PlanCorner> corners;  ///< relative to the middle
+  double x = 0, z = 0;  ///< edges of a box that is centred on the middle and contains the polygon, metres
+  bool rect = false;    ///< true: the piece is a rectangle whose first corner has the lowest x and z
+  std::vector<PlanCorner> corners;  ///< corners relative to the middle, metres
 };
 
 PlanPiece rectPiece(double x, double z);
@@ -30,13 +30,13 @@ PlanPiece rectPiece(double x, double z);
 PlanPiece regularPiece(int corners, double radius);
 PlanPiece polygonPiece(std::span<const PlanCorner> corners);
 
-/// Moves a piece so that its middle lies on the outline of another piece, at a position drawn from key. If the piece
-/// contains its own middle, the two overlap.
+/// Moves a piece so that its middle lies on the outline of another piece, at a position drawn from `key`. If the piece
+/// contains its own middle, the two pieces overlap.
 void putOnOutline(PlanPiece& piece, const PlanPiece& other, PathKey key);
 
 bool isConvex(const PlanPiece& piece);
 
-/// Whether the polygon has an area, and none of its edges cross.
+/// Whether the polygon has an area, and no two of its edges cross.
 bool isSimple(const PlanPiece& piece);
 /// Whether an outline that was grown from the piece is still valid: no edge is reversed, and no edges cross. If not,
 /// the growth has closed a notch.

@@ -32,7 +32,8 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
     const size_t i = static_cast<size_t>(a);
     if (!lattice.hasAxis(a)) continue;
     low[i] = int64_t{cell[a]} * lattice.size[a];
-    // Also covers one more cube on each side; candidates two cubes apart are farther apart than the radius.
+    // The array has one more cube on each side of the cell. Candidates that are two cubes apart are farther apart than
+    // the radius, so no more cubes are needed.
     first[i] = floorDiv(low[i], step) - 1;
     count[i] = floorDiv(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
     if (static_cast<size_t>(count[i]) > limit / total) return std::nullopt;
@@ -62,7 +63,8 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
       }
     }
   }
-  // Index offsets of the surrounding cubes, nearest first: most candidates are rejected by one in an adjacent cube.
+  // Index offsets of the surrounding cubes, nearest first, because most candidates are rejected by a candidate in an
+  // adjacent cube.
   std::vector<std::ptrdiff_t> around;
   for (int64_t shared = 2; shared >= 0; --shared) {
     for (int64_t k = -1; k <= 1; ++k) {
@@ -78,10 +80,10 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
   const auto wins = [&](const Candidate& c) {
     return std::none_of(around.begin(), around.end(), [&](std::ptrdiff_t away) {
       const Candidate& other = *(&c + away);
-      // Only a candidate with higher priority can reject c; equal priorities are decided by position, in the same way
-      // for both.
+      // Only a candidate with higher priority can reject c. Equal priorities are decided by position, so that both
+      // candidates get the same decision.
       if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) return false;
-      // If the distance along one axis reaches the radius, the candidate is far enough; so the sum of squares cannot
+      // A candidate is far enough away if its distance along one axis reaches the radius. So the sum of squares cannot
       // overflow.
       uint64_t square = 0;
       for (size_t a = 0; a < 3; ++a) {
@@ -118,7 +120,7 @@ std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, doubl
   points.reserve(count);
   const double turn = kTwoPi * key.unit(~uint64_t{0});
   for (size_t i = 0; i < count; ++i) {
-    // By Archimedes' theorem, equal steps of height cut off equal areas.
+    // By Archimedes' theorem, slices of a sphere with equal height have equal areas.
     const double strip = (static_cast<double>(i) + uniform(key, i, 0)) / static_cast<double>(count);
     const double y = 1.0 - 2.0 * up * strip;
     const double around = turn + kGoldenAngle * static_cast<double>(i) + (uniform(key, i, 1) - 0.5) * 0.8;

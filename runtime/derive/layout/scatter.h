@@ -9,24 +9,26 @@
 
 namespace sgm {
 
-/// A point of a lattice-wide set: its offset from the low corner of its cell, in units, and the key for its random
-/// draws.
+/// A point of a set that covers the whole lattice: its offset from the low corner of its cell, in units, and the key
+/// for its random draws.
 struct LatticePoint {
   Int3 offset;
   PathKey key;
 };
 
 /// Returns the points in one cell of an infinite set in which no two points are closer than `radius` units (at least
-/// 1). The set has one jittered candidate per cube with that edge; a candidate is kept if its hash exceeds those of all
-/// candidates within the radius (Matern's second thinning rule). Depends on nothing farther away than the radius. key:
-/// identifies the set, the same in all cells. nullopt if more than `limit` candidates would have to be examined.
+/// 1). The set has one jittered candidate in each cube whose edge is the radius; a candidate is kept if its hash
+/// exceeds those of all candidates within the radius (Matern's second thinning rule). Depends on nothing farther away
+/// than the radius. key: identifies the set; the same in all cells. nullopt if more than `limit` candidates would have
+/// to be examined.
 std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, Int3 cell, PathKey key, int32_t radius,
                                                        size_t limit);
 
 /// Returns `count` points spread over the top fraction `up` (0..1) of the area of a sphere: strips of equal area,
 /// rotated by the golden angle, jittered by the key.
 std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, double up);
-/// Independent uniform points in a centred box with the given edges, or on the disc in the plane y = 0.
+/// Returns independent uniform points in a centred box with the given edges, or (scatterOnDisc) on a disc in the plane
+/// y = 0.
 std::vector<Vec3> scatterInBox(PathKey key, size_t count, Vec3 edges);
 std::vector<Vec3> scatterOnDisc(PathKey key, size_t count, double radius);
 

@@ -13,13 +13,13 @@ namespace {
 /// A branch that has not been grown yet.
 struct Bud {
   Vec3 at, heading;
-  uint32_t first = 0;  ///< steps from the root
+  uint32_t first = 0;  ///< number of steps from the root to the start of the branch
   uint32_t depth = 0;
   PathKey key;
 };
 
-/// Rotates a heading: cosine is that of the angle to it; `around` is the angle about it, measured from a side that
-/// depends only on the heading.
+/// Returns a heading rotated away from `heading`. cosine: cosine of the angle between both; around: angle about the old
+/// heading that selects the direction in which the new heading deviates.
 Vec3 turned(Vec3 heading, double cosine, double around) {
   const Vec3 side = across(heading, {0, 1, 0}), other = cross(heading, side);
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -46,7 +46,7 @@ Skeleton grownSkeleton(PathKey key, const Turtle& turtle) {
       out.segments.push_back({at, to, i / turtle.steps, bud.depth, bud.key.child(kSegmentSalt, i)});
       at = to;
       const PathKey joint = bud.key.child(kJointSalt, i);
-      // Uniform in the cosine is uniform on the sphere (Archimedes).
+      // A uniform cosine gives a uniform direction on the sphere (Archimedes).
       const double cosine = 1.0 - (1.0 - straightest) * joint.unit(kTurnDraw);
       const double around = 2 * kPi * joint.unit(kAroundDraw);
       if (i + 1 < steps && turtle.turn > 0 && joint.unit(kForkDraw) < turtle.fork) {

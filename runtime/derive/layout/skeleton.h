@@ -1,7 +1,8 @@
 #pragma once
-// Branching skeletons: the path of a turtle that turns at random and leaves side branches. Lindenmayer's bracketed,
-// stochastic systems (Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, 1990, sections 1.6 and 1.7),
-// with draws by position in the tree instead of in order, so that no part depends on the growth of the rest.
+// Branching skeletons: the path of a turtle that turns at random and leaves side branches. These are Lindenmayer's
+// bracketed, stochastic systems (Prusinkiewicz and Lindenmayer, The Algorithmic Beauty of Plants, 1990, sections 1.6
+// and 1.7). Random draws depend on the position in the tree instead of the order of drawing, so that no part depends on
+// the growth of the rest.
 
 #include <cstdint>
 #include <vector>
@@ -16,8 +17,8 @@ struct Segment {
   Vec3 from, to;
   /// distance from the root to `from`, as a fraction of the longest path: 0 at the root, 1 at the tips
   double along = 0;
-  uint32_t depth = 0;  ///< 0 on the stem, 1 on its side branches, 2 on the side branches of these, and so on
-  PathKey key;         ///< depends only on the segment's branch and its index in the branch
+  uint32_t depth = 0;  ///< 0 on the stem, 1 on its side branches, 2 on the side branches of side branches, and so on
+  PathKey key;         ///< key for random draws; depends only on the segment's branch and its index in the branch
 };
 
 struct Turtle {
@@ -29,16 +30,17 @@ struct Turtle {
 };
 
 struct Skeleton {
-  /// the stem first, then branches in order of depth, each after the branch it starts from
+  /// all segments: the stem first, then branches in order of depth, each after the branch from which it starts
   std::vector<Segment> segments;
-  bool whole = true;  ///< false: branches are missing because they would exceed kMaxSegments
+  bool whole = true;  ///< false: some branches are missing because there would be more than kMaxSegments segments
 };
 
 /// The turtle starts at the origin, facing +y. Its first step is straight; each further step turns to a direction drawn
 /// uniformly from the cone with half-angle `turn` around the previous step. After each step except the last, with
 /// probability `fork`, a side branch starts and takes the remaining steps. Its angle to the previous step is drawn from
-/// turn to 2 turn (at most a right angle), on the side opposite to the continuing branch, so that it is at least `turn`
-/// away from both. If `turn` is 0 there are no side branches, since they would coincide with the continuing branch.
+/// turn to 2 turn (at most a right angle), on the side opposite to the continuing branch, so that the side branch is at
+/// least `turn` away from the previous step and from the continuing branch. If `turn` is 0 there are no side branches,
+/// since they would coincide with the continuing branch.
 ///
 /// Each draw hashes `key`, the side branches on the path from the root, and the step. Therefore a smaller `fork` only
 /// removes branches, fewer steps only shorten them, and everything else stays in place; `length` and `turn` change no

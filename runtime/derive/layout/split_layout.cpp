@@ -7,14 +7,14 @@
 namespace sgm {
 namespace {
 
-constexpr double kSlack = 1e-9;  // metres and copies that rounding may lose
+constexpr double kSlack = 1e-9;  // tolerance for rounding errors, in metres and in numbers of repetitions
 
 struct Sums {
   double rigid = 0, flexible = 0;
   size_t parts = 0;
 };
 
-/// The number of repetitions of the group beside the others.
+/// Returns how often the repeated group fits into the length that the other parts leave.
 double repetitionsOf(double length, const Sums& others, const Sums& group) {
   const double once = group.rigid + group.flexible;
   if (!(once > 0)) return 0;

@@ -18,26 +18,26 @@ namespace sgm {
 /// The size of a part in metres, at least 0.
 struct SplitSize {
   double size = 0;
-  bool flexible = false;  ///< size is a preferred size, which may change
-  bool repeated = false;  ///< belongs to the repeated group, a run of consecutive parts
+  bool flexible = false;  ///< true: `size` is a preferred size; the part may stretch or shrink
+  bool repeated = false;  ///< true: the part belongs to the repeated group, a run of consecutive parts
 };
 
 /// The position of a part in metres from the low end, as length and middle, so that equal parts in a run have bitwise
 /// equal lengths.
 struct SplitPlace {
-  uint32_t part = 0;        ///< index of the part in the input
-  uint32_t repetition = 0;  ///< which repetition of the group, from 0
+  uint32_t part = 0;        ///< index of the part in the input of layOut()
+  uint32_t repetition = 0;  ///< index of the repetition of the group, from 0; 0 outside of the group
   double middle = 0, size = 0;
 };
 
 struct SplitLayout {
-  std::vector<SplitPlace> places;  ///< the parts with a non-zero size, in order
+  std::vector<SplitPlace> places;  ///< places of the parts with a non-zero size, in order
   double repetitions = 0;          ///< number of repetitions of the group
-  bool cut_off = false;            ///< the rigid parts together exceed the length
-  bool too_many = false;           ///< there would be more than `most` parts; places is empty
+  bool cut_off = false;            ///< true: the rigid parts together exceed the length
+  bool too_many = false;           ///< true: there would be more than `most` parts; `places` is empty
 };
 
-/// Lays out the parts in `length` metres, above 0.
+/// Lays out the parts along a length in metres, above 0. most: maximum number of places.
 SplitLayout layOut(double length, std::span<const SplitSize> parts, size_t most);
 
 }  // namespace sgm

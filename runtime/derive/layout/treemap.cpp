@@ -8,7 +8,8 @@
 namespace sgm {
 namespace {
 
-/// The worst aspect ratio of a row of areas along a side of that length.
+/// Returns the worst aspect ratio among rectangles in a row along a side of length `side`. least, most, sum: the
+/// smallest, the largest and the sum of their areas.
 double worstOf(double least, double most, double sum, double side) {
   const double side2 = side * side, sum2 = sum * sum;
   return std::max(side2 * most / sum2, sum2 / (side2 * least));
@@ -20,14 +21,15 @@ int32_t snapped(double length, int32_t step) { return static_cast<int32_t>(detFl
 struct Rest {
   PlanRect rect;
   double weight = 0;
-  bool columns() const { return rect.width() >= rect.depth(); }  // rows lie along the shorter side
+  // whether the next row runs along z: rows run along the shorter side
+  bool columns() const { return rect.width() >= rect.depth(); }
   double side() const { return columns() ? rect.depth() : rect.width(); }
   double across() const { return columns() ? rect.width() : rect.depth(); }
   /// Area per unit of weight, units squared.
   double scale() const { return side() * across() / weight; }
 };
 
-/// Takes a row from the rest and places its parts.
+/// Takes the next row from the remaining space and places the parts of the row.
 void take(Rest& rest, const TreemapRow& row, std::span<const double> weights, int32_t step,
           std::vector<PlanRect>& out) {
   const bool columns = rest.columns();

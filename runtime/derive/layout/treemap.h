@@ -8,7 +8,7 @@
 
 namespace sgm {
 
-/// A rectangle of the x-z plane, units. low < high.
+/// A rectangle of the x-z plane, in units; x0 < x1 and z0 < z1 unless it is empty.
 struct PlanRect {
   int32_t x0 = 0, z0 = 0, x1 = 0, z1 = 0;
   int32_t width() const { return x1 - x0; }
@@ -19,16 +19,18 @@ struct PlanRect {
 /// A row of a squarified treemap: parts side by side along the shorter side of the space left by previous rows.
 struct TreemapRow {
   std::vector<size_t> parts;  ///< indices of the parts, from the low end of the row
-  bool behind = false;        ///< true: the row lies at the high end of the longer side; false: at the low end
-  bool last = false;          ///< the row fills all of the remaining space
+  /// true: the row lies at the high end of the remaining space's longer side; false: at the low end
+  bool behind = false;
+  bool last = false;  ///< true: the row fills all of the remaining space
 };
 
-/// Divides the weights in descending order into rows, each with the number of parts that makes these most nearly
-/// square. Moving a row to the other end, or permuting its parts, changes the shape of parts by at most `step`.
+/// Divides the weights in descending order into rows. Each row has the number of parts that makes its parts most nearly
+/// square. Moving a row to the other end, or permuting its parts, changes the edges of parts by at most `step`.
 /// weights: 1e-6 to 1e6.
 std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
-/// Returns the rectangles of rows from squarifiedRows(), in which parts may have been permuted and `behind` changed.
+/// Returns the rectangles of the parts of rows from squarifiedRows(). The caller may have permuted the parts of rows
+/// and changed `behind`.
 std::vector<PlanRect> placedRows(const PlanRect& whole, std::span<const double> weights,
                                  std::span<const TreemapRow> rows, int32_t step);
 

@@ -13,7 +13,7 @@ WallGraph wallGraph(const PlanRect& whole, std::span<const PlanRect> cells) {
     graph.corners.insert(graph.corners.end(), {{c.x0, c.z0}, {c.x1, c.z0}, {c.x0, c.z1}, {c.x1, c.z1}});
   std::sort(graph.corners.begin(), graph.corners.end(), order);
   graph.corners.erase(std::unique(graph.corners.begin(), graph.corners.end()), graph.corners.end());
-  // The far side of each cell: a near side is the far side of a neighbour, or an outer wall.
+  // Only the high sides of each cell are added: a low side is the high side of a neighbouring cell, or an outer wall.
   for (const PlanRect& c : cells) {
     for (const bool along_x : {false, true}) {
       if (along_x ? c.z1 == whole.z1 : c.x1 == whole.x1) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// A graph of the possible paths of a corridor: along the walls between the rooms of a floor plan.
+// A graph of the walls between the rooms of a floor plan, along which a corridor may run.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace sgm {
 
-/// The centre lines of inner walls. An edge leads from its lower corner to its higher one; edges meet only at corners.
+/// A graph of the centre lines of inner walls. An edge leads from its lower corner to its higher one; edges meet only
+/// at corners.
 struct WallGraph {
   struct Corner {
     int32_t x = 0, z = 0;
@@ -24,10 +25,11 @@ struct WallGraph {
   std::vector<Edge> edges;
 };
 
-/// cells: the rectangles of a treemap of `whole`.
+/// Returns the wall graph of a treemap. whole: the treemap's rectangle; cells: the rectangles of its parts.
 WallGraph wallGraph(const PlanRect& whole, std::span<const PlanRect> cells);
 
-/// Shortest paths between all pairs of corners (Floyd 1962). Edges in `walked` (a flag for each edge) have length 0.
+/// The shortest paths between all pairs of corners (Floyd 1962). walked: a flag for each edge; true: the edge counts as
+/// having length 0.
 class WallPaths {
  public:
   WallPaths(const WallGraph& graph, const std::vector<bool>& walked);
@@ -39,7 +41,7 @@ class WallPaths {
  private:
   size_t corners_;
   std::vector<int64_t> length_;
-  std::vector<size_t> next_;  ///< by corner pair: first edge of the path from one corner to the other; kNoEdge: none
+  std::vector<size_t> next_;  ///< first edge of the path between each pair of corners; kNoEdge: there is none
   const WallGraph& graph_;
   static constexpr size_t kNoEdge = SIZE_MAX;
 };

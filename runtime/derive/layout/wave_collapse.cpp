@@ -11,9 +11,10 @@
 namespace sgm {
 namespace {
 
-/// The number of wrong choices that the first search may undo.
+/// The number of choices that the first search may undo before it restarts.
 constexpr uint64_t kFirstRetreats = 32;
-/// A visit is one unit of work for this number of labels, of up to 64 tiles each.
+/// The cost of a visit in units of work is the number of labels, times the number of 64-bit words for a set of tiles,
+/// divided by this constant; it is at least 1.
 constexpr uint64_t kLabelsOfVisit = 8;
 
 constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }
@@ -91,7 +92,7 @@ class TileSearch {
           break;
         }
         if (++retreats > max_retreats) {
-          // Conclusions proven before the first choice remain.
+          // Undoes all choices, but keeps what was proven before the first choice.
           undo(choices_[0].changes);
           choices_.clear();
           retreats = 0;
@@ -133,11 +134,12 @@ class TileSearch {
     Tiles before;
   };
   struct Choice {
-    size_t changes;  ///< before it
+    size_t changes;  ///< number of changes before the choice
     uint32_t place;
     uint16_t tile;
   };
-  /// Number of possible tiles relative to failures, a random draw for ties, the place; stale if the first has changed.
+  /// An entry of the queue of places: urgency(place), a random number that breaks ties, and the place. The entry is
+  /// stale if the place's urgency has changed.
   using Waiting = std::tuple<uint32_t, uint32_t, uint32_t>;
 
   std::optional<uint32_t> neighbour(uint32_t place, size_t side) const {
@@ -159,7 +161,8 @@ class TileSearch {
     }
   }
 
-  /// Fits every place to the border, and then to its neighbours. Visits each place at least once.
+  /// Removes the tiles that do not match the border, and then those that match no tile of a neighbouring place. Visits
+  /// each place at least once.
   bool begin() {
     spent_ = max_visits_ < domains_.size();
     if (spent_) return false;
@@ -193,7 +196,7 @@ class TileSearch {
     waiting_.emplace(urgency(place), static_cast<uint32_t>(hashCombine(key_ + attempt_, place) >> 32), place);
   }
 
-  /// Returns false if no tile is left.
+  /// Restricts a place to a set of tiles; returns false if the set is empty.
   bool narrow(uint32_t place, const Tiles& to) {
     if (to == domains_[place]) return true;
     changes_.push_back({place, domains_[place]});
@@ -221,8 +224,8 @@ class TileSearch {
     }
   }
 
-  /// Sides match by single labels, so it is enough to know the labels that a place still offers: no table of tile pairs
-  /// is needed.
+  /// Removes tiles from the neighbours of the changed places until all sides can match. Two sides match if they have a
+  /// label in common, so it is enough to know the labels that a place still offers: no table of tile pairs is needed.
   bool propagate() {
     for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
       if (visits_ == max_visits_ || bytes() > max_bytes_) {
@@ -242,7 +245,7 @@ class TileSearch {
         if (!narrow(*other, fits)) return false;
       }
     }
-    // The changed places, once each.
+    // asked_ contains each changed place; some more than once if they changed again.
     for (const uint32_t place : asked_) wait(place);
     asked_.clear();
     return true;
@@ -257,7 +260,8 @@ class TileSearch {
     }
   }
 
-  /// A place with the fewest possible tiles.
+  /// Returns the place with the fewest possible tiles relative to its number of past failures; kNoPlace if every place
+  /// has one tile.
   uint32_t next() {
     while (!waiting_.empty()) {
       const auto [urgent, tie, place] = waiting_.top();
@@ -270,7 +274,7 @@ class TileSearch {
   size_t draw(uint32_t place) const {
     uint64_t total = 0;
     domains_[place].each([&](size_t t) { total += tiles_[t].weight; });
-    // In 32 bits: the product with a sum of weights fits in 64.
+    // The random number has 32 bits, so that its product with the sum of weights fits in 64 bits.
     uint64_t left = (hashCombine(hashCombine(key_ + attempt_, place), 1) >> 32) * total >> 32;
     size_t drawn = tiles_.size();
     domains_[place].each([&](size_t t) {
@@ -286,13 +290,13 @@ class TileSearch {
   uint64_t key_, max_visits_;
   size_t max_bytes_;
   uint64_t attempt_ = 0, visits_ = 0;
-  bool spent_ = false;                                  ///< all allowed visits are used up
-  std::vector<uint8_t> labels_;                         ///< of the tiles
-  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< for each side and label: the tiles with that label there
+  bool spent_ = false;                                  ///< true: the limit of visits or of memory is exceeded
+  std::vector<uint8_t> labels_;                         ///< labels that any tile uses
+  std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< tiles that have a given label on a given side
   std::vector<Tiles> domains_;
   std::vector<uint32_t> failures_;
-  std::vector<uint32_t> asked_;  ///< places whose neighbours must be visited
-  std::vector<bool> waits_;      ///< places in asked_
+  std::vector<uint32_t> asked_;  ///< queue of places whose neighbours must be visited
+  std::vector<bool> waits_;      ///< for each place: true if it waits in asked_
   std::vector<Change> changes_;
   std::vector<Choice> choices_;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting_;
@@ -304,7 +308,7 @@ class TileSearch {
 
 WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t max_visits,
                         size_t max_bytes) {
-  // Most tile sets fit in one word.
+  // Most tile sets have at most 64 tiles, for which one word per set is faster.
   if (tiles.size() <= 64) return TileSearch<1>(tiles, lattice, key, max_visits, max_bytes).run();
   return TileSearch<4>(tiles, lattice, key, max_visits, max_bytes).run();
 }

@@ -1,9 +1,8 @@
 #pragma once
-// Wave function collapse: chooses one of the given tiles for every place of a lattice, so that touching sides share a
-// label. The simple tiled model of M. Gumin (WaveFunctionCollapse, 2016) as a search with propagated constraints, after
-// I. Karth and A. M. Smith, WaveFunctionCollapse is Constraint Solving in the Wild, FDG 2017.
-//
-// Uses only integers and hashes, so the result is the same on every machine.
+// Wave function collapse: chooses one of the given tiles for every place of a lattice, so that touching sides have a
+// label in common. This is the simple tiled model of M. Gumin (WaveFunctionCollapse, 2016) as a search with constraint
+// propagation, after I. Karth and A. M. Smith, WaveFunctionCollapse is Constraint Solving in the Wild, FDG 2017. Uses
+// only integers and hashes, so the result is the same on every machine.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +16,7 @@ inline constexpr size_t kWaveSides = 6;
 /// Labels of a side, one bit each. Two sides match if they have a label in common.
 using WaveLabels = uint64_t;
 
-/// A tile in one orientation; a tile that may be rotated is passed as four of these.
+/// A tile in one orientation; a tile that may be rotated is passed as four WaveTiles.
 struct WaveTile {
   std::array<WaveLabels, kWaveSides> sides{};
   uint32_t weight = 1;  ///< 1 to 2^24: relative probability among the tiles that fit
@@ -26,31 +25,32 @@ struct WaveTile {
 inline constexpr uint32_t kNoPlace = 0xFFFFFFFFu;
 
 struct WaveLattice {
-  std::array<uint32_t, 3> size{1, 1, 1};  ///< places along x, y, z; their product is below 2^24
-  /// the labels that border places must match at each side of the lattice
+  std::array<uint32_t, 3> size{1, 1, 1};  ///< number of places along x, y, z; the product is below 2^24
+  /// labels that the places at each border of the lattice must match
   std::array<WaveLabels, kWaveSides> border{};
 };
 
 enum class WaveEnd : uint8_t {
   solved,
   impossible,  ///< it is proven that no choice of tiles fits
-  gave_up,     ///< max_visits is exceeded (at once if it is less than the number of places), or max_bytes is
+  gave_up,     ///< max_visits is exceeded (at once if it is less than the number of places), or max_bytes is exceeded
 };
 
 struct WaveResult {
   WaveEnd end = WaveEnd::solved;
-  std::vector<uint16_t> tiles;  ///< if solved: index of the tile for each place, x first, then y, then z
-  uint64_t visits = 0;          ///< number of places visited, a measure of the work; at most max_visits
+  std::vector<uint16_t> tiles;  ///< index of the tile at each place, if solved; x fastest, then y, then z
+  uint64_t visits = 0;          ///< number of visits of places, as a measure of the work; at most max_visits
   uint64_t work = 0;            ///< cost of the visits: a visit costs more with many labels and tiles
-  /// If not solved: the place where most often no tile fitted, and for each of its sides the labels that its neighbour
-  /// allows there. kNoPlace: the search ended before such a place was found.
+  /// If not solved: the place where most often no tile fitted, and, for each of its sides, the labels that its
+  /// neighbour allows there. kNoPlace: the search ended before any place failed.
   uint32_t place = 0;
   std::array<WaveLabels, kWaveSides> wanted{};
 };
 
-/// Finds a solution if one exists and the limits allow it. Unless it is proven impossible, the search restarts several
-/// times, each time with twice the number of visits, and starts with the places that were difficult before. tiles: 1 to
-/// 256. key: seed of the draws; equal inputs give equal results. max_bytes: limit of the memory for undoing choices.
+/// Finds a solution if one exists and the limits allow it. Unless the problem is proven impossible, the search restarts
+/// several times. Each search may undo twice as many choices as the previous one, and starts with the places that
+/// failed most often before. tiles: 1 to 256. key: seed of the draws; equal inputs give equal results. max_bytes: limit
+/// of the memory for undoing choices.
 WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t max_visits,
                         size_t max_bytes = SIZE_MAX);
 
