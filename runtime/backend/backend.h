@@ -22,16 +22,16 @@ namespace sgm {
 
 enum class BackendKind : uint8_t { cpu, vulkan, cuda };
 
-/// Returns the name of a backend in options: "cpu", "vulkan", "cuda".
+/// Returns the name of a kind of backend, as in options: "cpu", "vulkan", "cuda".
 const char* backendName(BackendKind kind);
 
 struct BackendCapabilities {
   BackendKind kind = BackendKind::cpu;
   std::string device;        ///< name of the device, or of the instruction set in use
-  bool exact = true;         ///< true: follows the arithmetic contract, so that results are bit-exact
+  bool exact = true;         ///< true: bit-exact, by the arithmetic contract (runtime/README.md)
   uint32_t concurrency = 1;  ///< number of chunks that are processed concurrently
   bool software = false;     ///< true: the CPU emulates the device
-  /// true: supports ChunkJob::resident and upload(), because the device is the engine's own
+  /// true: supports ChunkJob::resident and upload(), because it uses the engine's own device
   bool lends_meshes = false;
 };
 
@@ -41,7 +41,7 @@ class DevicePart {
  public:
   virtual ~DevicePart() = default;
   virtual BackendKind kind() const = 0;
-  /// True if the content is on the device, or will be when the copying ends.
+  /// True if the content is on the device, or will be when a pending copy ends.
   virtual bool there() const { return true; }
 };
 
@@ -49,32 +49,33 @@ inline constexpr size_t kMeshParts = 7;
 /// The parts of a chunk on a device: the body, then seams by Face; null for an absent part.
 using DeviceParts = std::array<std::shared_ptr<const DevicePart>, kMeshParts>;
 
-/// A chunk to be meshed. The programs must contain every group whose influence box meets the chunk's closed box.
+/// A chunk to be meshed. The field programs must contain every group of shapes (field/program.h) whose influence box
+/// meets the chunk's closed box.
 struct ChunkJob {
   ChunkGrid grid;
-  std::shared_ptr<const FieldProgram> field;   ///< the field at grid.level
-  std::shared_ptr<const FieldProgram> coarse;  ///< the field at grid.level + 1; null if no seam is requested
+  std::shared_ptr<const FieldProgram> field;   ///< program of the field at grid.level
+  std::shared_ptr<const FieldProgram> coarse;  ///< program of the field at grid.level + 1; null if no seam is requested
   uint8_t seams = 0;                           ///< the seams to make: bit (1 << Face)
-  /// the blocks around the chunk that have a coarser level; decides only the fans in keys of seams
+  /// set of the blocks around the chunk that have a coarser level; affects only VertexKey::fan in seams
   Neighbourhood coarser = 0;
-  bool signs = false;  ///< also return the signs of the samples
-  bool keys = true;    ///< true: return vertex keys (MeshPart::keys); false: the parts may lack them
+  bool signs = false;  ///< true: also return the signs of the samples
+  bool keys = true;    ///< true: return vertex keys (MeshPart::keys); false: parts may come without keys
   bool body = true;    ///< true: mesh the body; false: only seams, and body, signs and counts stay empty
-  /// return the sums over the meshes instead of the meshes, which need not be downloaded from a device then
+  /// true: return only the sums over the meshes (ChunkMesh::sums), so that a device need not download the meshes
   bool sums_only = false;
-  bool resident = false;  ///< also keep vertices and indices on the device, if it is the engine's
-  bool prompt = false;    ///< let the CPU mesh the chunk instead of waiting until the device is ready
+  bool resident = false;  ///< true: also keep vertices and indices on the device, if it is the engine's own
+  bool prompt = false;    ///< true: let the CPU mesh the chunk instead of waiting until the device is ready
 };
 
 /// The result for a chunk. Parts without triangles are empty, with hash 0.
 struct ChunkMesh {
   MeshPart body;
-  std::vector<MeshPart> seams;  ///< empty, or six seams by Face
-  uint32_t solid_samples = 0;   ///< number of solid samples among the lower 32^3
-  uint32_t rounded = 0;         ///< number of loops of the body that lack their sharp features (mesh/features.h)
-  bool uniform = false;         ///< proven solid or void without sampling, so that there is no body
-  /// In the format of ChunkSamples::signs, if requested and the chunk is not uniform. For a uniform chunk,
-  /// solid_samples says whether it is solid.
+  std::vector<MeshPart> seams;  ///< six seams by Face; empty if no seam was requested
+  uint32_t solid_samples = 0;   ///< number of solid samples, except those in the chunk's high faces
+  uint32_t rounded = 0;         ///< number of loops of the body whose sharp features could not be made (sharpenBody)
+  bool uniform = false;         ///< true: the chunk is proven solid or void without sampling, and has no body
+  /// Signs of the samples, in the format of ChunkSamples::signs, if requested and the chunk is not uniform. For a
+  /// uniform chunk, solid_samples says whether it is solid.
   std::pmr::vector<uint64_t> signs;
   std::array<PartSums, kMeshParts> sums;  ///< for ChunkJob::sums_only: sums over the body, then over the seams by Face
   /// for ChunkJob::resident: set if the device meshed the parts and had memory for them
@@ -103,17 +104,17 @@ class ChunkBatch {
   virtual Result<std::vector<ChunkMesh>> take() = 0;
 };
 
-/// Called after each meshed chunk, before the batch counts the chunk as ended. Called by any thread, also concurrently.
-/// Returning false cancels the batch.
+/// A function that is called after each meshed chunk, before the batch counts the chunk as ended. Any thread calls it,
+/// also concurrently. It returns false to cancel the batch.
 using AfterChunk = std::function<bool()>;
 
 /// Counts of a backend's work since its creation.
 struct BackendCounters {
-  uint64_t chunks = 0;  ///< chunks that ended with a mesh
-  /// number of these that the CPU meshed, because the device had no memory for them or was not ready
+  uint64_t chunks = 0;  ///< number of chunks that ended with a mesh
+  /// number of chunks that the CPU meshed, because the device had no memory for them or was not ready
   uint64_t on_cpu = 0;
   uint64_t device_lost = 0;  ///< number of device failures
-  uint64_t batches = 0;      ///< submissions to the device
+  uint64_t batches = 0;      ///< number of submissions to the device
   uint64_t resident = 0;     ///< size of the parts that are on the device now, in bytes
 };
 
@@ -124,7 +125,7 @@ class Backend {
   virtual const BackendCapabilities& capabilities() const = 0;
   virtual BackendCounters counters() const { return {}; }
   virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk = {}) = 0;
-  /// The number of chunks per submit() that keeps the backend busy now; 1 while the CPU replaces a device.
+  /// The number of chunks per submit() that keeps the backend busy now; 1 while the CPU does the work of a device.
   virtual uint32_t batch() const { return 1; }
   /// Uploads parts to the device, with the same result as for ChunkJob::resident; null for a part that has no
   /// triangles, or for which there is no memory. Waits for the device. Errors: unsupported (the device is not the

@@ -13,7 +13,7 @@ struct DeviceCounters {
   std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
 };
 
-/// Opening a device takes longer than a batch, so after this many failures in a row it is not opened again.
+/// After this many failures in a row, the device is not opened again, because opening it takes longer than a batch.
 constexpr unsigned kMaxFailures = 8;
 
 /// State that the backend shares with its batches. The batches must not outlive it.
@@ -87,7 +87,7 @@ class DeviceBatch final : public ChunkBatch {
   }
 
   bool poll() override {
-    // A waiting thread holds the lock until the end of the batch, so the lock is only tried.
+    // A thread in wait() holds the lock until the end of the batch, so the lock is only tried.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return false;
     if (ended_) return true;
@@ -126,7 +126,7 @@ class DeviceBatch final : public ChunkBatch {
     if (error.code == Code::device_lost) shared_.leave(session_, error);
   }
 
-  /// Runs `work` and stores its exception: callers of poll() and wait() cannot catch exceptions.
+  /// Runs `work` and stores its exception for take(): callers of poll() and wait() cannot catch exceptions.
   template <class Work>
   void guarded(const Work& work) noexcept {
     try {
@@ -136,7 +136,8 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Waits for the slot. Returns true if its results may be read; if false, the device may still be using it.
+  /// Waits for the device to finish the slot. Returns true if the results may be read; if false, the device may still
+  /// be using the slot.
   bool awaitSlot(DeviceSlot& slot) {
     if (!slot.submitted) return false;
     const Result<void> ended = session_->await(slot);
@@ -196,7 +197,7 @@ class DeviceBatch final : public ChunkBatch {
     }
   }
 
-  /// Reads the slot's results. Returns true if the device works in the slot again.
+  /// Reads the slot's results. Returns true if the device now works in the slot again, to copy meshes that stay on it.
   bool readSlot(DeviceSlot& slot) {
     const auto done = [&](size_t job) {
       finished(slot.first + job);
@@ -225,10 +226,10 @@ class DeviceBatch final : public ChunkBatch {
     rest_ = std::move(*batch);
   }
 
-  /// Waits for meshes that stay on the device, and takes the CPU's results for the other jobs.
+  /// Ends the batch: waits for the device, and takes the meshes that the CPU has made for the other jobs.
   void end() {
     ended_ = true;
-    // Slots are returned first: otherwise copies of meshes that stay would wait for work of other batches.
+    // Waits for the copies of meshes that stay on the device, then returns the slots for use by other batches.
     releaseSlots();
     const std::unique_ptr<ChunkBatch> rest = std::move(rest_);
     if (!rest) return;
@@ -247,8 +248,8 @@ class DeviceBatch final : public ChunkBatch {
   AfterChunk after_chunk_;
   std::vector<ChunkMesh> meshes_;
   std::vector<bool> done_;
-  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< after reading: only those in which the device still works
-  std::unique_ptr<ChunkBatch> rest_;                ///< the jobs that the device has not done, on the CPU
+  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< slots of this batch; after reading, only those still in use
+  std::unique_ptr<ChunkBatch> rest_;                ///< batch of the CPU, with the jobs that the device has not done
   std::vector<size_t> numbers_;                     ///< indices of the jobs in rest_
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
@@ -286,7 +287,7 @@ class DeviceBackend final : public Backend {
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
   uint32_t batch() const override {
-    // A thread that holds this lock for long is opening the device, so the lock is only tried.
+    // Another thread holds this lock for long only while it opens the device. So the lock is only tried.
     const std::unique_lock lock(shared_.mutex, std::try_to_lock);
     return lock && shared_.session ? shared_.session->batch() : 1;
   }

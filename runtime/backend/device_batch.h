@@ -17,8 +17,8 @@ namespace sgm {
 class DeviceSlot {
  public:
   virtual ~DeviceSlot() = default;
-  size_t first = 0;        ///< index, in the batch, of the slot's first job
-  bool submitted = false;  ///< true if work was submitted, even in part: it must be waited for
+  size_t first = 0;        ///< index in the batch of the slot's first job
+  bool submitted = false;  ///< true if work was submitted, even in part: the device must be waited for
   bool stuck = false;      ///< true if it is unknown whether the device has finished
 };
 
@@ -28,14 +28,14 @@ class DeviceSession {
  public:
   virtual ~DeviceSession() = default;
 
-  /// Returns the same for every session that replaces this one after a loss.
+  /// Returns the capabilities, which are the same for every session that replaces this one after a loss.
   virtual BackendCapabilities capabilities() const = 0;
   /// Same as Backend::batch().
   virtual uint32_t batch() const = 0;
 
   /// Returns an unused slot. Throws std::bad_alloc.
   virtual std::unique_ptr<DeviceSlot> takeSlot() = 0;
-  /// Returns a slot that takeSlot() has given out.
+  /// Takes back a slot that takeSlot() has returned.
   virtual void release(std::unique_ptr<DeviceSlot> slot) noexcept = 0;
   /// Plans jobs for one submission. Returns how many of the jobs were planned, from the first on; at least one.
   virtual size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) = 0;
@@ -50,9 +50,9 @@ class DeviceSession {
   /// Returns true if the device has finished the slot's work; does not wait.
   virtual Result<bool> ended(DeviceSlot& slot) = 0;
   virtual Result<void> await(DeviceSlot& slot) = 0;
-  /// Reads the results after the end: fills one mesh for each planned job, and calls done(index of the job), which
-  /// returns false to cancel. Returns true if the device works in the slot again, to copy meshes that stay on it: then
-  /// wait for it again. Throws std::bad_alloc.
+  /// Reads the results of a slot whose work has ended: fills one mesh for each planned job, and calls done(index of the
+  /// job), which returns false to cancel. Returns true if the device works in the slot again, to copy meshes that stay
+  /// on it: then wait for it again. Throws std::bad_alloc.
   virtual Result<bool> read(DeviceSlot& slot, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                             const std::function<bool(size_t)>& done) = 0;
 
@@ -64,7 +64,7 @@ class DeviceSession {
   virtual uint64_t resident() const { return 0; }
 };
 
-/// The slots of a session that no batch uses. Thread-safe.
+/// The slots of a session that no batch uses at the moment. Thread-safe.
 class IdleSlots {
  public:
   /// Returns an idle slot; if there is none, the result of make(). Throws std::bad_alloc.
@@ -93,7 +93,7 @@ class IdleSlots {
   std::mutex mutex_;
   size_t made_ = 0;
   std::vector<std::unique_ptr<DeviceSlot>> idle_;
-  std::vector<std::unique_ptr<DeviceSlot>> stuck_;  // the device may use these until the session ends
+  std::vector<std::unique_ptr<DeviceSlot>> stuck_;  // slots that the device may use until the session ends
 };
 
 /// Receives warnings; same as BackendRequest::warn.
@@ -103,7 +103,7 @@ using OpenSession = std::function<Result<std::shared_ptr<DeviceSession>>()>;
 /// Creates a backend that meshes on a device, and on the given CPU backend if the device has no memory or is lost; the
 /// results are the same bytes. open: opens the device; called now and after each loss, by one thread at a time. If it
 /// fails after a loss, the CPU does all work. A device that is lost too often in a row is not opened again. warn:
-/// receives each loss; may be null. Errors: those of open.
+/// receives a message about each loss; may be null. Errors: those of open.
 Result<std::unique_ptr<Backend>> makeDeviceBackend(OpenSession open, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler,
                                                    WarnOf warn = nullptr);

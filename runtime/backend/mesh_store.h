@@ -1,5 +1,5 @@
 #pragma once
-// Memory of the device that draws, for meshes that a device of another API writes on the same GPU.
+// Memory of the drawing device, into which a device of another API (CUDA) on the same GPU writes meshes.
 
 #include <array>
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace sgm {
 
-/// The sizes of a part; a part without indices needs no memory.
+/// The numbers of vertices and indices of a part. A part without indices needs no memory.
 struct PartSize {
   uint32_t vertices = 0, indices = 0;
 };
 using PartSizes = std::array<PartSize, kMeshParts>;  ///< in the order of DeviceParts
 
-/// Where a part is to be written: offsets in bytes from the beginning of its block.
+/// The place where a part is to be written. Offsets are in bytes from the beginning of its block.
 struct PartPlace {
   size_t chunk = 0, part = 0;
   SharedBlock* block = nullptr;
@@ -34,14 +34,14 @@ class Placement {
   Placement(const Placement&) = delete;
   Placement& operator=(const Placement&) = delete;
 
-  std::vector<DeviceParts> chunks;  ///< all parts are null for a chunk that got no memory
+  std::vector<DeviceParts> chunks;  ///< the placed parts; all null for a chunk that got no memory
   std::vector<PartPlace> parts;
-  // The following members are for the writer.
+  // The members below are set by the code that writes the content.
   bool writing = false;                           ///< must be set before the first byte is written
   std::vector<std::shared_ptr<const void>> held;  ///< objects that must exist until the writing ends
 };
 
-/// Thread-safe. The parts in it keep it alive.
+/// Allocates memory of the drawing device for parts. Thread-safe. Its parts keep it alive.
 class MeshStore {
  public:
   virtual ~MeshStore() = default;
@@ -50,11 +50,12 @@ class MeshStore {
   virtual bool lost() const = 0;
   /// Allocates memory for parts. Throws std::bad_alloc.
   virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
-  /// Makes content readable for the drawing device. Call after all content was written, and after waiting for the
-  /// writes. If it fails, the parts of the placement are on no device. Errors: out_of_memory, device_lost.
+  /// Makes the content of placed parts readable for the drawing device. Call after all content was written, and after
+  /// waiting for the writes. If it fails, the parts of the placement are on no device. Errors: out_of_memory,
+  /// device_lost.
   virtual Result<void> publish(Placement& placement) noexcept = 0;
-  /// Same as Backend::upload(), on the drawing device. If that device is lost, the error is unsupported, because the
-  /// other device is not lost.
+  /// Same as Backend::upload(), on the drawing device. If that device is lost, the error is unsupported and not
+  /// device_lost, because the device that meshes is not lost.
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;
   /// Returns the size of the existing parts in bytes.
   virtual uint64_t bytes() = 0;

@@ -19,7 +19,7 @@ Sums sumsOf(const Triangles& mesh, size_t begin, size_t end, Point centre) {
     const Point cross = crossOf(a, b, c);
     sums.area += length(cross);
     sums.cross = sums.cross + cross;
-    // The triple product a . (b x c); a is subtracted from b and c first, which loses fewer digits.
+    // The triple product a . (b x c), computed as a . ((b - a) x (c - a)), which loses fewer digits.
     sums.six_volumes += dot(a, cross);
   }
   return sums;
@@ -61,7 +61,7 @@ AreaVolume areaVolume(const Triangles& mesh, JobSystem& jobs) {
       result.high[axis] = std::max(result.high[axis], b.high[axis]);
     }
   }
-  // Each is halved before the addition, because the sum of two large numbers may overflow.
+  // Both corners are halved before the addition, because the sum of two large coordinates may overflow.
   result.centre = 0.5 * result.low + 0.5 * result.high;
   std::vector<Sums> sums(blocks);
   each([&](size_t block, size_t begin, size_t end) { sums[block] = sumsOf(mesh, begin, end, result.centre); });

@@ -7,8 +7,8 @@
 namespace sgm::measure {
 
 struct AreaVolume {
-  /// The sum of half the lengths of the triangles' cross products. Equation 7 of the paper, which prints it as a
-  /// vector.
+  /// The sum of half the lengths of the triangles' cross products (equation 7 of the paper, where it is printed as a
+  /// vector).
   double area = 0;
   /// Half the sum of the cross products. 0 for a closed surface, up to rounding; but 0 does not prove that it is
   /// closed.

@@ -13,8 +13,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr Bvh::Box kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
-/// Returns a float certainly below v: one step lower than rounding could have raised it. std::nextafter takes ten times
-/// as long.
+/// Returns a float that is certainly below v: one step lower than the rounded value, which may lie above v.
+/// std::nextafter takes ten times as long.
 float below(double v) {
   const auto f = static_cast<float>(v);
   return f - std::fabs(f) * std::numeric_limits<float>::epsilon() - std::numeric_limits<float>::min();
@@ -44,7 +44,7 @@ Bvh::Box boxOf(std::span<const Point> points, const Triangle& t) {
   return box;
 }
 
-/// Spreads 10 bits, with two zero bits after each.
+/// Spreads the 10 low bits of v, with two zero bits after each, for a Morton code.
 uint32_t spread(uint32_t v) {
   v = (v | v << 16) & 0x030000FFu;
   v = (v | v << 8) & 0x0300F00Fu;
@@ -54,8 +54,8 @@ uint32_t spread(uint32_t v) {
 
 float middleOf(const Bvh::Box& box, int axis) { return 0.5f * box.low[axis] + 0.5f * box.high[axis]; }
 
-/// Returns a box around most of the triangles. A box around all would let a few distant ones squeeze the others into
-/// one step of the Morton curve.
+/// Returns a box around most of the triangles. In a box around all of them, a few distant triangles could squeeze all
+/// others into one step of the Morton curve.
 Bvh::Box coreOf(const Triangles& mesh) {
   constexpr size_t kSamples = 4096;
   const size_t step = mesh.triangles.size() / kSamples + 1;
@@ -86,8 +86,8 @@ uint32_t codeOf(const Bvh::Box& box, const Bvh::Box& core) {
   return code;
 }
 
-/// Sorts by the code in the upper bits; equal codes keep the order of the numbers in the lower bits. A radix sort in
-/// three passes of 10 bits, in a third of the time of std::sort.
+/// Sorts keys by the Morton code in their upper bits; keys with equal codes keep their order. A radix sort in three
+/// passes of 10 bits, in a third of the time of std::sort.
 void sortByCode(LargeVector<uint64_t>& keys) {
   LargeVector<uint64_t> sorted(keys.size(), keys.get_allocator());
   for (const int shift : {32, 42, 52}) {
@@ -111,8 +111,8 @@ void forBlocks(JobSystem& jobs, size_t count, const std::function<void(size_t, s
 Bvh::Bvh(const Triangles& mesh, JobSystem& jobs) : boxes_(mesh.memory), order_(mesh.triangles.size(), mesh.memory) {
   const size_t count = mesh.triangles.size(), leaves = std::bit_ceil(std::max<size_t>(count, 1));
   const Box core = coreOf(mesh);
-  // Boxes are computed twice instead of being stored: a fresh page of memory takes longer than computing its boxes. A
-  // key has the code in its upper bits and the triangle's number below.
+  // Boxes are computed twice instead of being stored, because touching a fresh page of memory takes longer than
+  // computing its boxes. A key has the Morton code in its upper bits and the triangle's number in its lower bits.
   LargeVector<uint64_t> keys(count, mesh.memory);
   forBlocks(jobs, count, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
@@ -135,7 +135,7 @@ std::vector<Bvh::Pair> Bvh::parts(size_t parts) const {
     std::vector<Pair> finer;
     bool whole = false;
     for (const Pair& pair : found) {
-      // All pairs are in the same row of the tree.
+      // All pairs are in the same row of the tree, so if one pair consists of leaves, all do.
       whole = isLeaf(pair.first);
       if (whole) break;
       std::array<Pair, 4> children;

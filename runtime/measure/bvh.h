@@ -44,7 +44,7 @@ class Bvh {
   /// Two nodes whose leaves may overlap each other. If both are the same node, its leaves may overlap among themselves.
   using Pair = std::pair<uint32_t, uint32_t>;
   /// Splits the search for several threads: every pair of leaves with overlapping boxes belongs to exactly one of the
-  /// returned pairs. Returns at least about `parts` of them if there are as many.
+  /// returned pairs of nodes. Returns at least about `parts` pairs, if that many exist.
   std::vector<Pair> parts(size_t parts) const;
 
   /// The state of a walk over the pairs of leaves under a pair of nodes, so that the walk can be resumed.
@@ -57,9 +57,9 @@ class Bvh {
     bool ended() const { return count == 0; }
   };
 
-  /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap. visit returns the
-  /// steps that it took. A call counts as one step plus these, and so does each visit of two nodes. Stops after
-  /// `max_steps` steps; returns the number of steps taken.
+  /// Calls visit(a, b) with the triangles of each pair of leaves of the walk whose boxes overlap. visit may return a
+  /// number of additional steps. A call counts as one step plus these; each visit of a pair of inner nodes counts as
+  /// one step. Stops after `max_steps` steps; returns the number of steps taken.
   template <class Visit>
   uint64_t visitPairs(Walk& walk, uint64_t max_steps, Visit&& visit) const {
     uint64_t steps = 0;
@@ -113,7 +113,8 @@ class Bvh {
   }
 
  private:
-  /// Writes the pairs of children whose boxes overlap to `into`, which has space for four; returns their number.
+  /// Splits a pair of nodes: writes the pairs of their children whose boxes overlap to `into`, which has space for four
+  /// pairs, and returns the number of these pairs.
   size_t split(Pair pair, Pair* into) const {
     const auto [a, b] = pair;
     size_t count = 0;

@@ -13,29 +13,30 @@
 
 namespace sgm::measure {
 
-/// The kinds of defects of a part. In a body, all kinds are counted. A seam lies flat in its face and is closed by its
-/// neighbours; there only `index` and `outside` are counted, and `degenerate` for corners that must not share a
-/// position. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
+/// The kinds of defects of a part. In a body, all kinds are counted. A seam lies flat in its face, and is closed only
+/// together with the bodies beside it. There only `index` and `outside` are counted, and `degenerate` for corners that
+/// must not share a position. mesh/triangle_faults.h defines degenerate, flat, folded and cut.
 enum class Defect : uint8_t {
   index,  ///< triangles with an index beyond the vertices; excluded from all other counts
-  /// vertices beyond the chunk (feature vertices: more than a cell beyond); their triangles are excluded
+  /// vertices beyond the chunk (feature vertices: more than two cells beyond); their triangles are excluded
   outside,
-  /// vertices that lie on no edge of the grid, are second on an edge, or are not in the order of the edges
+  /// vertices that lie on no edge of the grid, share an edge with an earlier vertex, or are not in the order of the
+  /// edges
   misplaced,
-  unlike_samples,    ///< vertices on an edge whose samples have equal signs, and crossed edges without a vertex
+  unlike_samples,    ///< vertices on an edge whose end samples have equal signs, and crossed edges without a vertex
   degenerate,        ///< triangles with two equal corners, by index (then excluded from other counts) or by position
   flat,              ///< triangles whose corners are three distinct points on a line
-  duplicate,         ///< triangles with the same corners as another one
-  open_edge,         ///< edges of one triangle, not in a face of the chunk
+  duplicate,         ///< triangles with the same corners as an earlier triangle
+  open_edge,         ///< edges of only one triangle that do not lie in a face of the chunk
   turned_edge,       ///< misoriented edges: two triangles use them in the same direction
   nonmanifold_edge,  ///< edges of more than two triangles
   pinched_vertex,    ///< non-manifold vertices: their triangles form more than one fan
-  folded,            ///< pairs of triangles that overlap at an edge
+  folded,            ///< pairs of triangles that overlap at a common edge
   self_intersection  ///< pairs of triangles that intersect or touch elsewhere (mesh/body_pairs.h)
 };
 inline constexpr size_t kDefects = 13;
 
-/// Returns the name for users, such as "non-manifold vertices".
+/// Returns the name of a kind of defect for users, such as "non-manifold vertices".
 const char* defectName(Defect defect);
 
 using Defects = std::array<uint32_t, kDefects>;
@@ -54,22 +55,22 @@ struct PartMeasures : PartSums {
 
 /// The topology of a body. The copies that splitCreases() made of a vertex (mesh/split_creases.h) count as one vertex.
 struct BodyTopology {
-  uint32_t vertices = 0, edges = 0, triangles = 0;  ///< counted over triangles that are neither excluded nor degenerate
-  std::array<uint32_t, 6> border_edges{};           ///< edges of one triangle in a face of the chunk, by Face
-  uint32_t compared = 0;                            ///< vertices that were compared with samples' signs
+  uint32_t vertices = 0, edges = 0, triangles = 0;  ///< counts without excluded and degenerate triangles
+  std::array<uint32_t, 6> border_edges{};           ///< edges of only one triangle in a face of the chunk, by Face
+  uint32_t compared = 0;                            ///< number of vertices that were compared with the signs of samples
   friend bool operator==(const BodyTopology&, const BodyTopology&) = default;
   int64_t euler() const { return int64_t{vertices} - edges + triangles; }
 };
 
 struct ChunkMeasures {
-  std::array<PartMeasures, 7> parts{};  ///< the body, then the seams by Face; zero if absent
+  std::array<PartMeasures, 7> parts{};  ///< measures of the body, then of the seams by Face; all 0 if absent
   BodyTopology topology;
   friend bool operator==(const ChunkMeasures&, const ChunkMeasures&) = default;
 };
 
-/// Sums over chunks of one or several levels.
+/// Sums of the measures of chunks, of one or several levels.
 struct SurfaceSums {
-  uint64_t bodies = 0, seams = 0;  ///< number of bodies and seams that have triangles
+  uint64_t bodies = 0, seams = 0;  ///< number of bodies and of seams that have triangles
   uint64_t triangles = 0, bytes = 0;
   uint64_t slivers = 0, against_gradient = 0, border_edges = 0, compared = 0;
   std::array<uint64_t, kDefects> defects{};

@@ -46,12 +46,12 @@ class StarCounter {
   static constexpr uint64_t kNobody = UINT64_MAX;
   /// Packs an entry of StarScratch::seen.
   static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
-  /// An edge from the current vertex; the edges are the nodes of the vertex's link.
+  /// An edge from the current vertex: a node in the graph of the vertex's link.
   struct Node {
     uint32_t vertex, parent, out, in;
   };
 
-  /// Groups corners by their vertex; within a group, in the order of triangles.
+  /// Groups the corners of all triangles by vertex; each group keeps the order of the triangles.
   void sortCorners(std::span<const uint32_t> indices) {
     for (const uint32_t v : indices) ++first_[v];
     uint32_t sum = 0;
@@ -65,7 +65,8 @@ class StarCounter {
     }
   }
 
-  /// Records the next vertex of each corner of a star; returns true if no vertex occurs twice.
+  /// Records the next vertex of each corner of a star (the triangles around v); returns true if no next vertex occurs
+  /// twice.
   bool meet(uint32_t v, std::span<const Corner> star) {
     bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
@@ -109,7 +110,7 @@ class StarCounter {
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
     }
-    // A walk that reaches its end has visited no vertex twice.
+    // The last corner leads to no other corner, so the walk has visited no corner twice.
     if (seen_[star[at].previous()] >> 32 == v) return false;
     for (const uint32_t end : {star[start].next(), star[at].previous()}) {
       if (end > v) countOpen(v, end);
@@ -124,7 +125,7 @@ class StarCounter {
 
   uint32_t nodeOf(uint32_t v, uint32_t other) {
     uint64_t& seen = seen_[other];
-    const uint32_t mark = v | uint32_t{1} << 31;  // the high bit tells these marks apart from those of isCycle
+    const uint32_t mark = v | uint32_t{1} << 31;  // the high bit tells these marks apart from those of meet()
     if (seen >> 32 != mark) {
       const auto place = static_cast<uint32_t>(nodes_.size());
       seen = seenBy(mark, place);
@@ -133,7 +134,7 @@ class StarCounter {
     return static_cast<uint32_t>(seen);
   }
 
-  /// Counts the defects of any star; returns the number of its edges.
+  /// Counts the defects of a star of any shape; returns the number of edges at v.
   size_t countStar(uint32_t v, std::span<const Corner> star) {
     nodes_.clear();
     opposite_.clear();

@@ -22,7 +22,8 @@ struct Lattice {
   double z(size_t k) const { return first.z + static_cast<double>(k) * edge; }
 };
 
-/// A point where a column crosses the surface: in upward direction it enters (turn 1) or leaves (-1) the solid.
+/// A point where a column crosses the surface. Walking upwards, the column enters the solid there (turn 1) or leaves it
+/// (turn -1).
 struct Crossing {
   uint64_t column;
   double z;
@@ -32,8 +33,8 @@ struct Crossing {
   }
 };
 
-/// Returns the first and the last sample within a range of coordinates; if there is none, the last comes before the
-/// first.
+/// Returns the first and the last sample of a range that includes all samples with coordinates between `low` and
+/// `high`.
 std::pair<size_t, size_t> samplesIn(double low, double high, double first, double edge, size_t count) {
   const double last = static_cast<double>(count - 1);
   const double a = std::clamp(std::floor((low - first) / edge), 0.0, last);
@@ -54,8 +55,8 @@ void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, LargeVec
       const int turn = turnOver(t, x, y);
       if (turn == 0) continue;
       const double z = t[0].z - (normal.x * (x - t[0].x) + normal.y * (y - t[0].y)) / normal.z;
-      // In upward direction, a triangle that faces up is where the column leaves the solid. Nearly vertical triangles
-      // may give any z or NaN, so z is clamped to the triangle.
+      // Walking upwards, the column leaves the solid at a triangle that faces up. Nearly vertical triangles may give
+      // any z or NaN, so z is clamped to the triangle.
       crossings.push_back({i + lattice.nx * j, z > low_z ? std::min(z, high_z) : low_z, -turn});
     }
   }

@@ -11,22 +11,22 @@ namespace sgm::measure {
 /// Counts of the cubes of one edge length in a box. Equation 8 multiplies a count by edge^3.
 struct CubeVolumes {
   double edge = 0;      ///< edge of the cubes in the mesh's unit; C_E = 1 / LD in the paper
-  uint64_t all = 0;     ///< cubes with all eight corners inside: misses about half of the cubes that the surface cuts
-  uint64_t any = 0;     ///< cubes with at least one corner inside: about as many too many
+  uint64_t all = 0;     ///< cubes with all eight corners inside; volume too small by about half of the cut cubes
+  uint64_t any = 0;     ///< cubes with at least one corner inside; volume too large by about half of the cut cubes
   uint64_t centre = 0;  ///< cubes whose centre is inside
   double volumeOf(uint64_t cubes) const { return static_cast<double>(cubes) * edge * edge * edge; }
 };
 
 inline constexpr uint64_t kMaxCubes = uint64_t{1} << 30;
-/// The maximum number of columns of cubes that are visited, summed over triangles. Only a densely folded surface needs
-/// more.
+/// The maximum number of visits of columns of cubes, summed over triangles: each triangle visits the columns that it
+/// lies over. Only a densely folded surface needs more.
 inline constexpr uint64_t kMaxLooks = uint64_t{1} << 27;
 
 /// Counts cubes. They lie on a grid that starts `edge` before `low` and ends `edge` after `high`. A point is inside if
-/// the surface winds around it more often outward than inward, which is found along z; for an open mesh, the result
-/// means little. Precondition: the coordinates lie within low..high. Memory: a bit per cube, at least 8 bytes per
-/// column of cubes, 24 bytes per crossing of a column and a triangle. Errors: invalid_argument if edge is not above 0;
-/// limit if there are more than kMaxCubes cubes (columns of less than 64 count as 64) or kMaxLooks visits.
+/// the winding number of the surface around it is above 0. The number is computed along z, and means little for an open
+/// mesh. Precondition: the coordinates lie within low..high. Memory: a bit per cube, at least 8 bytes per column of
+/// cubes, 24 bytes per crossing of a column and a triangle. Errors: invalid_argument if edge is not above 0; limit if
+/// there are more than kMaxCubes cubes (columns of less than 64 count as 64) or kMaxLooks visits.
 Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, double edge);
 
 }  // namespace sgm::measure

@@ -12,7 +12,7 @@
 namespace sgm::measure {
 
 enum class DefectKind {
-  open_edge,         ///< an edge of only one triangle that does not lie in the cut
+  open_edge,         ///< an edge of only one triangle that does not lie in a face of the cutting box (Cut)
   turned_edge,       ///< a misoriented edge: two triangles use it in the same direction
   nonmanifold_edge,  ///< an edge of three triangles or more
   pinched_vertex,    ///< a non-manifold vertex, where several fans meet
@@ -20,9 +20,9 @@ enum class DefectKind {
   flat,              ///< a triangle whose corners lie on a line
   duplicate,         ///< a triangle that occurs twice
   inside_out,        ///< a closed shell that faces inward without being a cavity
-  nested,            ///< a closed shell inside the solid of another
-  folded,            ///< two triangles that overlap at an edge
-  self_intersection  ///< two triangles that intersect elsewhere
+  nested,            ///< a closed shell inside the solid of another shell
+  folded,            ///< two triangles that overlap at a common edge
+  self_intersection  ///< two triangles that intersect or touch elsewhere
 };
 
 /// Returns the name of a kind in the output of --json and in the service.
@@ -42,12 +42,12 @@ struct Cut {
   bool holds(Point a, Point b) const;
 };
 
-/// The number of open edges that lie in the cut.
+/// Returns the number of open edges that lie in a face of the cutting box.
 uint64_t cutEdges(const Triangles& mesh, const Edges& edges, const Cut& cut);
 
-/// Returns at most kMaxExamples defects of each kind: those of the lowest edges, triangles or shells. edges, parts,
-/// nesting: computed from this mesh. self_intersections: null if they were not searched. Takes time linear in the size
-/// of the mesh.
+/// Returns at most kMaxExamples defects of each kind: those of the edges, triangles or shells with the lowest numbers.
+/// edges, parts, nesting: computed from this mesh. self_intersections: null if they were not searched. Takes time
+/// linear in the size of the mesh.
 std::vector<DefectPlace> defectPlaces(const Triangles& mesh, const Edges& edges, const Shells& parts,
                                       const Nesting& nesting, const SelfIntersections* self_intersections,
                                       const Cut* cut);

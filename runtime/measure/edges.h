@@ -33,7 +33,7 @@ class Edges {
 
  private:
   LargeVector<HalfEdge> halves_;
-  LargeVector<uint32_t> start_;  ///< start of each edge's group, and the end of the last one
+  LargeVector<uint32_t> start_;  ///< start of each edge's group in halves_, and the end of the last group
 };
 
 }  // namespace sgm::measure

@@ -14,17 +14,17 @@ namespace sgm::measure {
 namespace {
 
 constexpr uint32_t kMaxCuts = 64;
-// Sizes of one job. They are fixed, so that results do not depend on the number of threads, and small, since one search
-// may visit much of the other surface if all of it is equally far.
-constexpr size_t kSampledTogether = 128;  // triangles, or points, per job
-constexpr size_t kRefinedTogether = 64;   // parts per job
+// Sizes of one job. They are fixed, so that results do not depend on the number of threads. They are small, because one
+// search may visit much of the other surface if all of it is about equally far away.
+constexpr size_t kSampledTogether = 128;  // number of triangles, or points, per job
+constexpr size_t kRefinedTogether = 64;   // number of parts per job
 
 using Part = std::array<Point, 3>;
 
 Point middleOf(const Part& part) { return (1.0 / 3) * (part[0] + part[1] + part[2]); }
 
-/// Returns part `number` of the cuts^2 equal parts of a triangle, counted row by row from the side opposite to its
-/// first corner.
+/// Returns part `number` of the cuts^2 equal parts of a triangle, counted row by row from the side between its first
+/// and third corners.
 Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   const auto at = [&](uint32_t i, uint32_t j) {
     const double u = static_cast<double>(i) / cuts, v = static_cast<double>(j) / cuts;
@@ -37,7 +37,7 @@ Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
   return {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
 }
 
-/// Measures distances from points of one surface to the other.
+/// Measures distances from points to the surface `to`.
 class Distances {
  public:
   Distances(const Triangles& to, JobSystem& jobs) : to_(to), tree_(to, jobs) {}
@@ -53,8 +53,8 @@ class Distances {
     return std::min(of_middle.distance + reach, atMost(part, of_middle.triangle));
   }
 
-  /// Returns another upper bound, from any triangle of the other surface: the distance to it is convex, and so largest
-  /// at a corner of the part.
+  /// Returns an upper bound of the distance for all points of a part, given any triangle of the other surface: the
+  /// distance to that triangle is convex, and so largest at a corner of the part.
   double atMost(const Part& part, uint32_t triangle) const {
     const Triangle& t = to_.triangles[triangle];
     const Part corners{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
@@ -68,7 +68,7 @@ class Distances {
   Bvh tree_;
 };
 
-/// The result of one job.
+/// The result of one job: the farthest point, and the sums for the mean and the root mean square.
 struct Found {
   double at_least = -1;
   Point farthest;
@@ -81,7 +81,7 @@ struct Found {
   }
 };
 
-/// A part that may contain the farthest point.
+/// A part that may contain the point farthest from the other surface.
 struct Candidate {
   double at_most = 0;
   Part part;

@@ -8,7 +8,7 @@
 namespace sgm::measure {
 
 struct HausdorffSettings {
-  /// Each triangle is divided into cuts^2 equal parts, which are sampled at their middles. 1..64
+  /// Each triangle is divided into cuts^2 equal parts, each of which is sampled at its middle. 1..64
   uint32_t cuts = 2;
   /// The search for the farthest point ends when the bounds of its distance are this close, in the mesh's unit. >= 0
   double tolerance = 0;
@@ -23,12 +23,12 @@ struct OneSided {
   /// Bounds of the largest distance: at_least was found at a point; at_most is not exceeded by any point, up to
   /// rounding.
   double at_least = 0, at_most = 0;
-  double mean = 0, rms = 0;  ///< weighted by area, from the samples at the middles
+  double mean = 0, rms = 0;  ///< mean and root mean square of the samples at middles, weighted by area
   Point farthest;            ///< the point at distance at_least
 };
 
 struct Hausdorff {
-  OneSided there, back;  ///< from the first surface to the second, and from the second to the first
+  OneSided there, back;  ///< from the first surface to the second, and in the opposite direction
 
   double atLeast() const { return there.at_least > back.at_least ? there.at_least : back.at_least; }
   double atMost() const { return there.at_most > back.at_most ? there.at_most : back.at_most; }

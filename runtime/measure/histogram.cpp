@@ -12,14 +12,15 @@ namespace sgm::measure {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// The largest |v| that equation 13 gives.
+/// The largest |v| that equation 13 of the paper gives.
 constexpr double kPrintedReach = kPi / (2 * (kPi + 1));
 
 struct Bend {
-  double angle = 0, edge = 0;  ///< angle: d in radians; edge: its length |e|
+  double angle = 0, edge = 0;  ///< angle: d (see histogram.h) in radians; edge: length |e|
 };
 
-/// Returns nullopt if the edge has no length, or a normal is invalid.
+/// Returns the angle and length of the edge from v1 to v2 with the normals n1 and n2 at its ends; nullopt if the edge
+/// has no length, or a normal is invalid.
 std::optional<Bend> bendOf(Point v1, Point v2, Point n1, Point n2) {
   const Point e = v2 - v1;
   const double edge = length(e), l1 = length(n1), l2 = length(n2);
@@ -28,7 +29,7 @@ std::optional<Bend> bendOf(Point v1, Point v2, Point n1, Point n2) {
   return Bend{angle(n2, l2) - angle(n1, l1), edge};
 }
 
-/// Returns v by equation 13 or, in the other modes, by the formulas in histogram.h.
+/// Returns v by equation 13 of the paper in mode `printed`, otherwise by the formulas in histogram.h.
 double valueOf(const Bend& bend, const HistogramSettings& settings) {
   switch (settings.mode) {
     case HistogramMode::printed:
@@ -117,7 +118,7 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
       c.flat += std::fabs(bend->angle) <= kFlatAngle;
       c.convex += bend->angle < -kFlatAngle;
       c.concave += bend->angle > kFlatAngle;
-      // Equation 14. At the upper end of the range, v R equals R, which belongs to the last bin.
+      // Equation 14 of the paper. At the upper end of the range, v R equals R, which belongs to the last bin.
       const auto bin = static_cast<int32_t>(std::floor(valueOf(*bend, settings) * bins)) + 1;
       ++c.bins[static_cast<size_t>(std::clamp(bin, result.first_bin, last_bin) - result.first_bin)];
     }

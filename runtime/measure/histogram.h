@@ -19,7 +19,7 @@ namespace sgm::measure {
 
 enum class HistogramMode {
   /// As printed: d = a2 - a1 with the given normals, v = d / (2 (pi + 1)) from -0.38 to 0.38, bin floor(v R) + 1, which
-  /// is not positive about half of the time.
+  /// is 0 or less for about half of the edges.
   printed,
   /// v = 1/2 - d / (2 pi), from 0 to 1: flat at 1/2, more where convex; bin min(floor(v R), R - 1) + 1.
   corrected,

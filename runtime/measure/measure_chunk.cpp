@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
 constexpr size_t kSide = kChunkSamples;
-// higher bits of MeasureScratch::planes: the vertex is excluded; it is a feature vertex
+// higher bits of MeasureScratch::planes. kLeftOut: the vertex is excluded; kIsFeature: it is a feature vertex
 constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;
 
 bool isWithin(const Vertex& v, int lo, int hi) {
@@ -26,8 +26,8 @@ uint8_t planesOfEdge(const Vertex& v) {
                               (v.z == kEnd) << 5);
 }
 
-/// Returns the border plane of the chunk that contains the face of a face vertex; the vertex itself may be off the
-/// plane.
+/// Returns the border plane of the chunk in which the cell face of a face vertex (a feature vertex on a cell face)
+/// lies, as one bit (1 << Face); 0 if there is none. The vertex itself may be off the plane.
 uint8_t planesOfFeature(const Vertex& v) {
   if ((v.kind & kFeatureOfCell) != 0) return 0;
   const int axis = v.kind >> 6 & 3, at = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -121,7 +121,7 @@ class BodyMeasurer {
   }
 
   bool isOnCrossed(const SampleEdge& edge) const {
-    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced vertex, on a corner of the chunk
+    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced vertex, on a sample in the upper face
     const auto row = static_cast<size_t>(edge.y) + kSide * static_cast<size_t>(edge.z);
     const uint64_t from = signs_[row] >> edge.x;
     const uint64_t to = edge.axis == 0   ? from >> 1
@@ -138,14 +138,14 @@ class BodyMeasurer {
       ++topology_.compared;
     }
     for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
-    // Each crossed edge has one vertex; a second one on the same edge counts as misplaced.
+    // Each crossed edge has one vertex; a second vertex on the same edge was counted as misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
     scratch_.corners.resize(3 * size_t{part_.triangles});
-    // Sums go to a local variable: it cannot alias the data that is read, so that the compiler holds it in registers.
+    // Sums go to a local variable: it cannot alias the data that is read, so the compiler keeps it in registers.
     TermSums sums;
     uint32_t against = 0, flat = 0, degenerate = 0;
     uint32_t* kept = indices_.data();
@@ -216,7 +216,7 @@ class BodyMeasurer {
     size_t kept = 0;
     for (size_t at = 0; at < indices_.size(); at += 3) {
       const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      // A triangle whose joined corners coincide is left out: it was counted as degenerate.
+      // A triangle whose corners coincide after joining is dropped: it was counted as degenerate before.
       if (a == b || b == c || c == a) continue;
       indices_[kept++] = a;
       indices_[kept++] = b;

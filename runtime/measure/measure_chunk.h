@@ -22,15 +22,17 @@ struct PartView {
 inline PartView viewOf(const MeshPart& part) { return {part.vertices, part.indices}; }
 PartView viewOf(const PackedMesh& mesh, size_t part);
 
-/// Memory that is reused for several chunks: about 80 bytes per triangle of the largest one. Not thread-safe.
+/// Working memory of measureBody(), reused for several chunks: about 80 bytes per triangle of the largest body. Not
+/// thread-safe.
 struct MeasureScratch {
   StarScratch stars;
-  /// by vertex: bit (1 << Face) for border planes; higher bits are marks of the measurer
+  /// by vertex: bit (1 << Face) is set if the vertex lies in that border plane; the higher bits are for internal use
   std::pmr::vector<uint8_t> planes;
   std::pmr::vector<PackedDirection> directions;  ///< unpacked normal of each vertex
   std::pmr::vector<uint32_t> indices;            ///< corners of the triangles that are not excluded
-  std::pmr::vector<uint32_t> first, table;       ///< hash table of feature vertices, to count copies as one vertex
-  std::pmr::vector<PairCorner> corners;          ///< three per triangle with an area
+  std::pmr::vector<uint32_t> first, table;       ///< `first`: first copy of each vertex; `table`: hash table to find
+                                                 ///< copies
+  std::pmr::vector<PairCorner> corners;          ///< corners of the triangles that have an area, three per triangle
   PairScratch pairs;
 
   explicit MeasureScratch(std::pmr::memory_resource* memory)

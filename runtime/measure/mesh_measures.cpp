@@ -14,7 +14,8 @@ bool measurable(Point p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
 
-/// Counts the triangles with a corner that cannot be measured. If there are any, returns all others; otherwise nothing.
+/// Counts the triangles with a corner that cannot be measured. If there are any, returns all other triangles; otherwise
+/// returns an empty vector.
 LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint8_t> used(mesh.points.size(), mesh.memory);
   const auto good = [&](const Triangle& t) {

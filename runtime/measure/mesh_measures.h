@@ -19,8 +19,8 @@ struct MeshSettings {
   double weld = 0;  ///< tolerance of weldPoints(), in the mesh's unit
   HistogramSettings histogram;
   bool self_intersections = true;
-  /// The effort per triangle, in steps of the searches, which is exhausted only by geometry that lies close together or
-  /// stacked. If a mesh needs more, MeshMeasures::complete() is false.
+  /// The maximum number of search steps per triangle. If a mesh needs more, because many triangles lie close together
+  /// or stacked, MeshMeasures::complete() is false.
   uint64_t steps_a_triangle = 5000;
   std::optional<double> cubes;  ///< edge of the cubes for cubeVolumes(); nullopt: cubes are not counted
   std::optional<Cut> cut;       ///< the cutting box, if the mesh was cut from a larger one
@@ -28,7 +28,7 @@ struct MeshSettings {
 };
 
 struct MeshMeasures {
-  size_t points = 0, triangles = 0;  ///< as given, before welding
+  size_t points = 0, triangles = 0;  ///< numbers in the given mesh, before welding
   size_t unused_points = 0;          ///< points that no triangle uses
   size_t welded_points = 0;          ///< points merged into others
   /// triangles with a corner that is NaN or beyond kFarthest; excluded from everything below
@@ -45,12 +45,12 @@ struct MeshMeasures {
   std::optional<SelfIntersections> self_intersections;
   Histogram histogram;
   std::optional<CubeVolumes> cubes;
-  uint64_t cut_edges = 0;           ///< the open edges among identity.open_edges that lie in MeshSettings::cut
+  uint64_t cut_edges = 0;           ///< number of open edges in a face of the cutting box (MeshSettings::cut)
   std::vector<DefectPlace> places;  ///< examples of defects, by kind
 
   size_t withoutArea() const { return identity.degenerate_triangles + flat_triangles; }
   int64_t euler() const;                  ///< Euler characteristic, summed over shells
-  std::optional<uint64_t> genus() const;  ///< summed over shells; nullopt if the genus of a shell is undefined
+  std::optional<uint64_t> genus() const;  ///< genus, summed over shells; nullopt if the genus of a shell is undefined
   /// True if every edge has two triangles that use it in opposite directions, every vertex has one fan, and no triangle
   /// occurs twice or has a repeated corner. Also true for a mesh without triangles.
   bool watertight() const { return identity.closed() && non_finite == 0; }
@@ -58,7 +58,7 @@ struct MeshMeasures {
   /// triangles that have no area or that intersect (if that was requested), and completely examined. Also true for a
   /// mesh without triangles.
   bool valid() const;
-  /// True if the mesh is valid except for open edges in the cut. True if valid().
+  /// True if the mesh is valid except for open edges in the faces of the cutting box. True if valid().
   bool validButForCut() const;
   /// True if the volume counts some parts several times, or with the wrong sign.
   bool overlaps() const {

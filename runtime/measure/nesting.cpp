@@ -12,7 +12,8 @@ namespace {
 
 /// True if the shell has an inside: only such shells can surround a point with solid.
 bool bounds(const Shell& shell) { return shell.closed() && shell.manifold; }
-/// True if a cut may have opened the shell, so that it has an inside within the mesh.
+/// True if the shell is open and manifold: a cut may have opened it, so that it separates solid from void within the
+/// cutting box.
 bool boundsUpToCut(const Shell& shell) { return !shell.closed() && shell.manifold; }
 
 /// Returns the z at which a triangle crosses the vertical line through a point.
@@ -31,8 +32,9 @@ Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], 
 
 constexpr int kColumns = 6;
 
-/// Finds the nearest open shell above a point. If there is none, or it only touches the line, searches below, then
-/// along the other axes. nullopt if one of these searches exceeds max_steps nodes of the tree.
+/// Finds the nearest open shell above a point, and returns on which side of it the point lies. If there is no open
+/// shell above, or the line only touches it, searches below the point, then along the other axes. nullopt if one of
+/// these searches would visit more than max_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t max_steps) {
   for (int number = 0; number < kColumns; ++number) {
@@ -40,7 +42,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
     const int away = column.above ? 1 : -1;
     const Point place = turned(at, column.axis);
     double nearest = std::numeric_limits<double>::infinity();
-    // number of triangles at the nearest crossing that face away from the point, minus those that face it
+    // at the nearest crossing: triangles that face away from the point minus those that face it
     int facing = 0;
     const bool ended = tree.visitColumn(at, column, max_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
@@ -64,7 +66,7 @@ std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const
 
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
                            uint64_t max_steps) {
-  // In upward direction, empty space follows at the end, so each triangle that faces up is where a solid ends.
+  // Far above, there is only empty space. So each triangle above the point that faces up is the upper end of a solid.
   int depth = 0;
   const bool ended = tree.visitColumn(at, {}, max_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
@@ -82,7 +84,7 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? max_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
-  // Without an open shell, all shells lie in the same space. If a shell faces outward, that space is void.
+  // If no shell is open, the space around all shells is the same. It is void if one of the shells faces outward.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
                        std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);
@@ -95,8 +97,8 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
       const Point at = mesh.points[mesh.triangles[shell.first][0]];
       std::optional<int> depth = shells > 1 ? depthAt(mesh, tree, parts, static_cast<uint32_t>(s), at, share) : 0;
       if (is_cut && depth) {
-        // The first corner is not used, because corners of meshes on a grid often lie above others, which the middle of
-        // a triangle does not.
+        // The search starts at the middle of a triangle. Its first corner would be unsuitable: in meshes on a grid,
+        // corners often lie exactly above other corners.
         const Triangle& corners = mesh.triangles[shell.first];
         const Point middle = (1.0 / 3) * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]]);
         const std::optional<BesideCut> beside = besideCut(mesh, tree, parts, middle, share);

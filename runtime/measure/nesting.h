@@ -18,7 +18,7 @@ struct Nesting {
   uint64_t nested = 0;      ///< shells that face outward and lie in a solid, so that the volume inside counts twice
   /// indices of the first such shells, at most kMaxExamples of each kind
   std::vector<uint32_t> first_inside_out, first_nested;
-  /// shells whose search exceeded its steps, because too many triangles lie above them
+  /// shells that were not classified, because too many triangles lie above them
   uint64_t not_judged = 0;
 };
 

@@ -15,11 +15,11 @@ namespace sgm::measure {
 inline constexpr uint64_t kStepsAPair = 16;
 
 struct SelfIntersections {
-  uint64_t pairs = 0;   ///< number of pairs of triangles that meetWrongly(); a lower bound if not complete
-  uint64_t folded = 0;  ///< the pairs among these that overlap at an edge
+  uint64_t pairs = 0;   ///< number of pairs of triangles that fold or cut; a lower bound if not complete
+  uint64_t folded = 0;  ///< number of these pairs that fold, that is, overlap at an edge
   /// False if the search stopped after its maximum number of steps, because too many triangles lie close together.
   bool complete = true;
-  /// Pairs of triangles, the lower number first: at most kMaxExamples that fold, and as many that cut.
+  /// Examples of pairs, the lower number first: at most kMaxExamples that fold, and at most as many that cut.
   std::vector<std::pair<uint32_t, uint32_t>> folded_examples, examples;
 
   uint64_t cuts() const { return pairs - folded; }

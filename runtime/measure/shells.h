@@ -14,8 +14,8 @@ namespace sgm::measure {
 struct Shell {
   uint64_t triangles = 0;
   uint64_t edges = 0;
-  uint64_t vertices = 0;      ///< counted once per fan and per shell
-  uint64_t border_edges = 0;  ///< edges of one triangle
+  uint64_t vertices = 0;      ///< number of vertices; a vertex counts once for each of its fans in this shell
+  uint64_t border_edges = 0;  ///< edges of only one triangle
   uint64_t borders = 0;       ///< closed loops of border edges
   uint32_t first = 0;         ///< lowest triangle number of the shell
   /// True if every edge has one triangle, or two that use it in opposite directions, and if no two fans share a vertex,

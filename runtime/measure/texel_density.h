@@ -13,10 +13,10 @@ namespace sgm::measure {
 struct TexelDensities {
   uint64_t triangles = 0;     ///< triangles that have a density
   uint64_t without_area = 0;  ///< triangles without area on the surface: excluded
-  uint64_t unmapped = 0;      ///< triangles that the texture maps from a point or a line, without area: excluded
+  uint64_t unmapped = 0;      ///< triangles without area in texture coordinates: excluded
   double least = 0, p5 = 0, median = 0, p95 = 0, most = 0;
 
-  /// The unevenness: the density of the densest triangle divided by that of the coarsest. 1 if even, 0 without
+  /// The unevenness: the density of the densest triangle divided by that of the least dense one. 1 if even, 0 without
   /// triangles.
   double ratio() const { return least > 0 ? most / least : 0; }
 };

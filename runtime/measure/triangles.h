@@ -13,18 +13,18 @@ namespace sgm::measure {
 using asset::Point;
 using Triangle = std::array<uint32_t, 3>;  ///< indices of its corners, counter-clockwise seen from outside
 
-/// Lengths are in any unit that the caller chooses; areas are in its square, volumes in its cube. Precondition: every
-/// index is below points.size(). measureMesh() accepts any coordinates, including infinity and NaN; all other functions
-/// require that none exceeds kFarthest.
+/// A triangle mesh. Lengths are in any unit that the caller chooses; areas are in its square, volumes in its cube.
+/// Precondition: every index is below points.size(). measureMesh() accepts any coordinates, including infinity and NaN;
+/// all other functions require that none exceeds kFarthest.
 struct Triangles {
   std::span<const Point> points;
   std::span<const Triangle> triangles;
-  /// Used for results and all other data that grows with the mesh, from any thread; must outlive the results.
+  /// Allocates the results and all other data that grows with the mesh. Used from any thread; must outlive the results.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
 };
 
-/// The maximum magnitude of coordinates. Products of larger ones exceed the range of a double, and larger ones that of
-/// a float.
+/// The maximum magnitude of coordinates. Up to it, coordinates fit into a float (Bvh::Box), and their products into a
+/// double.
 inline constexpr double kFarthest = 1e37;
 
 /// The number of triangles per job. Sums are computed per block and added in the order of blocks, so that their last

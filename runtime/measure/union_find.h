@@ -9,7 +9,7 @@
 
 namespace sgm::measure {
 
-/// The root of a group is its lowest member.
+/// Groups of connected elements. The root of a group is its lowest member.
 class UnionFind {
  public:
   UnionFind(size_t count, std::pmr::memory_resource* memory) : parent_(count, memory) {

@@ -47,7 +47,7 @@ Cell bitsOf(Point p) {
   return {std::bit_cast<uint64_t>(p.x + 0.0), std::bit_cast<uint64_t>(p.y + 0.0), std::bit_cast<uint64_t>(p.z + 0.0)};
 }
 
-/// Returns the cell that contains a point, in a grid with that edge.
+/// Returns the cell that contains a point, in a grid with this edge length.
 Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)}; }
 
 class Welder {
@@ -93,13 +93,14 @@ class Welder {
   double tolerance_;
   Cells cells_;
   LargeVector<Point> kept_;
-  LargeVector<uint32_t> next_;  ///< the next kept point of the same cell; only used with a tolerance
+  LargeVector<uint32_t> next_;  ///< by kept point: the next kept point of the same cell; empty without a tolerance
 };
 
 }  // namespace
 
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
-  // If no representable number lies within the tolerance of the farthest point, only equal coordinates can be near.
+  // A tolerance below the rounding error of the farthest point counts as 0, because cells of that size could not be
+  // told apart there.
   double farthest = 0;
   for (const Point& p : mesh.points) {
     for (const double v : {p.x, p.y, p.z})

@@ -14,7 +14,8 @@
 namespace sgm {
 namespace {
 
-/// The diagonal of a face is divided into this number of equal pieces, at whose ends the field is sampled.
+/// The number of equal pieces into which the diagonal of a cell face is divided. The field is sampled at the points
+/// between the pieces.
 constexpr int32_t kPieces = 16;
 
 class Joiner {
@@ -50,7 +51,7 @@ class Joiner {
     return corner;
   }
 
-  /// The ambiguous faces within the chunk that a crease passes through, sorted by name.
+  /// Returns the ambiguous faces within the chunk that a crease passes through, sorted by FaceName.
   std::pmr::vector<AmbiguousFace> ambiguousFaces() const {
     std::pmr::vector<AmbiguousFace> faces(memory_);
     for (const SurfaceLoop& loop : loops_.body().all()) {
@@ -67,8 +68,9 @@ class Joiner {
     return faces;
   }
 
-  /// Returns the face that contains the side from a to b of a loop, if another side of the same cell lies in it, too;
-  /// this makes the face ambiguous. Otherwise nullopt.
+  /// Returns the cell face that contains the segment of a loop from vertex a to vertex b, if the face is ambiguous: a
+  /// second segment of the cell's loops lies in it, too. nullopt if the face is not ambiguous, or lies in a face of the
+  /// chunk.
   std::optional<AmbiguousFace> ambiguousFace(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
     const FaceName name = loops_.faceOf(loop, a, b);
     if (isInBorder(name)) return std::nullopt;
@@ -77,13 +79,15 @@ class Joiner {
       if (c == a || sharedFace(body_.keys[c], body_.keys[d]) != name.axis || loops_.faceOf(beside, c, d) != name)
         return;
       face = AmbiguousFace{name, {cornerBetween(a, b), cornerBetween(c, d)}};
-      // The order of the two solid corners must not depend on the side or the cell from which the face was found.
+      // The two solid corners are sorted, so that their order does not depend on the loop side or cell from which the
+      // face was found.
       if (isBefore(face->solid[1], face->solid[0])) std::swap(face->solid[0], face->solid[1]);
     });
     return face;
   }
 
-  /// Returns those of the faces whose two solid corners can be joined by a straight line within the solid.
+  /// Returns the ambiguous faces whose two solid corners the field joins: all samples on the diagonal between these
+  /// corners are solid.
   std::pmr::vector<AmbiguousFace> joinedByField(std::pmr::vector<AmbiguousFace>&& faces,
                                                 const FieldSampler& field) const {
     std::pmr::vector<Int3> points(memory_);
@@ -117,8 +121,9 @@ class Joiner {
     return at != border_.end() && !(side < *at) && !at->places.empty() ? &*at : nullptr;
   }
 
-  /// Returns the triangles of a rounded loop (mesh/sharp_loops.h): its own, or a fan with its face vertices in the
-  /// chunk's faces.
+  /// Returns the triangles of a loop as a rounded loop, that is, without sharp features inside the chunk
+  /// (mesh/sharp_loops.h): a fan if the loop has face vertices in a face of the chunk, otherwise the triangles that
+  /// marching cubes makes for the loop.
   LoopTriangles roundedTriangles(const Int3& cell, const CellLoop& loop) const {
     std::array<FanPoint, kLongestBodyLoop*(1 + FacePlaces::kMost)> ring;
     std::array<BorderVertex, kLongestBodyLoop * FacePlaces::kMost> at_border;
@@ -152,7 +157,7 @@ class Joiner {
     return made;
   }
 
-  /// Finds the cells whose loops have face vertices in a face of the chunk.
+  /// Finds the cells with a loop that has face vertices (mesh/sharp_loops.h) in a face of the chunk.
   void findBorderCells() {
     for (const SurfaceLoop& loop : loops_.body().all()) {
       if (!isAtBorder(loop.cell)) continue;
@@ -168,14 +173,14 @@ class Joiner {
   static bool isAtBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) == 0 || std::max({cell.x, cell.y, cell.z}) == kChunkCells - 1;
   }
-  /// True if a cell or one adjacent to it may touch a face of the chunk.
+  /// True if a cell, or a cell adjacent to it, may touch a face of the chunk.
   static bool isNearBorder(const Int3& cell) {
     return std::min({cell.x, cell.y, cell.z}) <= 1 || std::max({cell.x, cell.y, cell.z}) >= kChunkCells - 2;
   }
   bool hasBorderVertices(const Int3& cell) const {
     return isAtBorder(cell) && std::binary_search(border_cells_.begin(), border_cells_.end(), cell, isBefore);
   }
-  /// Calls visit for all cells that are at most two cells away on each axis.
+  /// Calls visit for all other cells of the chunk that are at most two cells away from `cell` on each axis.
   template <class Visit>
   static void visitAround(const Int3& cell, const Visit& visit) {
     for (int32_t z = std::max(cell.z - 2, 0); z <= std::min(cell.z + 2, kChunkCells - 1); ++z)
@@ -184,8 +189,8 @@ class Joiner {
           if (const Int3 other{x, y, z}; !(other == cell)) visit(other);
   }
 
-  /// True if the loops of a cell can be triangulated without intersections. The loops that marching cubes made always
-  /// can.
+  /// True if the triangles of a cell's loops intersect neither each other nor those of the cells around it. A cell
+  /// without a joined ambiguous face needs no test: the loops of marching cubes never intersect.
   bool isSound(const Int3& cell) const {
     if (!loops_.isJoinedAt(cell)) return true;
     const CellLoops of_cell = loops_.loopsOf(cell);
@@ -200,9 +205,9 @@ class Joiner {
     return isClearOfOthers(cell, of_cell, made);
   }
 
-  /// True if the loops of a cell do not intersect those of the cells around it. Face vertices in the chunk's face may
-  /// lie in the next cell. So a loop that has them may meet the loops of all adjacent cells, and loops that also have
-  /// them two cells away.
+  /// True if the loops of a cell do not intersect those of the cells around it. Only loops with face vertices in a face
+  /// of the chunk need a test, because these vertices may lie in the next cell. Such a loop may meet any loop of an
+  /// adjacent cell, and, two cells away, loops that have such face vertices, too.
   bool isClearOfOthers(const Int3& cell, const CellLoops& of_cell, std::span<const LoopTriangles> made) const {
     if (border_cells_.empty() || !isNearBorder(cell)) return true;
     const bool has_own = hasBorderVertices(cell);
@@ -214,7 +219,7 @@ class Joiner {
       if (!is_clear || !(is_beside ? has_own || has_others : has_own && has_others)) return;
       const CellLoops others = loops_.loopsOf(other);
       for (const CellLoop& loop : others.loops()) {
-        // A loop that cannot be triangulated is found when its own cell is tested.
+        // A loop without a valid triangulation is detected when isSound() tests its own cell.
         if (!loop.canTriangulate()) continue;
         const LoopTriangles theirs = roundedTriangles(other, loop);
         for (size_t i = 0; i < of_cell.count; ++i) is_clear = is_clear && !anyMeets(made[i], theirs);
@@ -223,10 +228,9 @@ class Joiner {
     return is_clear;
   }
 
-  /// Restores the marching-cubes loops at joined faces, one face after the other, until the loops of all cells are
-  /// sound.
+  /// Undoes the joining of the solid corners of faces, one face after the other, until isSound() is true for all cells.
   void giveUpFaulty() {
-    std::pmr::vector<Int3> left(memory_);  // cells to be tested; the next one is at the end
+    std::pmr::vector<Int3> left(memory_);  // stack of the cells to be tested
     const std::span<const AmbiguousFace> faces = loops_.faces();
     for (auto face = faces.rbegin(); face != faces.rend(); ++face)
       for (const Int3& cell : face->name.cells()) left.push_back(cell);
@@ -240,7 +244,7 @@ class Joiner {
     }
   }
 
-  /// Calls visit for a cell and for all cells whose soundness depends on its loops.
+  /// Calls visit for the cell and for all other cells whose isSound() depends on its loops.
   template <class Visit>
   void visitDependent(const Int3& cell, const Visit& visit) const {
     visit(cell);
@@ -250,8 +254,8 @@ class Joiner {
     });
   }
 
-  /// Restores one joined face of a cell, and returns its name: the first face whose restoration makes the cell sound,
-  /// or else the first face.
+  /// Undoes the joining of one face of a cell, and returns the name of the face: the first joined face without which
+  /// isSound() is true, or else the first joined face.
   FaceName giveUpOne(const Int3& cell) {
     std::optional<FaceName> first;
     for (const FaceName& name : FaceName::of(cell)) {

@@ -13,7 +13,8 @@ constexpr size_t kSide = kChunkSamples;
 constexpr size_t kPlane = kSide * kSide;
 constexpr uint64_t kCellBits = (uint64_t{1} << kChunkCells) - 1;
 
-/// The crossed edges that start at the samples of one row: one word per axis of the edge, one bit per sample.
+/// The crossed edges (edges whose ends differ in sign) that start at the samples of one row: one word per axis of the
+/// edge, one bit per sample.
 struct RowEdges {
   uint64_t x, y, z;
 };
@@ -24,7 +25,8 @@ RowEdges crossedEdges(const uint64_t* signs, size_t y, size_t z) {
           z < kChunkCells ? row[0] ^ row[kSide] : 0};
 }
 
-/// The result of the first pass: the sizes of the output, and the cases of the cells with a surface, in order.
+/// The result of the first pass: the numbers of vertices and triangles, and the marching-cubes cases of the cells that
+/// the surface passes through, in canonical order.
 struct Census {
   size_t vertices = 0;
   size_t triangles = 0;
@@ -37,7 +39,7 @@ void takeCensus(const uint64_t* signs, Census& census) {
     for (size_t y = 0; y < kSide; ++y) {
       const RowEdges e = crossedEdges(signs, y, z);
       if ((e.x | e.y | e.z) == 0) continue;
-      // Packs 32 + 33 + 33 bits into two words, so that two bit counts suffice.
+      // Packs the 32 + 33 + 33 bits of x, y and z into two words, so that two calls of popcount suffice.
       census.vertices += static_cast<size_t>(std::popcount(e.x | e.y << 32) + std::popcount(e.z | e.y >> 32 << 33));
     }
   }
@@ -60,14 +62,14 @@ void takeCensus(const uint64_t* signs, Census& census) {
   }
 }
 
-/// Vertex numbers by the sample at which the edge starts and by axis, for the two planes of samples around a layer of
-/// cells.
+/// The number of the vertex on each crossed edge, indexed by the sample at which the edge starts and by the edge's
+/// axis. Holds the two planes of samples around one layer of cells.
 struct EdgeNumbers {
   uint32_t of[2][kPlane * 3];
 };
 
-/// For each cube edge: the offset of its vertex number from the entry of the cell's lowest sample. The two planes swap
-/// roles from layer to layer, so even and odd layers have different offsets.
+/// For each edge of a cube: the offset in EdgeNumbers of its vertex number from the entry of the cell's lowest sample.
+/// The two planes swap roles from layer to layer, so even and odd layers have different offsets.
 struct EdgeOffsets {
   int32_t of[2][kCubeEdges];
 };
@@ -86,7 +88,8 @@ constexpr EdgeOffsets makeEdgeOffsets() {
 }
 constexpr EdgeOffsets kEdgeOffsets = makeEdgeOffsets();
 
-/// Writes the vertices on edges that start in plane z of samples, and stores their numbers.
+/// Writes the vertices on the crossed edges that start in plane z of the samples, and stores their numbers in
+/// `numbers`.
 uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, uint32_t number, MeshPart& part,
                        uint32_t* numbers) {
   const int32_t corner_z = grid.origin.z + static_cast<int32_t>(z) * grid.cell;

@@ -69,7 +69,7 @@ void BodyLoops::findLoops() {
       return std::find(indices.data() + loop.first_index, indices.data() + at, v) != indices.data() + at;
     };
     take();
-    // A loop's triangles are consecutive, and loops of a cell have no vertex in common.
+    // Takes the other triangles of the loop: they are consecutive, and share no vertex with another loop of the cell.
     while (at < indices.size() && cellOf(at) == loop.cell &&
            (joins(indices[at]) || joins(indices[at + 1]) || joins(indices[at + 2]))) {
       take();

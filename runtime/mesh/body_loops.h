@@ -1,6 +1,6 @@
 #pragma once
-// The loops of cut edges in the cells of a chunk's body, before or after ambiguous faces are joined
-// (mesh/ambiguous_faces.h).
+// The marching-cubes loops in the cells of a chunk's body. A loop is a closed polygon through crossed edges of one
+// cell. Cells can have other loops after ambiguous faces were joined (mesh/ambiguous_faces.h).
 
 #include <algorithm>
 #include <array>
@@ -13,31 +13,32 @@
 
 namespace sgm {
 
-/// Returns the normal axis of the cell's face that contains both edges; -1 if no face contains both. a, b: the keys of
-/// two edges of one cell.
+/// Returns the axis of the normal of the cell face that contains both edges; -1 if no face contains both. a, b: the
+/// keys of two edges of one cell.
 int sharedFace(const VertexKey& a, const VertexKey& b);
 
-/// The longest loop of a cell. Marching cubes makes at most kLongestCubeLoop vertices, but the loops of a cell with
-/// joined faces (mesh/ambiguous_faces.h) can pass through all of its edges.
+/// Maximum number of vertices of a loop in one cell. Marching cubes makes loops of at most kLongestCubeLoop vertices,
+/// but a loop in a cell with joined faces (mesh/ambiguous_faces.h) can pass through all edges of the cell.
 inline constexpr int kLongestBodyLoop = kCubeEdges;
 
 /// Returns the number (mesh/tables.h) of the cube edge that a vertex lies on. corner: the lowest corner of the cube, in
 /// units.
 uint8_t cubeEdge(const VertexKey& key, const Int3& corner);
 
-/// A loop of cut edges in one cell. Its vertices are counter-clockwise seen from the void, and start at the loop's edge
-/// of lowest number.
+/// A loop of crossed edges in one cell. Its vertices are counter-clockwise seen from the void, and start at the loop's
+/// edge of lowest number.
 struct SurfaceLoop {
   Int3 cell;                                          ///< position of the cell: 0..kChunkCells - 1 on each axis
   std::array<uint32_t, kLongestBodyLoop> vertices{};  ///< indices of the body's vertices
   uint32_t count = 0;
-  uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
+  uint32_t first_index = 0, end_index = 0;  ///< range of the loop's triangles in the body's index array
 };
 
-/// The loops of a body without features, in the order of its triangles. The constructor throws std::bad_alloc.
+/// The loops of a body that has no feature vertices, in the order of its triangles. The constructor throws
+/// std::bad_alloc.
 class BodyLoops {
  public:
-  /// Borrows the body; valid until its triangles change.
+  /// Borrows the body. The object is valid until the body's triangles change.
   BodyLoops(const ChunkGrid& grid, const MeshPart& body, std::pmr::memory_resource* memory);
 
   const ChunkGrid& grid() const { return grid_; }
@@ -63,7 +64,8 @@ class BodyLoops {
   Int3 cornerOf(const Int3& cell) const;
 
  private:
-  /// The pieces of a row of cells.
+  /// Number of pieces of each row of cells. starts_ has one entry per piece, so that the loops of a cell are found
+  /// fast.
   static constexpr int32_t kPieces = 4;
   static size_t pieceOf(const Int3& cell) {
     return static_cast<size_t>((cell.z * kChunkCells + cell.y) * kPieces + cell.x / (kChunkCells / kPieces));
@@ -75,7 +77,7 @@ class BodyLoops {
   const ChunkGrid grid_;
   const MeshPart& part_;
   std::pmr::vector<SurfaceLoop> loops_;
-  std::pmr::vector<uint32_t> starts_;  ///< start in loops_ of each piece; one more at the end
+  std::pmr::vector<uint32_t> starts_;  ///< by piece of a row: index in loops_ of its first loop; one more at the end
 };
 
 }  // namespace sgm

@@ -7,11 +7,13 @@
 namespace sgm {
 namespace {
 
-// Cell coordinates start two cells below the chunk, because feature vertices can lie outside it.
+// Cell coordinates start two cells below the chunk, so that feature vertices somewhat beyond the chunk can be compared,
+// too.
 constexpr int kBelow = 2, kCells = kChunkCells + 2 * kBelow + 1;
 constexpr int kLeast = -kBelow * kSubcell, kMost = (kChunkCells + kBelow) * kSubcell;
 constexpr int kMaxSpan = 4 * kSubcell;
-/// Maximum number of triangles in a cell that are compared cell by cell. A body without defects has at most a dozen.
+/// Limits the comparisons within one cell: a triangle is compared with at most kMaxInCell - 1 triangles that follow it.
+/// A body without defects has at most a dozen triangles per cell.
 constexpr size_t kMaxInCell = 64;
 
 using Cell = std::array<int, 3>;
@@ -65,13 +67,13 @@ class PairCounter {
       last = triangle.home;
     }
     if (sorted) return;
-    // In a foreign body, the triangles of a cell need not be consecutive. Each triangle is then compared with all
-    // around it.
+    // In a body that another program made, the triangles of a cell need not be consecutive. Then all triangles count as
+    // wide, and each is compared with all triangles near it.
     wide_ = count;
     for (PairTriangle& triangle : triangles_) triangle.wide = true;
   }
 
-  /// Compares the pairs of triangles that lie within one cell and are not wide.
+  /// Compares the pairs of triangles that lie within one cell. Skips triangles that are wide (PairTriangle::wide).
   void compareInCells() {
     const size_t count = triangles_.size();
     for (size_t t = 0; t + 1 < count; ++t) {
@@ -86,7 +88,8 @@ class PairCounter {
     }
   }
 
-  /// Returns the range of cells that contain more of a triangle than a part in their low faces.
+  /// Returns the range of cells that the triangle's bounding box enters. A cell whose low face the box only touches
+  /// from below does not count.
   void cellsOf(const PairTriangle& triangle, Cell& low, Cell& high) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       low[axis] = cellAt(triangle.low[axis]);
@@ -123,7 +126,7 @@ class PairCounter {
 
   void compareWide(uint32_t t) {
     const PairTriangle& triangle = triangles_[t];
-    // A triangle that touches only the low face of a cell may lie in the cell below.
+    // Includes the cells that the triangle only touches, because triangles in these cells may touch it.
     Cell from, to;
     for (size_t axis = 0; axis < 3; ++axis) {
       from[axis] = std::max(0, cellAt(triangle.low[axis] - 1));
@@ -138,7 +141,7 @@ class PairCounter {
         bool here = true;
         for (size_t axis = 0; axis < 3; ++axis) {
           here &= seen.low[axis] <= triangle.high[axis] && triangle.low[axis] <= seen.high[axis];
-          // Two triangles may meet in several cells; the pair is counted in the first cell that both have in common.
+          // Two triangles may be listed together in several cells. They are compared only in the first of these cells.
           here &= std::max(from[axis], cellAt(seen.low[axis])) == cell[axis];
         }
         if (here) compare(t, other);

@@ -10,8 +10,8 @@
 namespace sgm {
 namespace {
 
-/// A face vertex may be moved by up to this distance (1/256 of a cell) into its side's own square, where it is simpler
-/// to handle.
+/// Tolerance in 1/256 of a cell: a face vertex (mesh/sharp_loops.h) at most this far outside the grid square of its
+/// loop side is moved into that square, where it cannot collide with other face vertices.
 constexpr int32_t kClose = 8;
 
 bool hasTwoLoops(const std::array<int32_t, 8>& q) {
@@ -20,8 +20,8 @@ bool hasTwoLoops(const std::array<int32_t, 8>& q) {
   return (kCubeFirstLoop[solid] >> 24 & 1) != 0;
 }
 
-/// Makes one Newton step from a point off the surface to the tangent of a third plane, which lies in front of the two
-/// others.
+/// Makes one Newton step from a point off the surface towards the surface, within the cell face in which the loop side
+/// lies. nullopt if the field has no gradient in the face.
 std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& from, const FieldSample& sample) {
   const double u = sample.gradient[static_cast<size_t>((side.axis + 1) % 3)];
   const double v = sample.gradient[static_cast<size_t>((side.axis + 2) % 3)];
@@ -31,8 +31,9 @@ std::optional<FacePoint> ontoSurface(const SharpSide& side, const FacePoint& fro
   return FacePoint{from[0] - step * u, from[1] - step * v};
 }
 
-/// Rounds a point to the grid. The result lies in the side's square or the adjacent one: the point itself, or the
-/// nearest allowed one; nullopt if the point is more than a cell away.
+/// Rounds a point in the cell face of a loop side to 1/256 of a cell, and clamps it to the grid square of the side or,
+/// if the point lies beyond, to one adjacent square. nullopt if the point is more than a cell outside the side's
+/// square.
 std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32_t cell) {
   const auto outside = [](int32_t at) { return std::max(-at, at - kSubcell); };
   const int u = (side.axis + 1) % 3, v = (side.axis + 2) % 3;
@@ -42,7 +43,8 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
     if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
     place[k == 0 ? u : v] = static_cast<int32_t>(at);
   }
-  // A position close to the edge of the side's own square is moved into it, where no other face vertex interferes.
+  // Only a position more than kClose outside the loop side's own square stays in the adjacent square. Any other
+  // position is moved into the own square, where it cannot collide with other face vertices.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
   const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMaxOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
@@ -51,7 +53,8 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
   return place;
 }
 
-/// True if the path from one end of a side over both positions to the other end does not cross itself.
+/// True if the path from one end of a loop side through the positions `first` and `second` to the other end does not
+/// cross itself.
 bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, const Int3& second, int32_t cell) {
   const auto u = static_cast<size_t>((side.axis + 1) % 3), v = static_cast<size_t>((side.axis + 2) % 3);
   const auto placeOfEnd = [&](uint32_t end) {
@@ -67,14 +70,15 @@ bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, 
     return area > 0 ? 1 : area < 0 ? -1 : 0;
   };
   const Int3 from = placeOfEnd(side.from), to = placeOfEnd(side.to);
-  // They cannot cross if the last segment lies on one side of the first one's line, or the first on one side of the
-  // last one's.
+  // The first and the last segment of the path cannot cross if one of them lies on one side of the line through the
+  // other.
   const bool apart =
       turn(from, first, second) * turn(from, first, to) > 0 || turn(second, to, from) * turn(second, to, first) > 0;
   return apart && turn(from, first, second) != 0 && turn(first, second, to) != 0;
 }
 
-/// Places the face vertices of sides in faces of the chunk, and returns the sides that got positions.
+/// Places the face vertices (mesh/sharp_loops.h) of loop sides in faces of the chunk, and returns the sides that got
+/// positions.
 class SurfacePlaces {
  public:
   SurfacePlaces(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
@@ -89,13 +93,15 @@ class SurfacePlaces {
   }
 
  private:
-  /// A side whose ends' planes meet off the surface, with the positions that its third plane may give it.
+  /// A loop side whose ends' tangent planes meet off the surface, because a third plane cuts the crease off. Candidate
+  /// positions of its face vertices: `first` and `second`, where the third plane meets the planes of the ends; or else
+  /// `single`, a point on the third plane.
   struct CutOff {
     SharpSide* side;
     std::optional<Int3> single, first, second;
   };
 
-  /// Places face vertices where the planes of a side's two ends meet.
+  /// Places face vertices where the tangent planes of a loop side's two ends meet.
   void placeMeetings(std::span<SharpSide> sides, std::pmr::vector<SharpSide*>& placed) {
     std::pmr::vector<SharpSide*> tried(points_.get_allocator());
     for (SharpSide& side : sides) {
@@ -137,7 +143,8 @@ class SurfacePlaces {
     cut_off_.push_back(cut);
   }
 
-  /// Places face vertices where a third plane meets those of a side's ends; if that fails, on the third plane.
+  /// Places the face vertices of loop sides whose crease a third plane cuts off: two where the third plane meets the
+  /// planes of the ends or, if that fails, one on the third plane.
   void placeCutOff(std::pmr::vector<SharpSide*>& placed) {
     points_.clear();
     for (const CutOff& cut : cut_off_) {
@@ -175,8 +182,9 @@ class SurfacePlaces {
   std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Places the face vertices of sides, as if no rounded loop interfered. Returns the sides whose positions lie in one
-/// square and whose own square the surface passes through once; the others lose their positions.
+/// Places the face vertices of loop sides, without a test whether rounded loops would intersect others. Returns the
+/// sides that have positions. A side loses its positions if they lie in two different squares adjacent to its own, or
+/// if its own square is ambiguous, so that the surface passes through it twice.
 std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                                         std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
   std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
@@ -205,7 +213,7 @@ std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSample
   return placed;
 }
 
-/// Removes the places of sides whose rounded loops would intersect others.
+/// Removes the face vertices of loop sides whose rounded loops (mesh/sharp_loops.h) would intersect other loops.
 class RoundedLoops {
  public:
   RoundedLoops(const ChunkGrid& grid, const FieldSampler& field, std::pmr::memory_resource* memory)
@@ -217,7 +225,7 @@ class RoundedLoops {
     };
     RoundedCells rounded(grid_, field_, place_others, memory_);
     std::pmr::vector<Int3> points(memory_);
-    std::pmr::vector<size_t> ends(memory_);  // end of each placed side's points
+    std::pmr::vector<size_t> ends(memory_);  // for each placed loop side: end of the range of its corners in `points`
     for (const SharpSide* side : placed) {
       const Surroundings around(*side, grid_.cell);
       for (size_t i = 0; i < Surroundings::kCorners; ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// Builds the loops of a single cell when no meshed body is available.
+// Builds the marching-cubes loops of a single cell from samples at its corners, for cells that no meshed body contains.
 
 #include <array>
 #include <memory_resource>

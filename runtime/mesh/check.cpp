@@ -10,7 +10,7 @@
 namespace sgm {
 namespace {
 
-/// A triangle at one of its vertices: the two other vertices, in the triangle's order.
+/// A triangle as seen from one of its vertices: the two other vertices, in the triangle's order.
 struct Corner {
   uint32_t next, previous;
 };
@@ -80,8 +80,8 @@ void countDuplicates(size_t v, std::span<const Corner> around, std::vector<std::
 
 enum class Link { cycle, path, broken };
 
-/// Classifies the link of a vertex. link: the triangles around the vertex, which are sorted by `next`. Each leads from
-/// its next vertex to its previous one.
+/// Classifies the link of a vertex. link: the triangles around the vertex, which this function sorts by `next`. In the
+/// link, a triangle is followed by the triangle whose next vertex is its previous vertex.
 Link classifyLink(std::vector<Corner>& link) {
   std::sort(link.begin(), link.end(), [](const Corner& a, const Corner& b) { return a.next < b.next; });
   const auto find = [&](uint32_t from) {
@@ -91,7 +91,7 @@ Link classifyLink(std::vector<Corner>& link) {
   };
   for (size_t i = 1; i < link.size(); ++i)
     if (link[i].next == link[i - 1].next) return Link::broken;
-  // A path starts at the only triangle to which no other leads; a cycle may start anywhere.
+  // A path starts at the only triangle that follows no other triangle; a cycle may start anywhere.
   std::vector<bool> led_to(link.size());
   for (const Corner& c : link) {
     const size_t to = find(c.previous);

@@ -20,7 +20,7 @@ struct MeshReport {
   size_t non_manifold_edges = 0;  ///< edges of three triangles or more
   /// non-manifold vertices, whose link is neither one cycle nor, at the border, one path
   size_t pinched_vertices = 0;
-  size_t border_vertices = 0;       ///< vertices whose link is one path
+  size_t border_vertices = 0;       ///< vertices on a border: their link is one path
   size_t degenerate_triangles = 0;  ///< triangles with a repeated vertex; ignored by the counts of edges and vertices
   size_t duplicate_triangles = 0;   ///< triangles with the same three vertices as an earlier triangle, in any order
 

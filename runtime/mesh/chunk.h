@@ -12,8 +12,8 @@
 
 namespace sgm {
 
-inline constexpr int kChunkCells = 32;                 ///< per axis
-inline constexpr int kChunkSamples = kChunkCells + 1;  ///< per axis, including the samples in both faces
+inline constexpr int kChunkCells = 32;                 ///< number of cells of a chunk along each axis
+inline constexpr int kChunkSamples = kChunkCells + 1;  ///< number of samples along each axis, both faces included
 /// positions of vertices are integers in 1/256 of the chunk's cell edge
 inline constexpr int kSubcell = 256;
 /// quantised samples Q lie in -kMaxQ..kMaxQ; a sample is solid if Q < 0
@@ -47,18 +47,18 @@ struct ChunkSamples {
 /// The kind of crossed edge that a vertex lies on. A packed vertex stores it, so that its exact key (VertexKey) follows
 /// from the vertex and its chunk. Feature vertices have kinds of their own (mesh/feature_kind.h).
 enum VertexKind : uint16_t {
-  kOwnEdge = 0,      ///< an edge of the chunk's level: one coordinate, the edge's axis, is not a multiple of kSubcell
-  kCoarserEdge = 1,  ///< an edge of the level above, only in seams: one coordinate is not a multiple of 2 * kSubcell
-  kLateralEdge = 2,  ///< only in seams: joins the two levels, at a corner of the level above's grid
+  kOwnEdge = 0,      ///< grid edge of the chunk's level: only the coordinate along it is not a multiple of kSubcell
+  kCoarserEdge = 1,  ///< only in seams: grid edge of the next coarser level, with a grid step of 2 * kSubcell
+  kLateralEdge = 2,  ///< only in seams: joins the grids of the two levels, at a corner of the coarser grid
 };
 
 /// A packed vertex, 16 bytes, the same on every backend.
 struct Vertex {
-  /// in 1/256 of the chunk's cell edge from the chunk's origin: 0..8192; -400..8592 for feature vertices of the coarser
-  /// level in a seam
+  /// position in 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192; -400..8592 for feature vertices of
+  /// the coarser level in a seam
   int16_t x, y, z;
   uint16_t material;           ///< index into the grammar's materials
-  int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
+  int16_t normal_x, normal_y;  ///< unit normal in octahedral encoding, in 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags
   /// a VertexKind (0 for all edge vertices of a body), or the encoding of a feature vertex (mesh/feature_kind.h)
   uint16_t kind;

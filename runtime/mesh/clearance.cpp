@@ -10,12 +10,13 @@ namespace sgm {
 namespace {
 
 constexpr int kLast = kChunkSamples - 1;
-constexpr size_t kPitch = 40;  // values per row in memory: more than a row has, so that rows consist of whole vectors
+constexpr size_t kPitch = 40;  // number of values per row in memory, rounded up to a whole number of SIMD vectors
 constexpr uint64_t kOwnSamples = (uint64_t{1} << kChunkCells) - 1;
 
-/// Computes squared distances to the nearest solid sample along one axis after the other: the nearest sample of a plane
-/// is among the nearest samples of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions).
-/// Their lower envelope is not needed: the window of 2 reach + 1 samples is so short that a full search is fastest.
+/// Computes the squared distance from each sample to the nearest solid sample, one axis after the other: the nearest
+/// solid sample of a plane is among the nearest ones of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of
+/// Sampled Functions). Does not compute the lower envelope of that paper: the window of 2 reach + 1 samples is so short
+/// that a full search is fastest.
 class SquaredDistances {
  public:
   SquaredDistances(const ChunkSignsAround& around, int most, std::pmr::memory_resource* memory)
@@ -24,7 +25,7 @@ class SquaredDistances {
   }
 
   std::pmr::vector<uint16_t> run() const {
-    const auto side = static_cast<size_t>(kChunkSamples + 2 * reach_);  // examined samples on each axis
+    const auto side = static_cast<size_t>(kChunkSamples + 2 * reach_);  // number of examined samples along each axis
     std::pmr::vector<int16_t> rows(side * side * kPitch, most_, memory_);
     for (size_t z = 0; z < side; ++z) {
       for (size_t y = 0; y < side; ++y)
@@ -50,15 +51,16 @@ class SquaredDistances {
  private:
   static int chunkOf(int sample) { return sample < 0 ? 0 : sample > kLast ? 2 : 1; }
 
-  /// Fills the squared distances along the row (y, z). The row is one of the middle chunk, or up to reach_ beyond it.
+  /// Writes, for each sample of row (y, z), the squared distance to the nearest solid sample of the row. The row is one
+  /// of the middle chunk, or up to reach_ samples beyond it.
   void alongRow(int y, int z, int16_t* values) const {
     const int j = chunkOf(y), k = chunkOf(z);
     const auto row = [&](int i) {
       return around_[static_cast<size_t>(i + 3 * j + 9 * k)]->row(y - (j - 1) * kChunkCells, z - (k - 1) * kChunkCells);
     };
     const uint64_t own = row(1);
-    // The neighbour below contributes all samples except the one it shares with the middle chunk; the same for the
-    // neighbour above.
+    // The chunk at lower x contributes all samples except the one that it shares with the middle chunk; so does the
+    // chunk at higher x.
     const uint64_t low = reach_ > 0 ? row(0) & kOwnSamples : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
     if ((own | low | high) == 0) return;
     int away = low != 0 ? std::countl_zero(low) - (64 - kChunkCells) : 2 * kChunkCells;
@@ -87,7 +89,7 @@ class SquaredDistances {
   const ChunkSignsAround& around_;
   const int16_t most_;
   std::pmr::memory_resource* memory_;
-  int reach_ = 0;  ///< samples; a solid sample farther away along an axis has a squared distance of at least `most`
+  int reach_ = 0;  ///< search distance in samples: beyond it, squared distances are at least most_
 };
 
 }  // namespace

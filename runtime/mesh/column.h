@@ -18,7 +18,7 @@ int turnOver(const std::array<typename Signs::Place, 3>& t, const typename Signs
     typename Signs::Place a = t[k], b = t[(k + 1) % 3];
     if (round < 0) std::swap(a, b);
     const int side = Signs::orientationAlong(2, a, b, place);
-    // A point on the edge belongs to the triangle on one fixed side.
+    // A point exactly on an edge is covered only by the triangle on one fixed side of the edge.
     const bool owns = b.y < a.y || (b.y == a.y && b.x > a.x);
     if (side < 0 || (side == 0 && !owns)) return 0;
   }

@@ -8,12 +8,12 @@
 namespace sgm {
 namespace {
 
-constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
+constexpr double kSharpCosine = 0.9;      // cosine of 26 degrees: larger angles between normals indicate a feature
 constexpr double kOffSurface = 1.0 / 25;  // in cells: tolerance for points on the surface
-constexpr double kSlide = 1.0 / 128;      // in cells: vertices closer to the surface are not moved
+constexpr double kSlide = 1.0 / 128;      // in cells: a vertex closer to the surface is not moved
 // sine of the angle between two lines in a face; below it, their intersection is ill-conditioned
 constexpr double kLeastSine = 0.05;
-// in cells: if a vertex is nearer to a crease, triangles would be slivers as thin as the rounding
+// in cells: a vertex closer to a crease counts as lying on it, since triangles between the two would be slivers
 constexpr double kOnCrease = 3.0 / 256;
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
@@ -65,7 +65,8 @@ Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   return point;
 }
 
-/// Samples the field at one point on the edge of each vertex.
+/// Samples the field at one point on the grid edge of each given vertex. steps: positions of the points, in 1/256 of
+/// the edge.
 std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps,
                                                    Sampled what) const {
   std::pmr::vector<Int3> points(memory_);
@@ -76,7 +77,8 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
   return samples;
 }
 
-/// Moves vertices that are off the surface, because a crease passes through their grid edge, onto it, by bisection.
+/// Moves vertices that are off the surface along their grid edge onto the surface, by bisection. Moves only vertices
+/// whose grid edge passes through a crease.
 void Creases::slide() {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
   for (uint32_t v = 0; v < tangents_.size(); ++v) {
@@ -182,7 +184,8 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
     const Range range = rangeOn(k, corner, across);
     const double lo = range.least * step - units[axis], hi = range.most * step - units[axis];
     if (std::fabs(along[axis]) < 1e-6) {
-      // A crease in a face of the chunk may be outside by rounding, up to 1/256; onGrid moves such a position inside.
+      // A crease that lies in a face of the chunk may be up to 1/256 of a cell outside by rounding; onGrid() moves it
+      // inside.
       if (lo > step || hi < -step) return std::nullopt;
       continue;
     }
@@ -193,7 +196,7 @@ std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, con
   const double at = std::clamp(0.0, least, most);
   Vector3 place;
   for (size_t k = 0; k < 3; ++k) {
-    // The interval's ends are rounded, so the point is clamped again.
+    // `least` and `most` are rounded, so the point is clamped again.
     const double lo = -kMaxOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMaxOutside) * step;
     place[k] = std::clamp(units[k] + at * along[k], lo, hi);
   }

@@ -38,7 +38,7 @@ using FieldSampler = std::function<void(std::span<const Int3> points, std::span<
 /// The plane tangent to the surface near a vertex: normal . (x - point) = distance.
 struct Tangent {
   Int3 point;
-  Vector3 normal{};  ///< of length 1; 0 if the field has no gradient there
+  Vector3 normal{};  ///< unit normal; 0 if the field has no gradient there
   double distance = 0;
 };
 
@@ -71,21 +71,21 @@ class Creases {
   void settle();
   const Tangent& tangent(uint32_t vertex) const { return tangents_[vertex]; }
 
-  /// True if the normals of two settled vertices differ enough for a feature vertex between them, and neither of the
-  /// two lies on the crease itself.
+  /// True if the normals of two vertices (after settle()) differ enough for a feature vertex between them, and neither
+  /// of the two lies on the crease itself.
   bool isSharp(uint32_t a, uint32_t b) const;
 
-  /// True if the normals of two settled vertices differ as for isSharp; the vertices may lie on the crease.
+  /// Same as isSharp(), but also true if a vertex lies on the crease itself.
   bool differ(uint32_t a, uint32_t b) const;
 
-  /// The point on the crease of two planes that is nearest to `start`; both in units from `corner`.
+  /// Returns the point on the crease of two planes that is nearest to `start`. Both points are in units from `corner`.
   static Vector3 nearestOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& start);
 
   /// True if a point in units from `corner` lies on the crease of two planes, within the tolerance of surface points.
   bool isOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& place) const;
 
-  /// The point where the crease of two planes meets the face across `axis` through `corner`; nullopt if it is
-  /// ill-conditioned.
+  /// Returns the point where the crease of two planes meets the face through `corner` with a normal along `axis`;
+  /// nullopt if the intersection is ill-conditioned.
   static std::optional<FacePoint> meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis);
 
   /// Rounds a point, in units from a corner of the grid, to 1/256 of a cell. nullopt if the point lies more than
@@ -98,8 +98,8 @@ class Creases {
                                   int across) const;
   /// The point, in whole units, at which the field is sampled for a position `place` that onGrid returned.
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
-  /// The tolerance, in units, for points on the surface. It includes one unit because the field is sampled at whole
-  /// units.
+  /// Returns the tolerance, in units, for points on the surface. It includes one unit because the field is sampled at
+  /// whole units.
   double maxOffSurface() const;
   bool isOnSurface(const FieldSample& sample) const;
   /// The vector from a corner to a vertex of the part, in units.
@@ -121,8 +121,8 @@ class Creases {
   const FieldSampler& field_;
   MeshPart& part_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<Tangent> tangents_;  ///< one per vertex
-  std::pmr::vector<Vector3> normals_;   ///< one per vertex: the normals of the samples, as rounded by packing
+  std::pmr::vector<Tangent> tangents_;  ///< tangent plane at each vertex
+  std::pmr::vector<Vector3> normals_;   ///< normal at each vertex, as rounded by packing
 };
 
 }  // namespace sgm

@@ -3,8 +3,9 @@
 namespace sgm {
 namespace {
 
-/// A sliver may face inward because its corners are rounded: by at most this value, times the square of a cell's edge,
-/// in the dot product of twice its area vector with the sum of its vertices' normals.
+/// Tolerance for slivers, which may face inward because their corners are rounded. The dot product of twice a
+/// triangle's area vector with the sum of its vertices' normals may be negative by this value times the square of a
+/// cell's edge.
 constexpr double kFold = 0.02;
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// True if a direction exists along which the fan, in projection, goes around its centre once and never turns back:
-/// then no two of its triangles overlap. Most fans around a cell vertex satisfy this.
+/// True if the fan, projected along one of a few directions, goes around its centre once and never turns back: then no
+/// two of its triangles overlap. Most fans around a cell vertex pass this quick test.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
   // If the centre is one of the ring's own points, the fan does not go around it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
@@ -30,7 +30,8 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
     areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
   }
   for (const Int3& d : kDirections) {
-    // The line through the centre to which points are compared, in the projection along d: across . (p - centre) = 0.
+    // The normal of a line through the centre, in the projection along d: across . (p - centre) = 0. The fan crosses
+    // this line upwards once in each round.
     const Int3 across = d.x != 0 && d.y != 0 ? Int3{d.y, -d.x, 0}
                         : d.x != 0           ? Int3{0, 1, 0}
                         : d.y != 0           ? Int3{0, 0, 1}
@@ -52,7 +53,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
   return false;
 }
 
-/// The bounding boxes of the features of loops; finds pairs of loops that may intersect.
+/// Finds pairs of loops that may intersect, by the bounding boxes of their features.
 class Neighbours {
  public:
   Neighbours(const SharpLoops& sharp, std::pmr::memory_resource* memory)
@@ -67,10 +68,10 @@ class Neighbours {
   /// Returns the index in sharp_.loops of a loop of the body; kNone if the loop is not sharp.
   uint32_t placeOf(uint32_t loop) const { return place_[loop]; }
 
-  /// Call after the centre of a sharp loop has changed.
+  /// Updates the boxes of sharp_.loops[place]. Call after the shape or the centre of that loop has changed.
   void update(uint32_t place) { features_[place] = featuresOf(sharp_.loops[place]); }
 
-  /// Calls visit(number) for all other loops of the body that may intersect the given one.
+  /// Calls visit(number) for all other loops of the body that may intersect `loop`.
   template <class Visit>
   void visit(uint32_t loop, const Visit& visit) const {
     const PlaceBox own = boxOf(loop);
@@ -82,9 +83,9 @@ class Neighbours {
     visitCells(loop, own, lo, hi, visit);
   }
 
-  /// Same as visit. But if the features of the loop lie inside its cell, visits only loops of its own cell and of cells
-  /// that share a face with it. Other loops can meet it only if their fans extend out of their cells; those pairs are
-  /// found from the other loop.
+  /// Same as visit(), but if all features of `loop` lie inside its cell, visits only loops of the same cell and of
+  /// cells that share a face with it. A loop farther away can intersect `loop` only if its own fan leaves its cell;
+  /// then the call for that loop finds the pair.
   template <class Visit>
   void visitFromInside(uint32_t loop, const Visit& visit) const {
     if (!isInside(loop)) return this->visit(loop, visit);
@@ -99,7 +100,7 @@ class Neighbours {
       }
     }
   }
-  /// True if visitFromInside(loop) visits `other`, which may intersect it.
+  /// True if visitFromInside(loop) visits `other`. Precondition: visit(loop) visits `other`.
   bool visitsFromInside(uint32_t loop, uint32_t other) const {
     const Int3 &at = body_.all()[loop].cell, &beside = body_.all()[other].cell;
     return std::abs(at.x - beside.x) + std::abs(at.y - beside.y) + std::abs(at.z - beside.z) <= 1 || !isInside(loop);
@@ -107,7 +108,8 @@ class Neighbours {
 
  private:
   struct Boxes {
-    /// `all`: of all features; `off_squares`: without the face vertices within their side's square
+    /// `all`: box around all features of a loop; `off_squares`: box around all except the face vertices that lie in the
+    /// grid squares of their loop sides
     PlaceBox all, off_squares;
   };
 
@@ -118,8 +120,8 @@ class Neighbours {
     });
   }
 
-  /// True if the cell of a sharp loop is not at the chunk's border, all of the loop's features lie in the cell, and the
-  /// only features on the cell's faces are face vertices within their squares.
+  /// True if the cell of a sharp loop is not at the chunk's border, all features of the loop lie in the cell, and the
+  /// only features on the cell's faces are face vertices inside the grid squares of their loop sides.
   bool isInside(uint32_t loop) const {
     const Int3& cell = body_.all()[loop].cell;
     const Boxes& boxes = features_[place_[loop]];
@@ -156,9 +158,9 @@ class Neighbours {
     box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
     return box;
   }
-  /// True if a grid plane between the two cells separates the loops. Only two things may lie in that plane: edges of
-  /// plain loops, which are always disjoint, and face vertices inside their squares. The latter cannot collide if the
-  /// two loops have different squares there, or share the side and thus its vertices.
+  /// True if a grid plane between the cells of two loops separates the loops. Only two things may lie in that plane:
+  /// edges of marching-cubes loops, which never intersect, and face vertices inside their grid squares. These vertices
+  /// cannot collide if the two loops have different squares in the plane, or share the side and thus its face vertices.
   bool areApart(uint32_t a, uint32_t b) const {
     const Int3 &at = body_.all()[a].cell, &other = body_.all()[b].cell;
     for (int k = 0; k < 3; ++k) {
@@ -191,8 +193,8 @@ class Neighbours {
 
   const SharpLoops& sharp_;
   const BodyLoops& body_;
-  std::pmr::vector<uint32_t> place_;  ///< index in sharp_.loops by loop of the body
-  std::pmr::vector<Boxes> features_;  ///< one entry per sharp loop, in 1/256 of a cell from the chunk's origin
+  std::pmr::vector<uint32_t> place_;  ///< by loop of the body: its index in sharp_.loops, or kNone
+  std::pmr::vector<Boxes> features_;  ///< by sharp loop: boxes in 1/256 of a cell, from the chunk's origin
 };
 
 /// Caches the current triangles of loops; computes them when they are first requested.
@@ -213,7 +215,7 @@ class PresentTriangles {
     make(b);
     return sgm::anyMeets(of(a), of(b));
   }
-  /// Drops the cached triangles of a loop. Call after the loop has changed.
+  /// Drops the cached triangles of a loop that has changed, and of the loops that share sides with it.
   void forget(const SharpLoop& loop) {
     at_[loop.loop].count = 0;
     for (const uint32_t s : loop.sides) {
@@ -224,9 +226,9 @@ class PresentTriangles {
   }
 
  private:
-  static constexpr size_t kUsual = 8;  ///< usual number of triangles of a sharp loop, for the size of the cache
+  static constexpr size_t kUsual = 8;  ///< usual number of triangles of a sharp loop, used to reserve memory
 
-  /// The range of one loop's triangles in triangles_ and boxes_; 0 if they are not computed yet.
+  /// The range of one loop's triangles in triangles_ and boxes_. `count` is 0 if the triangles are not cached.
   struct Range {
     uint32_t begin = 0, count = 0;
     PlaceBox box;
@@ -253,9 +255,9 @@ class PresentTriangles {
 
   const SharpLoops& sharp_;
   const Neighbours& neighbours_;
-  std::pmr::vector<Range> at_;  ///< one range per loop
+  std::pmr::vector<Range> at_;  ///< range of each loop of the body
   std::pmr::vector<NamedTriangle> triangles_;
-  std::pmr::vector<PlaceBox> boxes_;  ///< bounding boxes of triangles_, parallel to them
+  std::pmr::vector<PlaceBox> boxes_;  ///< bounding box of each entry of triangles_
 };
 
 /// Returns how far the centre of a fan lies outside its cell, in 1/256 of a cell; negative if inside.
@@ -293,10 +295,11 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       return s != kNone && !sharp.sides[s].places.empty() && !sharp.hasFaceVertices(sharp.sides[s]);
     });
   };
-  // dirty: indices of sharp loops to be tested. The times of each loop's last test and last change count tests.
+  // dirty: indices of the sharp loops to be tested. tested_at, changed_at: times of a loop's last test and last change,
+  // on a clock that `now` advances with each test and change.
   std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
   std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
-  // order in which dirty loops are tested: the rank in the high bits, the index in the low bits
+  // the dirty loops in the order of their tests: the rank in the high bits, the index in the low bits
   std::pmr::vector<uint64_t> order(memory);
   uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
@@ -308,8 +311,9 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
     }
   };
   while (!dirty.empty()) {
-    // At a corner of the solid, one point is the centre of many loops' fans: the loop whose cell contains it shall keep
-    // it, so it is tested last.
+    // At a corner of the solid, one point may be the centre of many loops' fans. The loop whose cell contains the point
+    // should keep it. So loops are tested, and changed, in the order of how far their centre lies outside their cell,
+    // farthest first.
     order.clear();
     for (const uint32_t number : dirty) {
       const auto rank = static_cast<uint32_t>(kMaxOutside - outsideOf(sharp, sharp.loops[number]));
@@ -322,12 +326,12 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
-      // A fan was sound with all of its face vertices, but other loops may have removed some of them.
+      // The fan was valid with all of its face vertices, but changes to other loops may have removed some of them.
       bool faulty = lacksVertex(loop) && !isSound(sharp.trianglesOf(loop));
       neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
         const uint32_t place = neighbours.placeOf(other);
-        // If the pair was tested and neither loop has changed since, the result is known.
+        // The result is known if the pair was tested and neither loop has changed since then.
         const bool is_known = place != kNone && sharp.loops[place].isFan() && tested_at[place] > changed_at[place] &&
                               tested_at[place] > changed_at[number] && neighbours.visitsFromInside(other, loop.loop);
         if (!is_known) faulty = present.anyMeets(loop.loop, other);
@@ -340,8 +344,8 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTrian
       visitSharing(loop, [&](uint32_t other) { changed_at[other] = now; });
       changed.push_back(number);
     }
-    // A changed loop, and loops that lost a face vertex because of it, may now intersect adjacent loops, which are
-    // tested again.
+    // Loops adjacent to a changed loop, or to a loop that shares a side with it, are tested again: the changes may have
+    // caused new intersections.
     dirty.clear();
     const auto spread = [&](uint32_t number) {
       dirty.push_back(number);

@@ -1,5 +1,5 @@
 #pragma once
-// Finds fans that the surface cannot contain, by exact integer tests, for mesh/sharp_loops.h.
+// Finds fans (mesh/sharp_loops.h) that intersect themselves or other loops, by exact integer tests, and replaces them.
 
 #include <functional>
 
@@ -11,10 +11,10 @@ namespace sgm {
 /// corners and edges.
 bool hasFault(const LoopTriangles& fan);
 
-/// While a loop's fan intersects a triangle of another loop, gives the loop another centre or, if none is left, rounds
-/// it (mesh/sharp_loops.h). Loops that are not sharp keep their triangles. isSound: returns whether a fan may stay
-/// although it has lost face vertices. takeNextCentre: gives a loop the next centre whose fan is sound; returns false
-/// if no centre is left. Throws std::bad_alloc.
+/// As long as a loop's fan intersects a triangle of another loop, gives the fan another centre or, if no centre is
+/// left, rounds the loop (mesh/sharp_loops.h). Loops that are not sharp keep their triangles. isSound: returns whether
+/// a fan may stay although it has lost face vertices. takeNextCentre: gives a loop the next centre whose fan is valid;
+/// returns false if no centre is left. Throws std::bad_alloc.
 void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTriangles&)>& isSound,
                      const std::function<bool(SharpLoop&)>& takeNextCentre, std::pmr::memory_resource* memory);
 

@@ -16,7 +16,7 @@ struct Area {
   int64_t along(const Area& other) const { return x * other.x + y * other.y + z * other.z; }
 };
 
-/// Twice the area of a triangle, along its normal.
+/// Returns the cross product of two sides of a triangle: twice its area, along its normal.
 Area areaOf(const Int3& a, const Int3& b, const Int3& c) {
   const int64_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int64_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -27,7 +27,8 @@ void add(const FanPoint& a, const FanPoint& b, const FanPoint& c, LoopTriangles&
   triangles.add({a.at, b.at, c.at}, {a.name, b.name, c.name});
 }
 
-/// A patch of a fan: an approximately planar polygon whose first corner is the centre.
+/// A patch of a fan or strip: an approximately planar polygon. Its first corner is the centre of the fan or, in a
+/// strip, a face vertex.
 class Patch {
  public:
   explicit Patch(const FanPoint& centre) : corners_{centre}, count_(1) {}
@@ -36,8 +37,9 @@ class Patch {
   size_t count() const { return count_; }
   const FanPoint& corner(size_t i) const { return corners_[i]; }
 
-  /// Triangulates as a fan around the centre or, if that folds, with other diagonals. Returns false if every
-  /// triangulation of the patch has a diagonal that is not free.
+  /// Triangulates the patch as a fan around its first corner. If that fan folds, takes other diagonals with which all
+  /// triangles face one way, if there are any. Returns false if the fan's diagonals are not free and no other
+  /// triangulation exists.
   bool triangulate(const IsFree& is_free, LoopTriangles& triangles) const {
     const bool may_be_fan = hasFreeSpokes(is_free);
     if ((may_be_fan && isFan(normal())) || !triangulateFlat(is_free, triangles)) {
@@ -47,7 +49,8 @@ class Patch {
     return true;
   }
 
-  /// Triangulates so that all triangles face one way. Returns false if no choice of diagonals achieves that.
+  /// Triangulates the patch so that all triangles face one way. Returns false if no choice of free diagonals achieves
+  /// that.
   bool triangulateFlat(const IsFree& is_free, LoopTriangles& triangles) const {
     std::array<std::array<uint8_t, kMaxPoints>, kMaxPoints> apexes;
     if (!findDiagonals(is_free, normal(), apexes)) return false;
@@ -86,7 +89,8 @@ class Patch {
   }
 
   /// Finds the diagonals by dynamic programming. apexes[i][j] becomes the apex of the triangle over the chord from
-  /// corner i to j. Returns false if every triangulation has a triangle that faces away from `out`.
+  /// corner i to corner j. Returns false if every triangulation has a diagonal that is not free, or a triangle that
+  /// does not face towards `out`.
   bool findDiagonals(const IsFree& is_free, const Area& out,
                      std::array<std::array<uint8_t, kMaxPoints>, kMaxPoints>& apexes) const {
     constexpr int64_t kNoTriangles = 0;
@@ -138,7 +142,7 @@ LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, c
     const FanPoint& point = ring[(start + i) % ring.size()];
     if (cuts_off) cut_off.add(point);
     is_empty = is_empty && point.is_feature;
-    // A closed walk ends at the face vertex where it began, which `rest` already contains.
+    // The walk around the ring ends at the face vertex where it began, which `rest` already contains.
     if ((!cuts_off || point.is_feature) && i < ring.size()) rest.add(point);
     if (!point.is_feature) continue;
     if (!cuts_off && is_empty) return {};
@@ -156,11 +160,12 @@ LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> r
   const auto features = std::count_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
   if (is_closed && features < 2) return coneTriangles(centre, ring, is_closed);
   LoopTriangles triangles;
-  // A closed ring is walked from its first face vertex once around, back to the same one.
+  // The walk around a closed ring starts and ends at its first face vertex.
   const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
   const size_t start = is_closed ? static_cast<size_t>(first - ring.begin()) : 0;
   const size_t count = ring.size() + (is_closed ? 1 : 0);
-  // Two patches may have the same two face vertices; only one of them may have the diagonal between these.
+  // Two patches may have the same two face vertices; only one of the patches may have the diagonal between these
+  // vertices.
   std::array<uint32_t, 2> joined{centre.name, centre.name};
   const IsFree is_left = [&](uint32_t a, uint32_t b) { return !(a == joined[1] && b == joined[0]) && is_free(a, b); };
   Patch patch(centre);

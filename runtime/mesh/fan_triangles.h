@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a loop around the centre of its features.
+// Triangulates loops with sharp features (mesh/sharp_loops.h): as a fan around a centre, or as a strip.
 
 #include <cstdint>
 #include <functional>
@@ -10,36 +10,41 @@
 namespace sgm {
 
 /// A point of a fan: its centre, or a point of the ring around it. The ring consists of the loop's vertices and of the
-/// face vertices of its sides, each behind the vertex at which its side begins.
+/// face vertices of its sides. A face vertex follows the vertex at which its side begins.
 struct FanPoint {
   Int3 at;            ///< position in 1/256 of a cell
   uint32_t name = 0;  ///< the vertex's name, as in NamedTriangle (mesh/loop_triangles.h)
   bool is_feature = false;
 };
 
-/// The triangles from a centre to each segment of the ring. They exist for any ring, and stay within the convex hull of
-/// the points. is_closed: true if the last and the first point of the ring form a triangle with the centre, too; false
-/// if the centre itself is the ring's point between the last and the first one.
+/// Returns the triangles from a centre to each segment of the ring. They exist for any ring, and stay within the convex
+/// hull of the points. is_closed: true if the last and the first point of the ring form a triangle with the centre,
+/// too; false if the centre is itself the point of the ring between these two.
 LoopTriangles coneTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed);
 
-/// Returns true if a loop may have a diagonal between the points with these names, since no other loop has it.
+/// Returns whether a loop may have a diagonal between the points with these names: false if another loop may have it,
+/// too.
 using IsFree = std::function<bool(uint32_t a, uint32_t b)>;
 
-/// Same as coneTriangles, but retriangulates patches that a fan would fold. The creases from the centre to the face
-/// vertices divide the surface into patches. A patch lies approximately in one plane, but the centre may not see all of
-/// it. If the fan's triangles of a patch do not all face one way, the patch gets diagonals with which they do, if there
-/// are any: those whose smallest triangle is largest. A triangle whose corners are all features is followed by another
+/// Same as coneTriangles, but with other diagonals in patches where the cone would fold. The creases from the centre to
+/// the face vertices divide the surface into patches, each of them approximately planar. The centre may not see all of
+/// a patch; then the cone's triangles of the patch do not all face one way. Such a patch gets diagonals with which all
+/// of its triangles face one way, if there are any: those whose smallest triangle is largest.
+///
+/// To let splitCreases() find its side of the crease, a triangle whose corners are all features is followed by another
 /// triangle of its patch, except the triangle between the two face vertices of one side. Returns no triangles if a
 /// diagonal would not be free.
 LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed,
                              const IsFree& is_free);
 
-/// Triangles without a centre, for a ring that several creases pass through. Each crease joins two consecutive face
-/// vertices of the ring, and cuts off the patch between them; the remaining patch lies between the creases. The cut-off
-/// patches are every other one, beginning at the first face vertex or, if `from_second`, at the second. A triangle
-/// whose corners are all features is followed by another triangle of its patch. Returns no triangles if the number of
-/// face vertices is odd, if a diagonal would not be free, if a patch would not face one way, or if the remaining patch
-/// has no vertex.
+/// Returns triangles without a centre, for a ring that several creases pass through. Each crease joins two consecutive
+/// face vertices of the ring, and cuts off the patch between them. The remaining patch lies between the creases. Every
+/// other stretch of the ring between two face vertices is cut off, beginning at the first face vertex or, if
+/// `from_second`, at the second. A triangle whose corners are all features is followed by another triangle of its
+/// patch.
+///
+/// Returns no triangles if the number of face vertices is odd, if a diagonal would not be free, if the triangles of a
+/// patch would not all face one way, or if the remaining patch has no vertex.
 LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, const IsFree& is_free);
 
 }  // namespace sgm

@@ -5,13 +5,14 @@
 namespace sgm {
 namespace {
 
-/// Returns the half axes from the corner that a quad touches, as a mask of six bits: bit 2 * axis + side.
+/// Returns the half axes (of the six that start at the corner) that bound a quad (a quarter plane, mesh/fans.h), as a
+/// mask of six bits: bit 2 * axis + side.
 constexpr uint32_t halfAxes(int quad) {
   const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
   return 1u << (2 * first + (quad & 1)) | 1u << (2 * second + (quad >> 1 & 1));
 }
 
-/// Returns for each quad the mask of the quads that touch one of its half axes, itself included.
+/// Returns for each quad the mask of the quads that have a half axis in common with it, itself included.
 constexpr std::array<uint16_t, 12> makeNeighbours() {
   std::array<uint16_t, 12> neighbours{};
   for (int q = 0; q < 12; ++q)
@@ -22,7 +23,7 @@ constexpr std::array<uint16_t, 12> makeNeighbours() {
 }
 constexpr std::array<uint16_t, 12> kNeighbours = makeNeighbours();
 
-/// Returns the octant on the low side of a quad.
+/// Returns the number of the octant on the low side of a quad.
 constexpr int octantBelow(int quad) {
   const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
   return (quad & 1) << first | (quad >> 1 & 1) << second;
@@ -48,8 +49,8 @@ int lateralFan(uint8_t coarser, int quad) {
 SeamFans seamFans(Face face, Neighbourhood coarser) {
   coarser = (coarser | neighbourBit(face)) & ~neighbourBit(0, 0, 0);
   const int axis = faceAxis(face), u = (axis + 1) % 3, v = (axis + 2) % 3;
-  // Returns the offset of the block on one side of a corner. place: the corner is at the low border (0), inside (1) or
-  // at the high border (2) of the chunk.
+  // Returns the offset, in chunks along one axis, of the block on one side of a corner. place: the corner is at the low
+  // border (0), inside (1) or at the high border (2) of the chunk.
   const auto offset = [](int place, int side) { return place == 1 ? 0 : place == 0 ? side - 1 : side; };
   SeamFans fans{};
   for (int b = 0; b < 3; ++b) {
@@ -64,8 +65,8 @@ SeamFans seamFans(Face face, Neighbourhood coarser) {
             neighbourBit(offset(place.x, o & 1), offset(place.y, o >> 1 & 1), offset(place.z, o >> 2));
         octants |= static_cast<uint32_t>((coarser & block) != 0) << o;
       }
-      // Any quad of the seam's face at the corner will do. The chunk lies on the high side of its low border, and on
-      // the low side elsewhere.
+      // All quads in the seam's face at this corner give the same fan. The chunk lies on the high side of its low
+      // border, and on the low side elsewhere.
       const int side_u = a == 0 ? 1 : 0, side_v = b == 0 ? 1 : 0;
       const int quad = 4 * axis + (u < v ? side_u + 2 * side_v : side_v + 2 * side_u);
       fans[static_cast<size_t>(b)][static_cast<size_t>(a)] =

@@ -15,7 +15,7 @@ inline constexpr uint16_t kFeature = 1 << 15, kFeatureOfCell = 1 << 14, kFeature
 
 constexpr bool isFeature(uint16_t kind) { return (kind & kFeature) != 0; }
 
-/// True if the vertex takes its attributes from the field of the level above that of its chunk.
+/// True if a vertex of this kind takes its attributes from the field one level coarser than its chunk.
 constexpr bool isOfCoarserLevel(uint16_t kind) {
   return isFeature(kind) ? (kind & kFeatureOfCoarser) != 0 : kind == kCoarserEdge;
 }
@@ -34,7 +34,7 @@ constexpr uint16_t featureKind(const VertexKey& key, const Int3& place, int chun
   return static_cast<uint16_t>(kind);
 }
 
-/// Precondition: isFeature(vertex.kind).
+/// Returns the key of a feature vertex. Precondition: isFeature(vertex.kind).
 constexpr VertexKey featureKey(const ChunkGrid& grid, const Vertex& vertex) {
   const bool coarser = isOfCoarserLevel(vertex.kind), of_cell = (vertex.kind & kFeatureOfCell) != 0;
   const Int3 at{vertex.x, vertex.y, vertex.z};

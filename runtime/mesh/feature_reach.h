@@ -1,5 +1,5 @@
 #pragma once
-// How far sharp features reach beyond their cells, and how much of the field they depend on.
+// Limits on how far sharp features reach beyond their cells, and on how much of the field they depend on.
 
 #include <cstdint>
 
@@ -12,9 +12,9 @@ namespace sgm {
 /// limit is less than a cell, so that a fan never reaches a cell two cells away.
 inline constexpr int32_t kMaxOutside = 200;
 
-/// How far beyond a chunk of cells of this size (units) the field is sampled for sharp features, in units. A face
-/// vertex in the coarser chunk's face depends on loops up to two squares away, also beyond the finer chunk. These in
-/// turn depend on face vertices up to kMaxOutside beyond their own squares (mesh/surroundings.h,
+/// Returns how far beyond a chunk the field is sampled for sharp features, in units. cell: the chunk's cell edge in
+/// units. A face vertex in the coarser chunk's face depends on loops up to two squares away, also beyond the finer
+/// chunk. These loops in turn depend on face vertices up to kMaxOutside beyond their own squares (mesh/surroundings.h,
 /// mesh/rounded_cells.h).
 inline constexpr int64_t sharpReach(int64_t cell) { return 3 * cell + 1; }
 

@@ -26,7 +26,7 @@ SharpLoops Features::find() && {
   return std::move(sharp_);
 }
 
-/// True if a crease passes through a loop that has no sharp side, along vertices that lie on the crease.
+/// True if a crease passes through vertices of a loop none of whose sides is sharp (mesh/sharp_loops.h).
 bool Features::passesVertices(const SurfaceLoop& loop) const {
   const auto next = [&](uint32_t i) { return loop.vertices[(i + 1) % loop.count]; };
   bool any = false;
@@ -44,7 +44,7 @@ void Features::findSides() {
     if (keys[b] < keys[a]) std::swap(a, b);
     return uint64_t{a} << 32 | b;
   };
-  std::pmr::vector<uint64_t> names(memory_);  // names of sides: their two ends, packed
+  std::pmr::vector<uint64_t> names(memory_);  // sharp loop sides, each as its two end vertices packed into one word
   for (uint32_t number = 0; number < body_.all().size(); ++number) {
     const SurfaceLoop& loop = body_.all()[number];
     const size_t before = names.size();
@@ -72,7 +72,7 @@ void Features::findSides() {
       if (!creases_.isSharp(a, b)) continue;
       sharp.sides[i] =
           static_cast<uint32_t>(std::lower_bound(names.begin(), names.end(), nameOf(a, b)) - names.begin());
-      // The cell on the high side of a face has its lowest corner in the plane of the face.
+      // The cell lies on the high side of the face if its lowest corner lies in the plane of the face.
       SharpSide& side = sharp_.sides[sharp.sides[i]];
       const bool is_high = body_.cornerOf(loop.cell)[side.axis] == side.corner[side.axis];
       side.loops[is_high ? 1 : 0] = number;
@@ -80,7 +80,7 @@ void Features::findSides() {
   }
 }
 
-/// The candidate centres of a loop's fan, best first.
+/// Returns the candidate centres of a loop's fan, best first.
 Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   Centres centres;
   const SurfaceLoop& loop = of(sharp);
@@ -136,7 +136,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   }
   add(plus(middle, axes.step(2)));
   if (feature_count == 1) {
-    // A crease may end in a vertex that lies on it; then the loop has only one face vertex.
+    // A crease may end in a vertex that lies on it; then the loop has only one face vertex. The midpoint of the face
+    // vertex and that vertex is a candidate.
     const uint32_t only = *std::find_if(sharp.sides.begin(), sharp.sides.end(),
                                         [&](uint32_t s) { return s != kNone && !sharp_.sides[s].places.empty(); });
     const SharpSide& side = sharp_.sides[only];
@@ -152,8 +153,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   return centres;
 }
 
-/// Gives each loop the first candidate centre that makes a sound fan. All candidates of one rank share one sampling of
-/// the field; strips sample separately.
+/// Gives each loop the first candidate centre that makes a valid fan. The first candidates of all loops are sampled in
+/// one call, then the second candidates, and so on; strips are sampled separately.
 void Features::placeCellVertices() {
   std::pmr::vector<uint32_t> without(sharp_.loops.size(), memory_), left(memory_);
   std::iota(without.begin(), without.end(), 0);
@@ -179,7 +180,8 @@ void Features::placeCellVertices() {
   }
 }
 
-/// Changes the fan of a loop that intersects another: keeps the centre with other diagonals, or takes the next centre.
+/// Call this if a loop's fan intersects another loop. Gives the fan other diagonals with the same centre, or the next
+/// centre that makes a valid fan. Returns false if no centre is left.
 bool Features::takeNextCentre(SharpLoop& sharp) const {
   if (sharp.isFan() && !sharp.by_patches && takeAs(sharp.centre, true, sharp)) return true;
   while (const std::optional<FanCentre> centre = nextCentre(sharp)) {
@@ -203,15 +205,18 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   return std::nullopt;
 }
 
-/// Makes a loop a fan around a centre, if that fan is sound and faces out of the solid; returns whether it did.
+/// Makes a loop a fan around a centre, or a strip, if the result is valid (hasFault), lies on the surface and faces out
+/// of the solid. Returns whether it did.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
   if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
-  // A centre that is a face vertex always needs patches: its diagonals could lie in the face of the chunk.
+  // A fan around a face vertex is always made by patches, because diagonals from its centre could lie in the face of
+  // the chunk.
   return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
 }
 
-/// Makes a loop a strip, if that is sound and the middles of its triangles lie on the surface; returns whether it did.
+/// Makes a loop a strip, if the strip is valid (hasFault) and the centres of its triangles lie on the surface. Returns
+/// whether it did.
 bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
   if (!facesOut(strip, creases_)) return false;

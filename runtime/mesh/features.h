@@ -1,5 +1,6 @@
 #pragma once
-// Finds the sharp features of a body: the positions of its face vertices and cell vertices (mesh/sharp_loops.h).
+// Finds the sharp features of a body: the positions of its face vertices and cell vertices, which are the feature
+// vertices of cell faces and of cells (mesh/sharp_loops.h).
 
 #include <array>
 #include <memory_resource>
@@ -24,7 +25,7 @@ class Features {
  private:
   static constexpr uint32_t kNone = SharpLoops::kNone;
 
-  /// Candidate centres for the fan of one loop.
+  /// The candidate centres for the fan of one loop.
   class Centres {
    public:
     void add(const FanCentre& centre) {

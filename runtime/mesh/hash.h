@@ -37,14 +37,15 @@ void hashPart(MeshPart& part);
 struct PlacedPart {
   const MeshPart* mesh = nullptr;
   ChunkGrid grid;
-  int number = 0;  ///< 0 for the body, 1 + Face for a seam
+  int number = 0;  ///< number of the part in its chunk: 0 for the body, 1 + Face for a seam
 };
 
-/// A part's hash mixed with its position and its number in the chunk: 0 for the body, 1 + Face for a seam.
+/// Returns a part's hash mixed with its position and its number in the chunk (0 for the body, 1 + Face for a seam).
 ContentHash hashPlaced(ContentHash part, const ChunkGrid& grid, int number);
 
-/// The hash of a set of parts: the sum over its parts, each mixed with its position. The order has no effect, nor do
-/// parts without triangles, so that empty chunks may be listed or not. Reads the parts' hashes.
+/// Returns the hash of a set of parts: the sum of the parts' hashes, each mixed with its position (hashPlaced). The
+/// order has no effect, nor do parts without triangles, so that empty chunks may be listed or not. Reads
+/// MeshPart::hash.
 ContentHash hashParts(std::span<const PlacedPart> parts);
 
 }  // namespace sgm

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
 
-/// Returns the distance of one tangent's point from the other plane.
+/// Returns the distance between the plane `plane` and the point of the tangent `other`.
 double offPlane(const Tangent& plane, const Tangent& other) {
   return std::fabs(dot(plane.normal, between(plane.point, other.point)) - plane.distance);
 }
@@ -40,7 +40,7 @@ class InnerVertices {
     FieldSample sample;
   };
 
-  /// Finds each face vertex's ideal position, regardless of its neighbours.
+  /// Computes the ideal position of each loop side's face vertex, without regard to the other face vertices.
   void findIdeals() {
     ideals_.reserve(sharp_.sides.size());
     for (const SharpSide& side : sharp_.sides) {
@@ -54,14 +54,16 @@ class InnerVertices {
     }
   }
 
-  /// The point nearest to a side's middle on the crease of two planes, in units from the side's corner.
+  /// Returns the point on the crease of two planes that is nearest to the middle of a side, in units from the side's
+  /// corner.
   Vector3 nearestOnCrease(const Tangent& a, const Tangent& b, const SharpSide& side) const {
     const Vector3 from = between(side.corner, creases_.tangent(side.from).point);
     const Vector3 to = between(side.corner, creases_.tangent(side.to).point);
     return Creases::nearestOnCrease(a, b, side.corner, times(plus(from, to), 0.5));
   }
 
-  /// Returns the point nearest to the planes of a loop's vertices, where several creases meet; in units from `corner`.
+  /// Returns the point nearest to the tangent planes of a loop's vertices, where several creases meet; in units from
+  /// `corner`.
   Vector3 meetingPoint(const SharpLoop& sharp, const Int3& corner) const {
     const SurfaceLoop& loop = sharp_.of(sharp);
     Vector3 middle{};
@@ -80,8 +82,9 @@ class InnerVertices {
     return plus(middle, PlaneAxes(planes).step(3));
   }
 
-  /// Returns the next point on a side's crease within one of its loops: the ideal point of the loop's next side on that
-  /// crease, or the point in which the crease ends. In units from the side's corner.
+  /// Returns the next point on the crease of the loop side `own` within one of the two loops that share the side: the
+  /// ideal point of the loop's next side on that crease, or the point where the crease ends. In units from the corner
+  /// of `own`.
   Vector3 nextOnCrease(uint32_t own, uint32_t loop) const {
     const SharpSide& side = sharp_.sides[own];
     const auto idealOf = [&](uint32_t other) {
@@ -97,14 +100,16 @@ class InnerVertices {
       along = other;
       ++others_along;
     }
-    // Without a next point, the side's own point is used, so that two sides do not get the same mean.
+    // If the loop has no other sharp side, the ideal point of `own` counts once more, so that two sides do not get the
+    // same mean.
     if (others == 0) return ideals_[own];
     if (others == 1) return idealOf(last);
-    // If other creases pass through the loop, too, the crease may end where they meet.
+    // Unless exactly one other side of the loop lies on this crease, the crease may end where it meets other creases.
     return others_along == 1 ? idealOf(along) : meetingPoint(sharp_.loops[loop], side.corner);
   }
 
-  /// The mean of a side's own ideal point, with weight two, and the next points on its crease.
+  /// Returns the mean of a loop side's ideal point, with weight two, and of the next points on its crease in both
+  /// loops.
   Vector3 meanOnCrease(uint32_t own) const {
     Vector3 sum = times(ideals_[own], 2);
     for (const uint32_t loop : sharp_.sides[own].loops)
@@ -130,8 +135,8 @@ class InnerVertices {
     }
   }
 
-  /// Finds positions for sides that have none on the surface, because a third plane cuts off the crease of their ends'
-  /// planes.
+  /// Adds candidate positions for loop sides that have no position on the surface, because a third plane cuts off the
+  /// crease of the planes of their ends.
   void chooseCutOff() {
     const std::pmr::vector<Choice> tried = std::move(choices_);
     choices_.clear();
@@ -141,8 +146,8 @@ class InnerVertices {
       if (!side.places.empty() || !is_last) continue;
       const Tangent &a = creases_.tangent(side.from), &b = creases_.tangent(side.to);
       const Tangent& third = side.third.emplace(tangentAt(tried[i].point, tried[i].sample));
-      // If an end lies in the third plane, it lies on the crease of that plane, and its normal belongs to no single
-      // plane.
+      // The end farther from the third plane comes first: an end in the third plane lies on a crease of that plane, so
+      // that its normal may belong to either of two planes.
       std::array<const Tangent*, 2> ends{&a, &b};
       if (offPlane(third, a) < offPlane(third, b)) std::swap(ends[0], ends[1]);
       for (const Tangent* end : ends) choose(tried[i].side, *end, third, nearestOnCrease(*end, third, side));
@@ -152,8 +157,8 @@ class InnerVertices {
   const Creases& creases_;
   const FieldSampler& field_;
   SharpLoops& sharp_;
-  std::pmr::vector<Vector3> ideals_;  ///< one per side, in units from the side's corner
-  std::pmr::vector<Choice> choices_;  ///< positions to try, side by side; best first within a side
+  std::pmr::vector<Vector3> ideals_;  ///< ideal position for each loop side, in units from the side's corner
+  std::pmr::vector<Choice> choices_;  ///< candidate positions, grouped by loop side; best first within a side
   std::pmr::memory_resource* memory_;
 };
 

@@ -27,8 +27,7 @@ std::span<const uint32_t> CellLoop::triangulated(Triangles& triangles) const {
 
 FaceName JoinedLoops::faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const {
   FaceName name{loop.cell, sharedFace(body_.part().keys[a], body_.part().keys[b])};
-  // An edge that lies in the face has the face's coordinate along the axis. If that is not the cell's low face, it is
-  // the low face of the next cell.
+  // A face is named by the cell on its high side: this cell if the face is its low face, otherwise the next cell.
   if (body_.part().keys[a].corner[name.axis] != body_.cornerOf(loop.cell)[name.axis]) ++name.cell[name.axis];
   return name;
 }
@@ -48,7 +47,8 @@ bool JoinedLoops::isJoinedAt(const Int3& cell) const {
   return std::any_of(names.begin(), names.end(), [this](const FaceName& name) { return isJoined(name); });
 }
 
-/// Returns the sides of a cell after its joined faces have been applied.
+/// Returns the sides (segments between consecutive vertices) of a cell's loops. In a joined face, the two sides have
+/// exchanged their ends.
 JoinedLoops::CellSides JoinedLoops::sidesOf(const Int3& cell) const {
   CellSides of_cell;
   visitSides(cell, [&](const SurfaceLoop& loop, uint32_t a, uint32_t b) {

@@ -1,5 +1,5 @@
 #pragma once
-// The loops of a body's cells after some ambiguous faces are joined (mesh/ambiguous_faces.h).
+// The loops of a body's cells after ambiguous faces were joined (mesh/ambiguous_faces.h).
 
 #include <array>
 #include <cstdint>
@@ -40,8 +40,8 @@ struct FaceName {
 
 struct AmbiguousFace {
   FaceName name;
-  std::array<Int3, 2> solid;  ///< its solid corners, in units
-  bool is_joined = true;      ///< true if its solid corners are joined
+  std::array<Int3, 2> solid;  ///< the two solid corners of the face, in units
+  bool is_joined = true;      ///< true if the two solid corners are joined
 };
 
 /// A loop of one cell: its vertices, in 1/256 of a cell from the chunk's origin.
@@ -51,13 +51,13 @@ struct CellLoop {
   std::array<LoopPoint, kLongestBodyLoop> points;
   int count = 0;
 
-  /// True if the loop has a triangulation without a diagonal in a face of its cell.
+  /// True if the loop can be triangulated without a diagonal in a face of its cell.
   bool canTriangulate() const;
   /// Returns the loop's triangles, three vertices each. Stores them in `triangles`. Precondition: canTriangulate().
   std::span<const uint32_t> triangulated(Triangles& triangles) const;
 };
 
-/// The loops of one cell, in the order of their lowest edges.
+/// The loops of one cell, sorted by their edges of lowest number.
 struct CellLoops {
   std::array<CellLoop, kCubeEdges / 3> all;
   size_t count = 0;
@@ -72,9 +72,10 @@ class JoinedLoops {
   JoinedLoops(const BodyLoops& body, std::pmr::memory_resource* memory) : body_(body), faces_(memory) {}
 
   const BodyLoops& body() const { return body_; }
-  /// The face that contains two vertices of a loop; the two must share one.
+  /// Returns the cell face that contains two vertices of a loop. Precondition: such a face exists.
   FaceName faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const;
-  /// Calls visit(loop, from, to) for every side of a cell's loops before faces are joined.
+  /// Calls visit(loop, from, to) for every side (from one vertex to the next) of a cell's loops, as they are without
+  /// joined faces.
   template <class Visit>
   void visitSides(const Int3& cell, const Visit& visit) const {
     body_.visitWithin(cell, cell, [&](uint32_t number) {
@@ -83,12 +84,12 @@ class JoinedLoops {
     });
   }
 
-  /// Sorted by name, without duplicates.
+  /// faces: sorted by name, without duplicates.
   void setFaces(std::pmr::vector<AmbiguousFace>&& faces) { faces_ = std::move(faces); }
   std::span<const AmbiguousFace> faces() const { return faces_; }
   bool isJoined(const FaceName& name) const;
   bool isJoinedAt(const Int3& cell) const;
-  /// Precondition: the face is one of faces().
+  /// Precondition: faces() contains a face of that name.
   void setJoined(const FaceName& name, bool is_joined) { faces_[numberOf(name)].is_joined = is_joined; }
   CellLoops loopsOf(const Int3& cell) const;
 
@@ -98,10 +99,10 @@ class JoinedLoops {
   /// The segment of a loop in one face of a cell.
   struct Side {
     uint32_t from = 0, to = 0;
-    uint32_t face = kNone;  ///< index of the ambiguous face that the side lies in; kNone if its face is not ambiguous
+    uint32_t face = kNone;  ///< index of the joined face that the side lies in; kNone if its face is not joined
   };
 
-  /// The sides of all loops of a cell, from which the loops are built.
+  /// The sides of all loops of a cell, from which loopsOf() builds the loops.
   struct CellSides {
     std::array<Side, kCubeEdges> all;
     size_t count = 0;

@@ -7,7 +7,8 @@
 
 namespace sgm {
 
-/// Ordered by key (in an order different from VertexKey's), then by index.
+/// A packed vertex key with the index of its vertex. Ordered by key (in an order different from VertexKey's), then by
+/// index.
 struct OrderedKey {
   uint64_t high, low;
   uint32_t place;

@@ -30,7 +30,7 @@ class PlaneAxes {
  public:
   explicit PlaneAxes(const PlaneSum& planes) : right_(planes.right) {
     std::array<Vector3, 3> a = planes.squares;
-    constexpr int kSweeps = 8;  // the iteration converges quadratically: five are enough for doubles
+    constexpr int kSweeps = 8;  // number of sweeps; convergence is quadratic, so five are enough for doubles
     constexpr double kSettled = 1e-30;
     const double all = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
     for (int sweep = 0; sweep < kSweeps; ++sweep) {

@@ -1,5 +1,6 @@
 #pragma once
-// The triangles of one marching cubes loop, as the exact intersection tests use them.
+// The triangles of one marching-cubes loop, with or without features, in the form that the exact intersection tests
+// need.
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,8 @@
 namespace sgm {
 
 inline constexpr uint32_t kFaceVertices = 1u << 30,
-                          /// first names (NamedTriangle::name) of face vertices and of cell vertices; smaller names
-                          /// index a part's vertices
+                          /// The first names (NamedTriangle::name) of face vertices and of cell vertices; smaller names
+                          /// index a part's vertices.
     kCellVertices = 1u << 31;
 
 /// A box of positions in 1/256 of a cell.
@@ -57,7 +58,8 @@ struct NamedTriangle {
 /// The triangles of one loop.
 class LoopTriangles {
  public:
-  /// The maximum number of triangles: each side of a loop contributes a vertex and two face vertices to the ring.
+  /// The maximum number of triangles: each side of a loop contributes one vertex and up to two face vertices to the
+  /// ring.
   static constexpr size_t kMost = 3 * kLongestBodyLoop;
 
   LoopTriangles() = default;
@@ -100,7 +102,7 @@ inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loo
   return triangles;
 }
 
-/// Triangles with a bounding box for each and one around all of them.
+/// Triangles with a bounding box for each triangle and one around all of them.
 struct BoxedTriangles {
   std::span<const NamedTriangle> triangles;
   std::span<const PlaceBox> boxes;

@@ -11,7 +11,7 @@ namespace sgm {
 
 namespace {
 
-/// The vertices and indices to copy into a range; indices are relative to `first`.
+/// The vertices and indices that are copied into a range of a packed mesh. The indices are relative to `first`.
 struct RangeSource {
   std::span<const Vertex> vertices;
   std::span<const uint32_t> indices;
@@ -57,7 +57,7 @@ PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory) {
   PackedMesh mesh(memory);
   mesh.vertices = std::move(body.vertices);
   mesh.indices = std::move(body.indices);
-  // The arrays have spare capacity after sharpening. Meshes live long, so it is released.
+  // Sharpening leaves spare capacity in the arrays. It is released, because packed meshes live long.
   mesh.vertices.shrink_to_fit();
   mesh.indices.shrink_to_fit();
   mesh.ranges[0] = {0, static_cast<uint32_t>(mesh.vertices.size()), 0, static_cast<uint32_t>(mesh.indices.size()),

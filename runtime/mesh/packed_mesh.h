@@ -30,11 +30,12 @@ struct PackedMesh {
 /// parts[0] is the body, parts[1 + Face] a seam; null or empty if absent.
 using MeshParts = std::array<const MeshPart*, 7>;
 
-/// Concatenates parts. Ranges that `before` has and `parts` lacks are copied from `before`. So seams can be added to a
-/// mesh whose body keeps the same bytes at the same place. Throws std::bad_alloc.
+/// Concatenates parts into one mesh. Ranges that exist in `before` but not in `parts` are copied from `before`: so
+/// seams can be added to a mesh whose body keeps the same bytes at the same place. Throws std::bad_alloc.
 PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory);
 
-/// Packs a body without seams; moves its arrays if they were allocated from `memory`. Throws std::bad_alloc.
+/// Packs a body without seams. Moves its arrays instead of copying them if they were allocated from `memory`. Throws
+/// std::bad_alloc.
 PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory);
 
 /// Returns a box in units that contains every vertex, including those of seams; all 0 if there is no vertex.

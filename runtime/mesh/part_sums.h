@@ -12,7 +12,7 @@ namespace sgm {
 /// Sums over a part's triangles. Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
 struct PartSums {
   uint32_t triangles = 0;
-  /// sum of twice the triangles' areas, in 1/4096 of a square of 1/256 cell (fixedRoot in triangle_terms.h)
+  /// sum of twice the triangles' areas, in 1/4096 of the square of a length unit (fixedRoot in triangle_terms.h)
   int64_t area = 0;
   std::array<int64_t, 3> cross{};  ///< sum of the cross products of the triangles' sides: twice the area vector
   /// sum of six times the signed volumes of the tetrahedra between triangles and chunk origin

@@ -8,8 +8,9 @@ namespace sgm {
 
 namespace {
 
-/// The maximum number of other sides of a claim (mesh/rounded_cells.h). Each side may have its face vertices or lose
-/// them, which doubles the number of cases to test.
+/// The maximum number of sharp loop sides in chunk faces near a claim (mesh/rounded_cells.h), besides the claim's own
+/// side. A claim with more sides fails. Each of these sides may or may not have its face vertices, so each doubles the
+/// number of cases to test.
 constexpr size_t kMaxOthers = 4;
 
 }  // namespace
@@ -58,8 +59,8 @@ bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
          (part_.keys[a] == claim.to && part_.keys[b] == claim.from);
 }
 
-/// Finds the sides, other than those of the claims, that may have face vertices in a face of the chunk, and places
-/// their vertices.
+/// For each claim, finds the other loop sides near it that may have face vertices in a face of the chunk, and places
+/// these vertices.
 void RoundedCells::findOthers() {
   std::pmr::vector<SharpSide> sides(memory_);
   std::pmr::vector<Border> all(memory_);
@@ -114,8 +115,9 @@ bool RoundedCells::keepsClear(const Claim& claim) const {
   return true;
 }
 
-/// Returns the triangles of a loop if its own side and the others in the mask `present` have their face vertices.
-/// Vertices that also belong to the own side's loop get the names that they have there.
+/// Returns the triangles of a loop. Its face vertices are those of the claim's own side and of the other sides whose
+/// bit in `present` is set. If a vertex also belongs to the loop of the claim's own side, its name
+/// (NamedTriangle::name) is the one that it has in that loop.
 LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::span<const Border> others,
                                         uint32_t present) const {
   const SurfaceLoop &loop = loops_[number], &own_loop = loops_[own.loop];

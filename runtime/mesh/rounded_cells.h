@@ -1,6 +1,6 @@
 #pragma once
-// Tests whether rounded loops with a face vertex in a face of the chunk intersect other loops: those of their own cell,
-// and those of adjacent cells if the face vertex lies there.
+// Tests whether rounded loops (mesh/sharp_loops.h) with a face vertex in a face of the chunk intersect other loops:
+// those of their own cell, and those of adjacent cells if the face vertex lies there.
 
 #include <array>
 #include <functional>
@@ -16,27 +16,28 @@
 
 namespace sgm {
 
-/// Tests sharp sides in faces of the chunk. A CLAIM says that the rounded loop of a side, in one of the two cells
-/// beside the side, intersects no other loop. Other loops there that have sharp sides in faces of the chunk may end up
-/// with or without their face vertices, so a claim is tested against both forms.
+/// Tests sharp loop sides in faces of the chunk. A CLAIM says that the rounded loop of a side, in one of the two cells
+/// beside the side, intersects no other loop. Sides of the other loops, if they lie in faces of the chunk and are
+/// sharp, may end up with or without their face vertices, so a claim is tested in all of these cases.
 class RoundedCells {
  public:
-  /// Places the face vertices of the given sides, which lie in faces of the chunk, as if no rounded loop interfered.
-  /// creases: of the vertices that the sides join.
+  /// Places the face vertices of the given loop sides, which lie in faces of the chunk, without testing claims.
+  /// creases: the tangent planes of the vertices that the sides join.
   using PlaceAlone = std::function<void(const Creases& creases, std::span<SharpSide>)>;
 
   /// Borrows all arguments.
   RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
                std::pmr::memory_resource* memory);
 
-  /// Adds a claim for the centre of a rounded loop: the loop that has `side` as one of its edges, in the cell above or
-  /// below the face in which `side` lies. Keeps a reference to `side`. from, to: the keys of the ends of `side`. q: the
-  /// field at the cell's corners.
+  /// Adds a claim for a rounded loop: the loop that has `side` as one of its edges, in the cell above or below the face
+  /// in which `side` lies. Keeps a reference to `side`. from, to: the keys of the ends of `side`. q: the field at the
+  /// cell's corners.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
-  /// Adds an adjacent cell to the last claim, `steps` cells away from the claim's cell. q: the field at its corners.
+  /// Adds an adjacent cell to the last claim, `steps` cells away from the claim's cell. q: the field at the corners of
+  /// that cell.
   void addBeside(const Int3& steps, const std::array<int32_t, 8>& q);
 
-  /// Removes the positions (SharpSide::places) of the sides whose claims fail. Call once.
+  /// Removes the positions (SharpSide::places) of the loop sides whose claims fail. Call once.
   void judge();
 
  private:
@@ -44,11 +45,12 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    /// loops first..end - 1 are of the claim's cell, end..end_beside - 1 of adjacent cells
+    /// ranges in loops_: first..end - 1 are the loops of the claim's cell, end..end_beside - 1 those of adjacent cells
     size_t first, end, end_beside;
     size_t first_other = 0, end_other = 0;
   };
-  /// A sharp side in a face of the chunk, of a claim's loop or of another loop of the claim.
+  /// A sharp loop side in a face of the chunk: the side of a claim, or another side near the claim. loop: index in
+  /// loops_ of the side's loop. behind: index in the loop of the vertex at which the side begins.
   struct Border {
     size_t loop = 0;
     uint32_t behind = 0;
@@ -66,7 +68,7 @@ class RoundedCells {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<Claim> claims_;
-  std::pmr::vector<Border> others_;  ///< the other sides of all claims, in the order of the claims
+  std::pmr::vector<Border> others_;  ///< sharp loop sides near the claims, without the claims' own sides; by claim
   Creases creases_;
   std::pmr::memory_resource* memory_;
 };

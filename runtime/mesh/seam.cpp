@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kFineSide = kChunkSamples;
 constexpr size_t kCoarseSide = kCoarseSamples;
 
-/// Access to the fine samples in the face: sign words (bit a of word b), and strides into q.
+/// The fine samples in the seam's face: their signs (bit a of word b), and their offset and strides in ChunkSamples::q.
 struct FinePlane {
   std::array<uint64_t, kFineSide> signs{};
   size_t origin = 0, step_u = 0, step_v = 0;
@@ -37,7 +37,7 @@ FinePlane planeOfFace(const ChunkSamples& samples, Face face) {
   return plane;
 }
 
-/// Builds one seam. Stores the vertex numbers of edges by the sample at which the edge starts.
+/// Builds one seam. Stores the number of the vertex on each crossed edge, by the sample at which the edge starts.
 class SeamBuilder {
  public:
   SeamBuilder(Face face, const ChunkGrid& grid, MeshPart& part)
@@ -105,8 +105,8 @@ class SeamBuilder {
   }
 
  private:
-  /// Adds a vertex on the edge that starts at (a, b), counted in steps of `step` fine cells; it lies at t / 256 of the
-  /// edge.
+  /// Adds a vertex on the edge that starts at point (a, b) of the face, counted in steps of `step` fine cells. The
+  /// vertex lies at t / 256 of the edge.
   uint32_t addVertex(size_t a, size_t b, int32_t step, int edge_axis, uint32_t t) {
     Int3 at, corner = grid_.origin;
     at[axis_] = faceIsHigh(face_) ? kChunkCells : 0;

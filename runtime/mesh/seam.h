@@ -7,11 +7,12 @@
 
 namespace sgm {
 
-inline constexpr int kCoarseCells = kChunkCells / 2;  ///< coarse squares along a side of the face
+inline constexpr int kCoarseCells = kChunkCells / 2;  ///< number of coarse squares along each side of the face
 inline constexpr int kCoarseSamples = kCoarseCells + 1;
 
-/// Samples of the field of level + 1 at the coarse grid points of one face. q has a fastest, then b; bit a of signs[b]:
-/// solid. As in ChunkSamples, q is only read at the ends of coarse edges of the face whose ends differ in sign.
+/// Samples of the field of the coarser level at the coarse grid points of one face. In q, a varies fastest, then b. Bit
+/// a of signs[b] is set if sample (a, b) is solid. As in ChunkSamples, q is only read at the ends of coarse edges of
+/// the face whose ends differ in sign.
 struct CoarseFace {
   std::array<int32_t, kCoarseSamples * kCoarseSamples> q{};
   std::array<uint32_t, kCoarseSamples> signs{};

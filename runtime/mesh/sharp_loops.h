@@ -2,32 +2,32 @@
 // Loops of marching cubes with sharp features (after Kobbelt et al. 2001, "Feature Sensitive Surface Extraction from
 // Volume Data").
 //
-// A SIDE of a loop lies in a face of its cell and joins two vertices on edges of that face. If the normals at its ends
-// differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX on the crease. A
-// loop with sharp sides becomes a fan around a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
-// The creases from there to the face vertices divide the fan into PATCHES, each approximately planar. A patch that is
-// not entirely visible from the cell vertex gets other diagonals (mesh/fan_triangles.h). If two creases pass through a
-// cell and do not meet, the loop has no cell vertex: it is a STRIP. If a crease passes through a loop's vertices, its
-// sides are not sharp, but it becomes a fan, too.
+// A SIDE of a loop joins two consecutive vertices of the loop, which lie on edges of one face of its cell. If the
+// normals at its ends differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX
+// on the crease. A loop with sharp sides becomes a fan around a CELL VERTEX, the point nearest to the tangent planes of
+// the loop's vertices. The creases from the cell vertex to the face vertices divide the fan into PATCHES, each
+// approximately planar. A patch that is not entirely visible from the cell vertex gets other diagonals
+// (mesh/fan_triangles.h). If two creases pass through a cell and do not meet, the loop has no cell vertex: it is a
+// STRIP. If a crease passes through a loop's vertices, its sides are not sharp, but it becomes a fan, too.
 //
 // Validity takes precedence over sharpness. A loop whose fan intersects another triangle (mesh/triangle_faults.h) is
-// ROUNDED: it keeps its own triangles, as without features, and its sides lose their face vertices.
+// ROUNDED: it keeps its marching-cubes triangles, and its sides lose their face vertices.
 //
-// The sides in a face of the CHUNK are an exception. Their face vertices, two if a third plane cuts off the crease of
-// the other two, lie in that face and depend only on the field near it (mesh/border_vertices.h); all other features of
-// a chunk lie strictly inside it. So the bodies on both sides of a face, of one level or two, and the seam between
-// them, which lies in the face, meet only where they should, whatever happens to the loops of each: chunks that are
-// meshed separately agree without communication. A rounded loop keeps these face vertices, and is a fan around a point
+// The sides in a face of the CHUNK are an exception. Their face vertices (two if a third plane cuts off the crease of
+// the ends' planes) lie in that face and depend only on the field near it (mesh/border_vertices.h). All other features
+// of a chunk lie strictly inside it. So the bodies on both sides of the face meet only where they should, whichever of
+// their loops are rounded, and so does the seam that lies in the face between two levels. Chunks that are meshed
+// separately agree without communication. A rounded loop keeps these face vertices, and is a fan around a point
 // strictly within its own cell (roundedCentre).
 //
-// Rounded loops never intersect each other, so that rounding terminates. Such a fan is a cone over a simple polygon on
-// the boundary of its cell, which is convex: it stays in the cell, and has no other point in common with the boundary.
-// If the cell has another loop, the cone is tested against it (mesh/rounded_cells.h). If a face vertex lies outside the
-// side's square, the centre is 1/256 of a cell away from the chunk's face, and so is the part of the cone beyond the
-// cell. If no contour crosses the square of the face beneath it, triangles there whose corners are not in the face are
-// at least 1/256 away; otherwise the cone is tested against the loops there. If several sides have a face vertex in one
-// such square, each stays in its own part of it, or its cone is tested against those of the others
-// (mesh/surroundings.h).
+// Rounded loops never intersect each other, so that rounding terminates. The fan of a rounded loop is a cone over a
+// simple polygon on the boundary of its cell, which is convex: the cone stays in the cell, and has no other point in
+// common with the boundary. If the cell has another loop, the cone is tested against it (mesh/rounded_cells.h). If a
+// face vertex lies outside the side's square, the centre is 1/256 of a cell away from the chunk's face, and so is the
+// part of the cone beyond the cell. If no contour crosses the square of the face beneath that part, triangles there
+// whose corners are not in the face are at least 1/256 away; otherwise the cone is tested against the loops there. If
+// several sides have a face vertex in one such square, each vertex stays in its side's part of the square, or the cones
+// are tested against each other (mesh/surroundings.h).
 
 #include <array>
 #include <cstdint>
@@ -42,8 +42,9 @@
 
 namespace sgm {
 
-/// The positions of the face vertices of one side, ordered from its lower end: one, or two if a third plane cuts off
-/// the crease of the ends' planes. In 1/256 of a cell from the side's corner.
+/// The positions of the face vertices of one loop side, ordered from its end SharpSide::from to its other end: one
+/// position, or two if a third plane cuts off the crease of the ends' planes. In 1/256 of a cell from the side's
+/// corner.
 class FacePlaces {
  public:
   static constexpr size_t kMost = 2;
@@ -61,46 +62,47 @@ class FacePlaces {
   uint32_t count_ = 0;
 };
 
-/// A side whose ends have different normals.
+/// A side of a loop, with different normals at its ends.
 struct SharpSide {
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  uint32_t from = 0, to = 0;                    ///< vertices; the lower key first, so both cells have the same side
-  Int3 corner;                                  ///< the lowest of its face, in units
-  int axis = 0;                                 ///< the normal axis of its face
-  bool at_border = false;                       ///< its face is part of a face of the chunk
-  std::array<uint32_t, 2> loops{kNone, kNone};  ///< indices of its sharp loops, the one in the lower cell first
-  std::optional<Tangent> third;                 ///< tangent at the point where its ends' planes meet, off the surface
-  FacePlaces places;                            ///< empty if it cannot have a face vertex; two only at the border
+  uint32_t from = 0, to = 0;                    ///< vertices at its ends, the lower key first: the same in both cells
+  Int3 corner;                                  ///< lowest corner of the side's grid square, in units
+  int axis = 0;                                 ///< normal axis of the face in which the side lies
+  bool at_border = false;                       ///< true if the side lies in a face of the chunk
+  std::array<uint32_t, 2> loops{kNone, kNone};  ///< indices of its sharp loops, first that of the lower cell
+  std::optional<Tangent> third;                 ///< tangent plane where its ends' planes meet, if off the surface
+  FacePlaces places;                            ///< empty if no face vertex is possible; two only in faces of the chunk
 
   friend bool operator<(const SharpSide& a, const SharpSide& b) {
     return a.from != b.from ? a.from < b.from : a.to < b.to;
   }
 };
 
-/// Returns the side between two vertices, given by indices into keys. Fills from, to, corner and axis; the other
+/// Returns the loop side between two vertices, given by indices into keys. Fills from, to, corner and axis; the other
 /// members keep their defaults.
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
 
-/// True if a side is in a face of the chunk.
+/// True if a loop side lies in a face of the chunk.
 bool isAtBorder(const ChunkGrid& grid, const SharpSide& side);
 
-/// Converts a position relative to the side's corner to one relative to the chunk's origin; both in 1/256 of a cell.
+/// Converts a position relative to a loop side's corner to one relative to the chunk's origin; both in 1/256 of a cell.
 Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place);
 
-/// Returns the key of a side's face vertex. from: the key of the vertex side.from. which: 0, or 1 for the second face
-/// vertex of the side.
+/// Returns the key of a loop side's face vertex. from: the key of the vertex side.from. which: 0, or 1 for the second
+/// face vertex of the side.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
 
 /// A face vertex in a face of the chunk.
 struct BorderVertex {
   Int3 at;
-  int axis = 0;  ///< the normal axis of the face
+  int axis = 0;  ///< the normal axis of that face
 };
 
 /// Returns the centre of a rounded loop with face vertices in a face of the chunk, strictly within its cell. It is the
-/// mean of the loop's vertices; but if a face vertex lies beyond the cell's square, it is 1/256 of a cell from the
-/// face, so that nothing else lies between the fan and the face. All positions are in 1/256 of a cell from one origin.
+/// mean of the loop's vertices and of these face vertices. But if a face vertex lies beyond the cell, the centre is
+/// 1/256 of a cell from the face, so that nothing else lies between the fan and the face. All positions are in 1/256 of
+/// a cell from one origin.
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
 
 /// The centre of a fan: a cell vertex, or one of the loop's own face vertices in the chunk's face. The strip kinds have
@@ -119,16 +121,16 @@ struct FanCentre {
 /// A loop with sharp sides, or with a crease through its vertices.
 struct SharpLoop {
   enum class Shape : uint8_t {
-    plain,    ///< its own triangles, or a fan that keeps the face vertices at the chunk's border
-    fan,      ///< around its centre, with all of its face vertices
-    rounded,  ///< triangles as plain, although the centre of a fan lies on the surface: no fan would be valid
+    plain,    ///< marching-cubes triangles, or a fan around roundedCentre() with the face vertices in chunk faces
+    fan,      ///< a fan around `centre`, or a strip, with the face vertices of its sharp sides
+    rounded,  ///< same triangles as plain: fans or strips were made, but all were faulty
   };
 
   uint32_t loop = 0;  ///< index of the loop in the body
-  /// index of the side after each vertex of the loop; kNone if that side is not sharp
+  /// for each vertex of the loop: index of the side that begins there; kNone if that side is not sharp
   std::array<uint32_t, kLongestBodyLoop> sides{};
   Shape shape = Shape::plain;
-  FanCentre centre;         ///< the centre, if the shape is fan
+  FanCentre centre;         ///< centre of the fan, if the shape is `fan`
   bool by_patches = false;  ///< true if a fan may have diagonals that do not end at its centre
   uint8_t tried = 0;        ///< number of centres tried so far
 
@@ -147,7 +149,8 @@ struct SharpLoops {
       : body(of_body), sides(memory), loops(memory) {}
 
   const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
-  /// Converts between a side with the number of its face vertex (`which`, 0 or 1) and the index of that face vertex.
+  /// faceVertexOf() and sideOf() convert between a side with the number of its face vertex (`which`: 0 or 1) and the
+  /// index of that face vertex.
   static uint32_t faceVertexOf(uint32_t side, size_t which) {
     return side * static_cast<uint32_t>(FacePlaces::kMost) + static_cast<uint32_t>(which);
   }
@@ -155,7 +158,8 @@ struct SharpLoops {
   /// True if the loops of the side, in their current shapes, use its face vertices.
   bool hasFaceVertices(const SharpSide& side) const;
   Int3 fromChunk(const SharpSide& side, const Int3& place) const { return sgm::fromChunk(body.grid(), side, place); }
-  /// Returns the centre of a loop if its current shape is a fan; nullopt if it has its own triangles.
+  /// Returns the centre of a loop if its current triangles are a fan or strip; nullopt if they are those of marching
+  /// cubes.
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
   /// Returns the triangles of a loop in its current shape.
   LoopTriangles trianglesOf(const SharpLoop& loop) const;

@@ -1,19 +1,18 @@
 #pragma once
-// Restores edges and corners of a chunk, which marching cubes cuts off: adds the features of mesh/features.h to a body
-// or seam.
+// Restores sharp edges and corners of a chunk, which marching cubes cuts off: adds the features that mesh/features.h
+// finds.
 //
-// A loop with a crease becomes a fan or a strip (mesh/sharp_loops.h), and cells beside an ambiguous face may get other
-// loops (mesh/ambiguous_faces.h). All other loops keep their triangles. A seam includes the face vertices of both
-// levels that it joins, which lie in its face: the triangles at those sides are divided. So a closed surface stays
-// closed and manifold.
+// In a body, a loop with a crease becomes a fan or a strip (mesh/sharp_loops.h), and cells beside an ambiguous face may
+// get other loops (mesh/ambiguous_faces.h). All other loops keep their triangles. A seam gets the face vertices of both
+// levels in its face, and the triangles at those sides are divided, so that a closed surface stays closed and manifold.
 
 #include "mesh/creases.h"
 
 namespace sgm {
 
-/// Adds feature vertices behind the existing ones, and recomputes the part's hash. Returns the number of rounded loops:
-/// a loop is rounded, which means that its centre is no feature, if its fan would otherwise have a triangle with two
-/// corners in one place, or one that intersects another triangle of the level (mesh/triangle_faults.h).
+/// Adds feature vertices behind the existing ones, and recomputes the part's hash. Returns the number of rounded loops.
+/// A loop is rounded, so that it has no feature vertex in its cell, if its fan would have a triangle with two corners
+/// in one place, or a triangle that intersects another one of the level (mesh/triangle_faults.h).
 ///
 /// A feature vertex lies at most 1/25 cell plus one unit off the surface. The vertex of a cell lies less than one cell
 /// outside that cell; the vertex of a face lies less than one cell outside the two cells at that face. The only

@@ -11,7 +11,8 @@ namespace {
 
 constexpr uint32_t kNoMiddle = SharpSide::kNone;
 
-/// The face vertices on a side of a triangle, in order; unused entries are kNoMiddle.
+/// The face vertices on one side of a triangle, in order, as indices of the seam's vertices. Unused entries are
+/// kNoMiddle.
 using Middles = std::array<uint32_t, FacePlaces::kMost>;
 constexpr Middles kNoMiddles{kNoMiddle, kNoMiddle};
 
@@ -28,7 +29,8 @@ void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>
       ring[count++] = m;
     }
   }
-  // Makes a fan around a face vertex. No other triangle here has that vertex as a corner, so no edge occurs twice.
+  // Makes a fan around one of the face vertices. No other triangle of the seam has that vertex, so no edge occurs
+  // twice.
   for (size_t i = 1; i + 1 < count; ++i) {
     indices.insert(indices.end(), {ring[middle], ring[(middle + i) % count], ring[(middle + i + 1) % count]});
   }
@@ -54,8 +56,8 @@ class LevelOfSeam {
         middles_(memory),
         memory_(memory) {}
 
-  /// Finds the face vertices of this level's sides in the seam, slides this level's vertices onto the surface, and
-  /// appends the face vertices.
+  /// Slides this level's vertices in the seam onto the surface. Then computes the face vertices of this level's sides,
+  /// and appends them to the seam. triangles_end: number of the seam's indices.
   void addFaceVertices(size_t triangles_end) {
     takeVertices();
     if (of_seam_.empty()) return;
@@ -66,8 +68,8 @@ class LevelOfSeam {
     append();
   }
 
-  /// Returns the face vertices on the side from one of the seam's vertices to another; kNoMiddles if the two vertices
-  /// are not the ends of a side.
+  /// Returns the face vertices on the loop side from vertex a of the seam to vertex b; kNoMiddles if the two vertices
+  /// are not the ends of a sharp side of this level.
   Middles middlesOf(uint32_t a, uint32_t b) const {
     if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddles;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);
@@ -98,7 +100,7 @@ class LevelOfSeam {
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
       if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
-      // Only edges of one square make a side; other pairs are diagonals.
+      // Two vertices on edges of one square are the ends of a loop side; two other vertices are the ends of a diagonal.
       if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
       sides_.push_back(sideBetween(a, b, part_.keys));
       sides_.back().axis = axis_;
@@ -110,7 +112,7 @@ class LevelOfSeam {
                  sides_.end());
   }
 
-  /// True if both keys are of edges of one square in the seam's face.
+  /// True if the edges with these keys belong to one grid square in the seam's face.
   bool shareSquare(const VertexKey& a, const VertexKey& b) const {
     Int3 corner;
     for (int k = 0; k < 3; ++k) corner[k] = std::min(a.corner[k], b.corner[k]);
@@ -158,18 +160,18 @@ class LevelOfSeam {
   }
 
   const ChunkGrid chunk_;
-  const int scale_;  ///< number of levels above the chunk's: 0 or 1
+  const int scale_;  ///< level above the chunk's level: 0 or 1
   const ChunkGrid grid_;
   const int axis_;
   const FieldSampler& field_;
   MeshPart& seam_;
-  MeshPart part_;  ///< the vertices of this level, copied from the seam
+  MeshPart part_;  ///< vertices of this level, copied from the seam
   Creases creases_;
-  std::pmr::vector<uint32_t> of_seam_;  ///< index in the seam of each vertex of the part
-  /// index in the part of each vertex of the seam; kNoMiddle for vertices of the other level
+  std::pmr::vector<uint32_t> of_seam_;  ///< by vertex of part_: its index in the seam
+  /// by vertex of the seam: its index in part_; kNoMiddle for vertices of the other level
   std::pmr::vector<uint32_t> in_part_;
-  std::pmr::vector<SharpSide> sides_;  ///< sides between vertices of the part, sorted
-  std::pmr::vector<Middles> middles_;  ///< indices into the seam's vertices, one entry per side
+  std::pmr::vector<SharpSide> sides_;  ///< sharp loop sides between vertices of part_, sorted
+  std::pmr::vector<Middles> middles_;  ///< by loop side: its face vertices, as indices of the seam's vertices
   std::pmr::memory_resource* memory_;
 };
 

@@ -17,21 +17,23 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// What the feature vertices of a triangle take over from its side of the crease: the attributes of a vertex of that
-/// side, and the side's normal.
+/// The attributes that a triangle's feature vertices get: those of the vertex `like`, which lies on the same side of
+/// the crease as the triangle, but with the normal of that side.
 struct SideOfCrease {
   uint32_t like = kNoCopy;
   Vector3 normal{};
-  /// packed; set if the normal of that vertex differs from the side's
+  /// packed normal of the side; set if it differs from the normal of `like`
   std::optional<std::array<int16_t, 2>> own_normal;
 };
 
-/// Operations that Mesh must offer: keys (one per vertex) and indices; at(v) and normal(v), which read a vertex;
-/// give(v, side), which sets its attributes; copy(v), which appends a copy.
+/// Returns the side of the crease that a triangle belongs to. Mesh must offer keys (one per vertex) and indices; at(v)
+/// and normal(v), which read a vertex; give(v, side), which sets its attributes; and copy(v), which appends a copy of
+/// it.
 template <class Mesh>
 SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
-  // A triangle has one or two vertices on its side. A triangle that joins only features is followed by another one of
-  // that side, or is the only triangle of the side in its cell.
+  // Vertices that are not features have the attributes of their side of the crease. If all corners of a triangle are
+  // features, the next triangle in the mesh that has another corner lies on the same side, or the triangle is the only
+  // one of its side in its cell.
   SideOfCrease side;
   for (size_t i = triangle; side.like == kNoCopy && i < mesh.indices.size(); i += 3) {
     for (size_t k = 0; k < 3; ++k) {
@@ -55,7 +57,8 @@ SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
 
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
-  // A linked list of the copies of each vertex: the next copy. An entry is unset while its feature vertex has no side.
+  // next: linked lists of the copies of each vertex; the entry of a vertex is its next copy. set: true if a feature
+  // vertex has the attributes of a side.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {

@@ -1,5 +1,5 @@
 #pragma once
-// Splits creases for drawing, so that each side has its own normal.
+// Splits a mesh along its creases, so that the surface on each side of a crease is drawn with its own normals.
 
 #include "mesh/weld.h"
 
@@ -10,7 +10,7 @@ namespace sgm {
 /// of the original mesh. Throws std::bad_alloc.
 WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Same as above, in place; recomputes the part's hash.
+/// Splits the creases of a part in place, as the function above does, and recomputes its hash.
 void splitCreases(MeshPart& part, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace sgm

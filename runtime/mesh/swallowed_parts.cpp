@@ -30,10 +30,10 @@ class Parts {
     above_[std::max(a, b)] = std::min(a, b);
   }
 
-  std::pmr::vector<uint32_t> above_;  ///< parent in the union-find: a vertex of the same part, or the vertex itself
+  std::pmr::vector<uint32_t> above_;  ///< union-find parent of each vertex: another vertex of its part, or itself
 };
 
-/// Returns, among the triangles above a point along z, the number that face up minus the number that face down.
+/// Returns the number of triangles above a point, along z, that face up, minus the number of those that face down.
 int turnsAbove(std::span<const NamedTriangle> triangles, const Int3& place) {
   int turns = 0;
   for (const NamedTriangle& triangle : triangles) {
@@ -70,10 +70,10 @@ class Swallowed {
     PlaceBox cells;
   };
 
-  /// Returns the parts that have no vertex in a face of the chunk.
+  /// Returns the parts of the surface that have no vertex in a face of the chunk.
   std::pmr::vector<ClosedPart> closedParts() {
     const MeshPart& part = body_.part();
-    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // one per part
+    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // boxes of the parts' cells, by root vertex
     for (const SurfaceLoop& loop : body_.all()) boxes[parts_.of(loop.vertices[0])].take(loop.cell);
     for (uint32_t v = 0; v < boxes.size(); ++v) {
       const Int3 at = placeOf(part, v);
@@ -86,7 +86,7 @@ class Swallowed {
     return closed;
   }
 
-  /// Calls visit for the sharp loops of other parts whose features may reach into the cells lo..hi.
+  /// Calls visit for the sharp loops that do not belong to `part` and whose features may reach into the cells lo..hi.
   template <class Visit>
   void visitOthers(uint32_t part, Int3 lo, Int3 hi, const Visit& visit) {
     for (int k = 0; k < 3; ++k) --lo[k], ++hi[k];
@@ -96,8 +96,9 @@ class Swallowed {
     });
   }
 
-  /// Returns by how much features change the other parts' winding number around the point. The surfaces with and
-  /// without features differ by closed surfaces, except in the faces of the chunk, which inTopFace completes.
+  /// Returns the difference that the features of all parts except `part` make to the winding number of these parts
+  /// around a point. The surfaces with and without features differ by closed surfaces, except in the faces of the
+  /// chunk, where inTopFace() adds the missing triangles.
   int turnsOf(uint32_t part, const Int3& at) {
     int turns = 0;
     const Int3 cell{at.x / kSubcell, at.y / kSubcell, at.z / kSubcell};
@@ -110,8 +111,8 @@ class Swallowed {
     return turns;
   }
 
-  /// Returns the triangles between a loop's straight sides in the upper face of the chunk and the paths over their face
-  /// vertices.
+  /// Returns the triangles, in the upper face of the chunk, between the straight sides of a loop and the paths through
+  /// their face vertices.
   LoopTriangles inTopFace(const SharpLoop& loop) const {
     LoopTriangles triangles;
     for (uint32_t i = 0; i < sharp_.of(loop).count; ++i) {
@@ -134,7 +135,7 @@ class Swallowed {
   const BodyLoops& body_;
   Parts parts_;
   std::pmr::memory_resource* memory_;
-  std::pmr::vector<uint32_t> place_{memory_};  ///< index in sharp_.loops by loop of the body
+  std::pmr::vector<uint32_t> place_{memory_};  ///< by loop of the body: its index in sharp_.loops, or kNone
 };
 
 }  // namespace

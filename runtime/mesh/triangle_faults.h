@@ -63,14 +63,15 @@ struct IntegerSigns {
   }
 };
 
-/// Intersection tests on two triangles. Signs: gives the orientation predicates, with the interface of IntegerSigns.
+/// Intersection tests for two triangles. Signs: the orientation predicates, with the interface of IntegerSigns.
 template <class Signs>
 class TrianglePair {
  public:
   using Place = typename Signs::Place;
   using Corners = std::array<Place, 3>;
 
-  /// Precondition: the `shared` common corners come first, in the same order in both triangles.
+  /// Returns the defect of two triangles. shared: the number of their common corners, which must come first, in the
+  /// same order in both triangles.
   static PairFault faultOf(const Corners& a, const Corners& b, int shared) {
     switch (shared) {
       case 0:
@@ -148,12 +149,13 @@ class TrianglePair {
     return false;
   }
 
-  /// For coplanar triangles: true if the line through an edge of `t` has all of `other` strictly beyond it, except for
-  /// a common first corner. This settles most neighbours on flat ground.
+  /// For coplanar triangles: true if a line through an edge of `t` separates the triangles: all corners of `other` lie
+  /// strictly beyond it, except a common first corner. This quick test suffices for most adjacent triangles on flat
+  /// ground.
   static bool liesBeyond(int drop, const Corners& t, const Corners& other, size_t shared) {
     const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
     for (size_t k = 0; k < 3; ++k) {
-      // If they share their first corner, only lines through it can separate them.
+      // If the triangles share their first corner, only a line through that corner can separate them.
       if (shared == 1 && k == 1) continue;
       bool beyond = true;
       for (size_t i = shared; i < 3 && beyond; ++i)
@@ -163,8 +165,8 @@ class TrianglePair {
     return false;
   }
 
-  /// Returns the corner that is alone on its side of a plane; nullopt if a corner lies in the plane. sides: of each
-  /// corner.
+  /// Returns the corner that is alone on its side of a plane; nullopt if a corner lies in the plane. sides: the side of
+  /// each corner (1, 0 or -1).
   static std::optional<size_t> loneCorner(const std::array<int, 3>& sides) {
     if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) return std::nullopt;
     return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;

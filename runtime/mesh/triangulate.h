@@ -1,12 +1,12 @@
 #pragma once
-// Triangulates one loop of cut edges, in 32-bit integers alone, so that every backend chooses the same diagonals.
+// Triangulates one loop of crossed edges, in 32-bit integers alone, so that every backend chooses the same diagonals.
 //
 // Chooses, among all triangulations with allowed diagonals (LoopPoint::faces), the one whose smallest triangle is
 // largest, by dynamic programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece
 // i..j, and each chord takes the first apex k in ascending order that reaches it. The measure of a triangle is the L1
 // norm of the cross product of two of its sides. Triangles are output in pre-order: (i, k, j), then those of (i, k),
-// then those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot occur. For the flat
-// loops of a seam, least overlap takes precedence over the rule above (triangulateFlatLoop).
+// then those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot occur. For the flat loops
+// of a seam, least overlap takes precedence over this rule (triangulateFlatLoop).
 
 #include <algorithm>
 #include <array>
@@ -126,8 +126,8 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   return out + 3 * (N - 2);
 }
 
-/// Calls triangulateLoopOf for a loop of n points. point(i, n) returns the i-th LoopPoint; n is passed as a constant. 3
-/// <= n <= kLongestCubeLoop.
+/// Calls triangulateLoopOf for a loop of n points. Precondition: 3 <= n <= kLongestCubeLoop. point(i, n) returns the
+/// i-th LoopPoint; n is passed as a constant.
 template <class Load>
 inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   switch (n) {

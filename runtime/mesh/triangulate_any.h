@@ -1,5 +1,5 @@
 #pragma once
-// Defines the triangulation of a loop of cut edges (triangulate.h) for any length, on the CPU and on a GPU.
+// Triangulates a loop of crossed edges (triangulate.h) of any length, on the CPU and on a GPU.
 
 #include <algorithm>
 #include <cstddef>
@@ -85,7 +85,7 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
 /// same as triangulateAnyLoop.
 SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongestLoop;
-  constexpr int32_t kForbidden = 1 << 24;  // more than the area of any loop: 10 triangles of at most 2^19
+  constexpr int32_t kForbidden = 1 << 24;  // stands for "no triangulation": more than the area of any loop
   int32_t total[size_t{kSide} * kSide], best[size_t{kSide} * kSide];
   uint8_t apex[size_t{kSide} * kSide];
   for (int i = 0; i + 1 < n; ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kCoarseStep = 2 * kSubcell;
 
-/// Returns the axis along which the vertex lies between two points of a grid of this step.
+/// Returns the axis along which the vertex lies between two points of a grid with the spacing `step`.
 uint8_t axisOf(const std::array<int, 3>& at, int step) { return at[0] % step != 0 ? 0 : at[1] % step != 0 ? 1 : 2; }
 
 }  // namespace

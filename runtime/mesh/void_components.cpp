@@ -14,7 +14,8 @@ constexpr size_t kLast = kChunkCells;
 struct BlockTables {
   std::array<uint8_t, kChunkSamples> low{}, high{};
   std::array<uint64_t, kChunkSamples> bits{};  ///< bit i is set if block i contains the sample
-  /// bit 8 i is set if block i does: multiplied by the bits of another axis, gives the blocks of a square
+  /// bit 8 i is set if block i contains the sample; the product with the bits of another axis gives the blocks of a
+  /// square
   std::array<uint64_t, kChunkSamples> rows{};
 
   constexpr BlockTables() {
@@ -32,7 +33,7 @@ bool inBorder(size_t first, size_t last, size_t y, size_t z) {
   return first == 0 || last == kLast || y == 0 || y == kLast || z == 0 || z == kLast;
 }
 
-/// Adds samples first..last of a row.
+/// Adds to a void the blocks that contain samples first..last of the row (y, z).
 void add(VoidComponent& component, size_t first, size_t last, size_t y, size_t z) {
   const uint64_t x = (uint64_t{2} << kBlocks.high[last]) - (uint64_t{1} << kBlocks.low[first]);
   const uint64_t xy = x * kBlocks.rows[y];

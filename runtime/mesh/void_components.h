@@ -18,8 +18,8 @@
 
 namespace sgm {
 
-inline constexpr int kVoidBlock = 4;                          ///< cells per axis that one bit of a mask stands for
-inline constexpr int kVoidBlocks = kChunkCells / kVoidBlock;  ///< blocks per axis of a chunk
+inline constexpr int kVoidBlock = 4;                          ///< number of cells along each axis of a block
+inline constexpr int kVoidBlocks = kChunkCells / kVoidBlock;  ///< number of blocks along each axis of a chunk
 inline constexpr size_t kMaxVoidComponents = 64;              ///< per chunk
 
 /// One void. Block i of an axis has the samples 4 i to 4 i + 4: a sample on the border of two blocks counts for both.
@@ -38,16 +38,16 @@ struct VoidComponent {
 /// stands for all further voids: separate voids may be merged, but connected ones are never split.
 using VoidComponents = std::pmr::vector<VoidComponent>;
 
-/// The voids of a chunk from the signs of its samples (ChunkSamples::signs). Pure.
+/// Returns the voids of a chunk from the signs of its samples (ChunkSamples::signs). Pure.
 VoidComponents voidComponents(std::span<const uint64_t> signs,
                               std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 /// Returns the voids of a chunk whose samples all have the same sign.
 VoidComponents voidOfUniform(bool solid, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Bit i is set if components[i] has a sample in the block of `cell` (0..31 on each axis). So the mask includes the
-/// void that contains a position in that cell, and other voids in the same block of four cells. 0: all of the block is
-/// solid.
+/// Bit i of the result is set if components[i] has a sample in the block that contains `cell` (0..31 on each axis). So
+/// the mask includes the void that contains a position in that cell, and other voids in the same block. 0: all samples
+/// of the block are solid.
 uint64_t voidsAround(std::span<const VoidComponent> components, Int3 cell);
 
 }  // namespace sgm

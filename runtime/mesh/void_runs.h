@@ -14,11 +14,11 @@
 
 namespace sgm {
 
-inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< number of rows of a chunk; row y + 33 z
+inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< number of rows; row (y, z) is y + 33 z
 
-/// Finds the runs of void samples of each row. A run gets the label of the runs that it touches in previous rows;
-/// labels that turn out to be connected later are united. Runs are faster than samples: a row of a cave has one or two
-/// of them.
+/// Finds the runs of void samples in each row. A run gets the label of the runs that it touches in previous rows;
+/// labels that turn out to be connected later are united. Labelling runs is faster than labelling samples: a row in a
+/// cave has one or two runs.
 class VoidRuns {
  public:
   VoidRuns(std::span<const uint64_t> signs, std::pmr::memory_resource* memory)
@@ -74,7 +74,7 @@ class VoidRuns {
 
   uint16_t labelAt(size_t row, int x) const {
     const uint64_t before = starts_[row] & ((uint64_t{2} << x) - 1);
-    // Counting bits is slow on processors without an instruction for it, and most rows have one run.
+    // Avoids popcount in the usual case of one run, because it is slow on processors without an instruction for it.
     const size_t at = (before & (before - 1)) == 0 ? 0 : static_cast<size_t>(std::popcount(before)) - 1;
     return labels_[first_[row] + at];
   }
@@ -89,8 +89,8 @@ class VoidRuns {
       if (z > 0) {
         const size_t below = row - kChunkSamples;
         join(label, below, around);
-        // If one of the two other corners of the face is void, the axes connect the samples anyway; only the rest is
-        // joined here.
+        // Joins runs across diagonals. If one of the two other corners of the face is void, the axes connect the
+        // samples anyway, so such samples are left out.
         if (y > 0) join(label, below - 1, run & ~open_[row - 1] & ~open_[below]);
         if (y < kLast) join(label, below + 1, run & ~open_[row + 1] & ~open_[below]);
       }
@@ -117,7 +117,7 @@ class VoidRuns {
   }
 
   std::pmr::vector<uint64_t> open_, starts_;
-  std::pmr::vector<uint16_t> first_, labels_;  ///< index of the first run of each row; the label of each run
+  std::pmr::vector<uint16_t> first_, labels_;  ///< index of each row's first run; label of each run
   std::pmr::vector<uint16_t> parents_;         ///< union-find parents of labels; the root of a set is its lowest label
   std::pmr::vector<uint8_t> touches_;
 };

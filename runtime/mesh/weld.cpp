@@ -11,9 +11,9 @@
 namespace sgm {
 namespace {
 
-/// True if a vertex may occur several times among the parts. Parts meet only in the faces of their chunks, so that a
-/// vertex on an edge inside its chunk belongs to one part. Feature vertices may lie off their faces, and a part may
-/// contain one several times.
+/// True if a vertex may occur several times among the parts to be welded. Parts meet only in the faces of their chunks,
+/// so a vertex on an edge inside its chunk belongs to one part. A feature vertex may always occur several times: a face
+/// vertex may lie off its face, and a part may contain copies of a feature vertex.
 bool mayBeOneOfMany(const Vertex& v) {
   if (isFeature(v.kind)) return true;
   constexpr int kEnd = kChunkCells * kSubcell;
@@ -61,8 +61,8 @@ Result<WorldMesh> weld(std::span<const PlacedPart> parts, Int3 origin, std::pmr:
                                   " vertices, more than 32-bit indices can number; mesh a smaller one"};
   }
 
-  // number[index]: while equal keys are searched, the index of an earlier vertex with the same key, or kNone; then the
-  // number of the welded vertex.
+  // number: first, for a vertex with the same key as an earlier vertex, the index of the first such vertex, otherwise
+  // kNone; later, the number of the welded vertex
   std::pmr::vector<uint32_t> number(vertex_count, kNone, memory);
   size_t welded_count = vertex_count;
   {

@@ -12,7 +12,7 @@ namespace sgm {
 
 namespace {
 
-// Working memory is reused from job to job: once every thread has some, a chunk allocates only its mesh.
+// Working memory that is reused from chunk to chunk: once every thread has some, a chunk allocates only its mesh.
 class ScratchPool {
  public:
   explicit ScratchPool(std::pmr::memory_resource* memory) : memory_(memory) {}
@@ -50,8 +50,7 @@ struct BatchState {
     for (size_t i = 0; i < count; ++i) meshes.emplace_back(memory_in);
   }
 
-  // Runs jobs until none is left. Returns at once if enough threads are working, because they run this thread's jobs,
-  // too.
+  // Meshes chunks until none is left. Returns at once if enough other threads are working on the batch.
   void run() {
     if (working.fetch_add(1) < workers) {
       for (size_t i; (i = next.fetch_add(1)) < count;) {
@@ -78,7 +77,8 @@ struct BatchState {
         meshChunk(kernels, jobs[i], *scratch, meshes[i]);
       }
       pool->give(std::move(scratch));
-      // The programs are released here, by all threads, and not at the end by one thread.
+      // Each thread releases the programs of the chunks that it has meshed; otherwise one thread would release all at
+      // the end.
       jobs[i].field.reset();
       jobs[i].coarse.reset();
       if (after_chunk && !after_chunk()) cancelled.store(true);
@@ -116,8 +116,8 @@ class CpuBatch final : public ChunkBatch {
   ~CpuBatch() override {
     cancel();
     wait();
-    // The job system may run some jobs later. They still own the state but find nothing to do, so its memory is freed
-    // now.
+    // The job system may start some of the batch's worker jobs later. These still own the state but find no chunk to
+    // mesh, so its memory is freed now.
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
@@ -171,7 +171,7 @@ class CpuBackend final : public Backend {
         share.release();
       }
     } catch (const std::bad_alloc&) {
-      // Some jobs could not be submitted: fewer threads work, and the waiting one does the rest.
+      // Some worker jobs could not be submitted: fewer threads work, and the thread that waits for the batch helps.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }

@@ -8,7 +8,7 @@
 #include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/instruction_sets.h"
 
-// Instruction sets between the supported ones; processors that have them use the next lower supported set.
+// Disables instruction sets between the supported ones; processors that have them use the next lower supported set.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"

@@ -14,10 +14,10 @@ struct InstructionSet {
   bool runs_here;
 };
 
-/// Returns all sets of this build: scalar first, then the vector sets from narrow to wide.
+/// Returns all instruction sets of this build: scalar first, then the vector sets from narrow to wide.
 std::vector<InstructionSet> instructionSets();
 
-/// Returns the evaluator of the widest set that this processor supports; all evaluators give the same bits.
+/// Returns the evaluator of the widest instruction set that this processor supports; all evaluators give the same bits.
 const FieldKernels& bestKernels();
 
 /// Returns an evaluator by name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null if this build does not

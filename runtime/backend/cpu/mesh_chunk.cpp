@@ -9,7 +9,8 @@ namespace sgm {
 
 namespace {
 
-/// Evaluates normals and labels at points first..last - 1 of scratch.mesh, and writes them to the same indices.
+/// Evaluates normals and labels (tag << 16 | material) at points first..last - 1 of scratch.mesh, and writes them to
+/// the same indices.
 void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, size_t first, size_t last,
                         ChunkScratch& scratch) {
   if (first == last) return;
@@ -26,7 +27,8 @@ void growAttributes(MeshScratch& s, size_t count) {
   s.label.grow(0, count);
 }
 
-// The program of a brick is valid for its vertices: a vertex lies on an edge that begins at a sample of its brick.
+// Evaluates the attributes of a body's vertices, brick by brick. The pruned program of a brick is valid for its
+// vertices: each lies on an edge that begins at a sample of the brick.
 void fillBody(const ChunkKernels& kernels, ChunkScratch& s, MeshPart& body) {
   std::array<uint32_t, kBrickCount + 1> start;
   kernels.mesh.sort(s.mesh, body.vertices.size(), start);
@@ -109,7 +111,7 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   kernels.mesh.hash(seam);
 }
 
-/// Makes a chunk without its seams. uniform: the chunk is proven solid or void.
+/// Makes the body, signs and counts of a chunk. uniform: the chunk is proven solid or void.
 void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
   mesh.solid_samples = kernels.mesh.count(s.samples);

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes one chunk from its field programs, small enough to stay in cache: bounds the field, samples, polygonizes,
-// evaluates attributes, hashes.
+// Meshes one chunk from its field programs: bounds the field, samples it, polygonizes, evaluates attributes and
+// computes hashes. A chunk is small enough to stay in cache.
 
 #include <array>
 
@@ -18,7 +18,7 @@ struct ChunkKernels {
   const MeshKernels& mesh;
 };
 
-/// Returns the kernels of the widest set that this processor supports.
+/// Returns the kernels of the widest instruction set that this processor supports.
 inline ChunkKernels bestChunkKernels() { return {bestKernels(), bestMeshKernels()}; }
 
 /// Working memory of one thread; allocated once, then reused for further chunks.

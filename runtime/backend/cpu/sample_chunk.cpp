@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-// Samples first..last on each axis, both included.
+// A box of samples: first..last on each axis, both included.
 struct SampleBox {
   std::array<int, 3> first{}, last{};
 };
@@ -48,7 +48,7 @@ void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const Ch
                kSide, first});
 }
 
-/// True if the box has samples in one of the faces.
+/// True if the box has samples in one of the given faces of the chunk.
 bool touches(const SampleBox& b, uint8_t faces) {
   for (int f = 0; f < 6; ++f) {
     const auto axis = static_cast<size_t>(f >> 1);

@@ -1,6 +1,6 @@
 // The types of shaders/common over Highway vectors. evaluate_wide.cpp includes this file once for each instruction set,
-// inside that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used (rule
-// 2).
+// inside that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used
+// (arithmetic contract in runtime/README.md, rule 2).
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -79,8 +79,7 @@ FN Real bitsToReal(Uint u) { return hn::BitCast(RealTag(), u.v); }
 FN Uint realToBits(Real r) { return hn::BitCast(UintTag(), r.v); }
 FN Real gatherReal(Params P, Int i) { return hn::BitCast(RealTag(), hn::GatherIndex(UintTag(), P, i.v)); }
 FN Real toReal(Int i) { return hn::ConvertTo(RealTag(), i.v); }
-// For |r| < 2^31, which callers guarantee: Highway's version also defines other results, which takes four more
-// instructions.
+// Precondition: |r| < 2^31. Highway's version also defines other results, which takes four more instructions.
 FN Int toInt(Real r) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Vec<IntTag>{_mm512_cvttps_epi32(r.v.raw)};
@@ -94,7 +93,8 @@ FN Int toInt(Real r) {
 }
 FN Int toIntBits(Uint u) { return hn::BitCast(IntTag(), u.v); }
 FN Uint toUintBits(Int i) { return hn::BitCast(UintTag(), i.v); }
-// Same results as real.h, which uses comparisons: x86's minimum of (a, b) is a if a < b, else b.
+// Vector instructions for minimum and maximum. They give the same results as the comparisons in real.h, because on x86
+// the minimum of (a, b) is a if a < b, else b.
 #define SGM_VECTOR_FORMS
 FN Real minReal(Real a, Real b) { return hn::Min(a.v, b.v); }
 FN Real maxReal(Real a, Real b) { return hn::Max(a.v, b.v); }
@@ -125,7 +125,7 @@ FN Real lookUp16(const float* table, Uint index) {
 }
 #endif
 #define SGM_ROWS
-// Loads rows of 8 words: the first one; with 16 lanes also the second one behind it.
+// Loads 8 words from `first`; with 16 lanes, also 8 words from `second` behind them.
 FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
 #if HWY_TARGET == HWY_AVX3
   const hn::Half<UintTag> half;

@@ -15,7 +15,7 @@ namespace sgm {
 namespace {
 
 #ifdef SGM_VULKAN
-/// software: true: also accepts a device that the CPU emulates.
+/// Opens the Vulkan backend. software: also accepts a device that the CPU emulates.
 Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool software, JobSystem& jobs,
                                             std::pmr::memory_resource* memory, const Profiler& profiler) {
   Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
@@ -77,7 +77,7 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   options.open = [table = *driver, external = request.external_context, index = device,
                   opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
     if (!external) return cuda::openDevice(table, cuda::kernelImage(), index);
-    // A lost context is not opened again: meshes on it would count as present although they are lost.
+    // A lost context is not opened again: meshes in it would count as present on the device although they are lost.
     if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's CUDA context was lost"};
     return cuda::borrowDevice(table, cuda::kernelImage(), *external);
   };
@@ -93,7 +93,7 @@ Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobS
   if (request.automatic) {
     Result<std::unique_ptr<Backend>> cuda = makeCuda(request, jobs, memory, profiler);
     if (cuda) return cuda;
-    // Users with an NVIDIA GPU are told why CUDA is not used.
+    // Tells users with an NVIDIA GPU why CUDA is not used.
     if (request.inform && !cuda::kernelImage().empty() && cuda::haveDriver()) {
       request.inform("backend auto skips CUDA: " + cuda.error().message);
     }

@@ -23,19 +23,20 @@ struct BorrowedContext;
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = false;  ///< kind is ignored: chooses CUDA, or else a hardware Vulkan device, or else the CPU
+  bool automatic = false;  ///< true: ignores kind and chooses CUDA, or else a hardware Vulkan device, or else the CPU
   /// index in the list of devices of its kind; -1: the first usable one (CUDA), or the fastest one (Vulkan)
   int device = -1;
-  /// CPU: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that this processor supports.
+  /// Instruction set of the CPU backend, also beside a device: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2";
+  /// empty: the widest that this processor supports.
   std::string instruction_set;
-  /// Vulkan: the engine's device; null: a new one is created. CUDA: the device in whose memory meshes stay, which needs
-  /// external_memory; or null
+  /// Vulkan: the engine's device; null: a new one is created. CUDA: the Vulkan device in whose memory meshes stay, with
+  /// external_memory set; or null
   std::shared_ptr<const vulkan::BorrowedDevice> external = nullptr;
   /// CUDA: the engine's context; null: a new one is used
   std::shared_ptr<const cuda::BorrowedContext> external_context = nullptr;
   std::filesystem::path pipeline_folder = {};  ///< Vulkan: folder of the pipeline cache; empty: not cached
-  /// Receive one-line notices about slow work (inform) and about missing features (warn). Called from any thread; may
-  /// be null.
+  /// Functions that receive one-line notices about slow work (inform) and about missing features (warn). Called from
+  /// any thread; may be null.
   std::function<void(const std::string&)> inform = nullptr, warn = nullptr;
 };
 

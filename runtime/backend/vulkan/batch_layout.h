@@ -47,7 +47,7 @@ struct Part {
 };
 static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 
-/// The sums of a part; they follow all parts, if sums are requested.
+/// The sums over a part's triangles. If sums are requested, these records follow the records of all parts.
 struct Sums {
   uint32_t area[2], cross[3][2], six_volumes[2];  ///< 64-bit numbers, the low word first
 };
@@ -61,22 +61,22 @@ struct Sizes {
 };
 static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 
-/// The largest number of parts for which the 32-bit sums of a batch cannot overflow, even in the worst case of signs.
+/// The largest number of parts for which the 32-bit sums of a batch cannot overflow, whatever the signs of samples.
 inline constexpr uint32_t kMaxParts = 8192;
 
-inline constexpr uint32_t kItemWords = 8;   ///< words of an item: a brick or a plane (shaders/mesher/items.glsl)
-inline constexpr uint32_t kBricks = 64;     ///< bricks in a chunk
+inline constexpr uint32_t kItemWords = 8;   ///< words per item, that is, per brick or plane (shaders/mesher/items.glsl)
+inline constexpr uint32_t kBricks = 64;     ///< number of bricks in a chunk
 inline constexpr uint32_t kMaxSlices = 16;  ///< the maximum number of slices into which sampling divides an item
-/// words of a unit: a group of vertices whose attributes are evaluated together
+/// number of words of a unit: a group of vertices whose attributes are evaluated together
 inline constexpr uint32_t kUnitWords = 4;
 
-// Numbers of words in scratch, rounded up, so that every offset is a multiple of four.
-inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< the samples of a chunk
-inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< the signs of a chunk
-inline constexpr uint32_t kRowsWords = 5384;                 ///< the counts per row of a chunk
-inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< the samples of a seam's coarser level
-inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< the signs of a seam's coarser level
-inline constexpr uint32_t kSeamCountWords = 392;             ///< the counts of a seam
-inline constexpr uint32_t kCellWords = 4;                    ///< an active cell
+// Numbers of words in scratch, rounded up so that every offset is a multiple of four.
+inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< words for the samples of a chunk
+inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< words for the signs of a chunk
+inline constexpr uint32_t kRowsWords = 5384;                 ///< words for the counts of each row of a chunk
+inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< words for the samples of a seam's coarser level
+inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< words for the signs of a seam's coarser level
+inline constexpr uint32_t kSeamCountWords = 392;             ///< words for the counts of a seam
+inline constexpr uint32_t kCellWords = 4;                    ///< words for an active cell
 
 }  // namespace sgm::batch

@@ -11,16 +11,17 @@ namespace {
 constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(batch::Seam) / 4,
                    kJobWords = sizeof(batch::PruneJob) / 4, kHeadWords = sizeof(batch::Head) / 4,
                    kPartWords = sizeof(batch::Part) / 4;
-constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: bricks, planes, and planes of the coarser level
-// Shaders read records and headers as whole vectors, also past the last one: this many words must follow them.
+constexpr uint32_t kJobsOfChunk = 3;  // pruning jobs per chunk: for bricks, seams' planes, coarser level's planes
+// Number of words that must follow the last record and the last header, because shaders read them as whole vectors.
 constexpr uint32_t kBeyond = 256;
-// Maximum number of chunks in a batch. More could need over 65,535 workgroups for units of attributes, or over 20 bits
-// for the indices of items.
+// Maximum number of chunks in a batch. With more, units of attributes could need over 65,535 workgroups, or the indices
+// of items over 20 bits.
 constexpr size_t kMaxChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
-/// True if the job's programs contain only the domain, which has the same sign on both sides of every seam.
+/// True if the job needs no device: its field programs are constant (have no groups), and the field has the same sign
+/// on both sides of every seam.
 bool isUniform(const ChunkJob& job) {
   const auto bare = [](const FieldProgram& program) { return program.groups.empty(); };
   return bare(*job.field) && (seamsOf(job) == 0 || (bare(*job.coarse) && job.coarse->initial == job.field->initial));
@@ -66,7 +67,8 @@ class Planner {
     plan.meshes = plan.sums = false;
   }
 
-  /// Adds job i. Returns false, having changed nothing, if scratch is too small for it; must: adds it even then.
+  /// Adds job i to the plan. Returns false, without any change, if scratch is too small for the job. must: adds the job
+  /// even then.
   bool add(uint32_t i, uint32_t max_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
@@ -116,7 +118,8 @@ class Planner {
   }
 
  private:
-  /// Appends the program to the tapes; if it exceeds a limit of the shaders, the program pruned to the chunk.
+  /// Appends the program's tape. If the tape exceeds a limit of the shaders, appends that of the program pruned to the
+  /// chunk. Returns false if that tape exceeds a limit, too.
   bool append(const FieldProgram& program, const ChunkJob& job, Tape& tape) {
     if (appendTape(program.view(), plan_.tape_scratch, plan_.words, tape)) return true;
     IntBox box{job.grid.origin, job.grid.origin};
@@ -126,7 +129,7 @@ class Planner {
     if (!solid && !plan_.pruned.empty()) {
       return appendTape(plan_.pruned.view(), plan_.tape_scratch, plan_.words, tape);
     }
-    // Pruning a uniform chunk would leave no program, but the vertices of a seam there need the whole program.
+    // The chunk is uniform, so the pruned program has no groups. The vertices of a seam would need the whole program.
     if (seamsOf(job) > 0) return false;
     ProgramView uniform;
     uniform.initial = solid ? -kFar : kFar;
@@ -134,8 +137,8 @@ class Planner {
     return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
   }
 
-  /// Upper bound of the words for units: each unit except an item's last one has at least as many vertices as a
-  /// subgroup has invocations, at least 8.
+  /// Returns an upper bound of the words for units. Each unit except an item's last one has at least as many vertices
+  /// as a subgroup has invocations, which is at least 8.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {

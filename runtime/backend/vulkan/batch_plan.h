@@ -13,14 +13,14 @@
 
 namespace sgm {
 
-/// The maximum size of a batch's results, per chunk.
+/// Maximum numbers of vertices, indices and active cells in a batch, divided by its number of chunks (at least 8).
 struct BatchRoom {
   uint32_t vertices = 6144;
   uint32_t indices = 36864;
   uint32_t cells = 6144;
 };
 
-/// Reused for further batches: it stops allocating memory when it is large enough.
+/// The plan of a batch. It is reused for further batches, and stops allocating memory once it is large enough.
 struct BatchPlan {
   explicit BatchPlan(std::pmr::memory_resource* memory)
       : words(memory),
@@ -36,14 +36,14 @@ struct BatchPlan {
     uint32_t job = 0;
     uint32_t body = batch::kNoRoom;  ///< index of the body's part; kNoRoom: no body is requested
     std::array<uint32_t, 6> seams{};
-    uint32_t signs = 0;  ///< offset of its signs in scratch
-    uint32_t item = 0;   ///< offset in scratch of the item of its first brick
+    uint32_t signs = 0;  ///< offset in scratch of the chunk's signs
+    uint32_t item = 0;   ///< offset in scratch of the item (record) of the chunk's first brick
   };
 
   std::pmr::vector<uint32_t> words;    ///< content of descriptor binding 0
   std::pmr::vector<uint32_t> parts;    ///< initial content of descriptor binding 2
   std::pmr::vector<Chunk> chunks;      ///< the chunks that the device meshes
-  std::pmr::vector<uint32_t> uniform;  ///< indices of jobs whose programs have no group, so that nothing is to be done
+  std::pmr::vector<uint32_t> uniform;  ///< indices of jobs with constant fields, which need no device
   std::pmr::vector<uint32_t> refused;  ///< indices of jobs that the device cannot mesh
   batch::Sizes sizes{};
   uint32_t seam_count = 0;

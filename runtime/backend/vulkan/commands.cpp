@@ -33,7 +33,7 @@ Scope scopeOf(uint32_t uses) {
 struct Commands::Slot {
   enum State { idle, recording, submitted };
   State state = idle;
-  uint64_t value = 0;  // value of the queue at the end of the commands, if submitted
+  uint64_t value = 0;  // queue value at the end of the commands, once submitted
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkDescriptorPool sets = VK_NULL_HANDLE;
@@ -133,7 +133,7 @@ void Commands::acquire(std::span<const BufferRange> ranges) {
     barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
     barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_EXTERNAL;
-    // Buffers that several families share have no owner.
+    // Buffers that several queue families share have no owner.
     barrier.dstQueueFamilyIndex = device.sharesBuffers() ? VK_QUEUE_FAMILY_IGNORED : device.family();
     barrier.buffer = range.handle;
     barrier.offset = range.offset;
@@ -213,7 +213,7 @@ Result<Commands::Slot*> CommandRing::findSlot(uint64_t nanoseconds) {
       if (!awaitRecorded(nanoseconds)) return Error{Code::limit, "too many command buffers in flight"};
       continue;
     }
-    // If another thread has taken the slot meanwhile, waits for the next one.
+    // The slots are searched again after the wait: another thread may have taken this slot meanwhile.
     const auto ended = queue_.wait(oldest, nanoseconds);
     if (!ended) return ended.error();
     if (!*ended) return Error{Code::limit, "the GPU has not finished its earlier work in time"};

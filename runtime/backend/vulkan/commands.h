@@ -28,12 +28,12 @@ struct BufferRange {
       : handle(buffer.handle()), offset(buffer.offset() + begin), size(bytes) {}
 };
 
-/// Kinds of memory accesses, one bit each.
+/// Kinds of memory accesses for barriers, one bit each.
 enum Uses : uint32_t {
-  kCompute = 1,   ///< storage buffers of a compute shader
-  kIndirect = 2,  ///< the workgroup counts of dispatchIndirect
-  kTransfer = 4,  ///< fill and copy
-  kHost = 8,      ///< the host reads data()
+  kCompute = 1,   ///< accesses of compute shaders to storage buffers
+  kIndirect = 2,  ///< reads of workgroup counts by dispatchIndirect()
+  kTransfer = 4,  ///< accesses of fill(), copy() and write()
+  kHost = 8,      ///< reads of Buffer::data() by the host
 };
 
 class CommandRing;
@@ -51,13 +51,13 @@ class Commands {
   Result<void> bind(const Pipeline& pipeline, std::span<const BufferRange> buffers, std::span<const std::byte> push);
   /// Runs the shader. x, y, z: numbers of workgroups, each at most maxComputeWorkGroupCount.
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1);
-  /// Runs the shader with workgroup numbers that are read from device memory; the offset must be a multiple of 4.
+  /// Runs the shader with numbers of workgroups that are read from device memory; the offset must be a multiple of 4.
   void dispatchIndirect(const BufferRange& counts);
-  /// offset and size: multiples of 4.
+  /// Fills the range with copies of `word`. Its offset and size must be multiples of 4.
   void fill(const BufferRange& range, uint32_t word);
   /// Copies all bytes of `from` to the beginning of `to`. The ranges must not overlap.
   void copy(const BufferRange& from, const BufferRange& to);
-  /// Writes as many of the bytes as the range has, at most 65,536; its offset and size must be multiples of 4.
+  /// Fills the range with the first of the given bytes, at most 65,536. Its offset and size must be multiples of 4.
   void write(const BufferRange& range, std::span<const std::byte> bytes);
   /// Makes the accesses in `before` finish before the accesses in `after` begin. Data that the host wrote before
   /// submit() needs no barrier.
@@ -74,7 +74,7 @@ class Commands {
   Commands(CommandRing& ring, Slot& slot) : ring_(&ring), slot_(&slot) {}
 
   CommandRing* ring_;
-  Slot* slot_;  // null: submitted, or moved from
+  Slot* slot_;  // null after submission or a move
 };
 
 struct CommandRingOptions {
@@ -86,15 +86,15 @@ struct CommandRingOptions {
 /// A ring of command buffers. Thread-safe. Allocates no host memory after its creation. The queue must outlive it.
 class CommandRing {
  public:
-  /// Errors: out_of_memory.
+  /// Creates a ring. Errors: out_of_memory.
   static Result<std::unique_ptr<CommandRing>> create(Queue& queue, const CommandRingOptions& options = {});
   /// Waits for the queue. Precondition: no recording exists.
   ~CommandRing();
   CommandRing(const CommandRing&) = delete;
   CommandRing& operator=(const CommandRing&) = delete;
 
-  /// Begins a recording. If all are in use, waits at most this long for one. A thread must not begin another recording
-  /// while it holds all of the others. Errors: limit (timeout), device_lost, out_of_memory.
+  /// Begins a recording. If all recordings are in use, waits at most this long for one to end. A thread must not begin
+  /// another recording while it holds all others. Errors: limit (timeout), device_lost, out_of_memory.
   Result<Commands> begin(uint64_t nanoseconds = UINT64_MAX);
   /// Submits the recording to the queue; returns the value of Queue::submit. The recording ends, even after an error.
   Result<uint64_t> submit(Commands commands);
@@ -104,7 +104,7 @@ class CommandRing {
   explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
-  /// Waits at most this long. Returns true if a slot is not in recording any more.
+  /// Waits at most this long until a slot is no longer in recording; returns whether there is one.
   bool awaitRecorded(uint64_t nanoseconds);
 
   Queue& queue_;

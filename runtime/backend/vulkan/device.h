@@ -31,8 +31,8 @@ struct BorrowedDevice {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
-  uint32_t family = 0;            ///< queue family of the queue
-  std::vector<uint32_t> readers;  ///< families of other queues that read meshes
+  uint32_t family = 0;            ///< index of the queue's family
+  std::vector<uint32_t> readers;  ///< queue families of the engine's other queues that read meshes
   /// Called before and after every use of the queue, on the submitting thread. Set both or neither; null: only the
   /// library uses the queue.
   void (*lock)(void* user) = nullptr;
@@ -40,9 +40,9 @@ struct BorrowedDevice {
   void* user = nullptr;
   // Features that the engine has enabled; Vulkan does not report which ones are enabled.
   uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
-  bool timeline_semaphores = false;    ///< the feature timelineSemaphore
-  bool memory_budget = false;          ///< the extension VK_EXT_memory_budget is enabled
-  bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd is enabled
+  bool timeline_semaphores = false;    ///< true: the feature timelineSemaphore is enabled
+  bool memory_budget = false;          ///< true: the extension VK_EXT_memory_budget is enabled
+  bool external_memory = false;        ///< true: the extension VK_KHR_external_memory_fd is enabled
   uint64_t resident_cap = UINT64_MAX;  ///< limit in bytes for meshes that stay in the device's memory
   /// Serialises the library's own uses of the queue among each other.
   std::shared_ptr<std::mutex> queue_mutex = std::make_shared<std::mutex>();
@@ -77,8 +77,8 @@ class Device {
   bool sharesBuffers() const {
     return std::any_of(readers_.begin(), readers_.end(), [this](uint32_t reader) { return reader != family_; });
   }
-  bool memoryBudget() const { return memory_budget_; }      ///< VK_EXT_memory_budget is enabled
-  bool externalMemory() const { return external_memory_; }  ///< BorrowedDevice::external_memory
+  bool memoryBudget() const { return memory_budget_; }      ///< true if VK_EXT_memory_budget is enabled
+  bool externalMemory() const { return external_memory_; }  ///< true if BorrowedDevice::external_memory is set
   /// Returns the warnings and errors of the validation layer so far; empty without the layer, and for an external
   /// device.
   std::vector<std::string> messages() const;
@@ -91,7 +91,7 @@ class Device {
   Result<void> openDevice();
   Result<void> load(const ReplaceCalls& replace);
 
-  std::unique_ptr<Instance> instance_;  // null: external device
+  std::unique_ptr<Instance> instance_;  // null if the device is external
   InstanceTable instance_calls_;
   DeviceTable calls_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;

@@ -123,7 +123,7 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
   // Waits if other threads hold all recordings, which they do only briefly.
   Result<Commands> commands = ring_.begin();
   if (!commands) return commands.error();
-  // The sources were written by shaders.
+  // The copies wait for the shaders that write their sources.
   commands->barrier(kCompute, kTransfer);
   for (const PlacedParts::Part& part : placed.parts) {
     writeDraw(*commands, *part.placed);
@@ -179,7 +179,7 @@ void DeviceMeshes::giveBack() noexcept {
 }
 
 uint64_t DeviceMeshes::reached() const noexcept {
-  // A lost device does not use any memory any more.
+  // A lost device does not use any memory any more, so all buffers can be freed.
   const Result<uint64_t> now = queue_.reached();
   return now ? *now : queue_.lost() ? UINT64_MAX : 0;
 }
@@ -197,7 +197,7 @@ DeviceMeshes::Retired DeviceMeshes::takeEnded() noexcept {
 
 void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   Buffer retired = std::move(buffer);
-  // Another API may still be writing to the buffer, regardless of the state of this queue.
+  // The buffer is never freed: another API may still be writing to it, regardless of the state of this queue.
   if (value == DeviceMemory::kNever) return retired.forget();
   giveBack();
   if (value <= reached()) return;

@@ -30,13 +30,13 @@ class DeviceMemory {
 
   const Buffer& buffer() const { return buffer_; }
   const DeviceMeshes& meshes() const { return meshes_; }
-  uint64_t value() const { return value_; }  ///< value of the queue at which the content is complete
+  uint64_t value() const { return value_; }  ///< timeline value of the queue at which the content is complete
   /// True if the content is complete or will be; false if the copy failed.
   bool there() const { return value_ != 0 && value_ != kNever; }
 
  private:
   friend class DeviceMeshes;
-  std::shared_ptr<const void> owner_;  // kept alive, because it owns the memory
+  std::shared_ptr<const void> owner_;  // object that owns the memory, kept alive
   DeviceMeshes& meshes_;
   Buffer buffer_;
   static constexpr uint64_t kNever = UINT64_MAX;
@@ -51,10 +51,10 @@ class VulkanPart final : public DevicePart {
   bool there() const override { return memory_->there(); }
 
   VkBuffer buffer() const { return memory_->buffer().handle(); }
-  // The following offsets are in bytes from the beginning of buffer().
+  // All offsets below are in bytes from the beginning of buffer().
   VkDeviceSize drawOffset() const { return draw_; }  ///< offset of the draw command, which is also in device memory
-  VkDeviceSize vertexOffset() const;                 ///< a multiple of sizeof(Vertex)
-  VkDeviceSize indexOffset() const;                  ///< a multiple of 4
+  VkDeviceSize vertexOffset() const;                 ///< offset of the vertices; a multiple of sizeof(Vertex)
+  VkDeviceSize indexOffset() const;                  ///< offset of the indices; a multiple of 4
   uint32_t vertexCount() const { return vertices_; }
   uint32_t indexCount() const { return indices_; }
   /// Returns the draw command for binding the whole buffer, both as vertices and as 32-bit indices.
@@ -67,7 +67,7 @@ class VulkanPart final : public DevicePart {
   uint32_t vertices_, indices_;
 };
 
-/// Where a part is copied from; empty for a part without indices.
+/// The ranges that a part is copied from; empty for a part without indices.
 struct PartSource {
   BufferRange vertices, indices;
 };
@@ -87,10 +87,11 @@ struct PlacedParts {
 /// Parts whose copying has been submitted.
 struct KeptParts {
   std::vector<DeviceParts> chunks;
-  uint64_t value = 0;  ///< value of the queue from which on the sources are not read any more
+  uint64_t value = 0;  ///< timeline value of the queue at which the last read of the sources has ended
 };
 
-/// Thread-safe. The queue, memories and ring must outlive this object and its parts.
+/// The meshes that stay on one device. Thread-safe. The queue, memories and ring must outlive this object and its
+/// parts.
 class DeviceMeshes {
  public:
   /// memory: for the parts; staging: for the data of uploads.
@@ -102,7 +103,7 @@ class DeviceMeshes {
   /// Makes content that another API has finished writing into placed parts visible to later commands of the queue.
   /// Errors: same as CommandRing::submit. Throws std::bad_alloc.
   Result<void> acquire(const PlacedParts& placed);
-  /// Gives the memory up forever, because another API may still be writing to it.
+  /// Never frees the memory of the parts, because another API may still be writing to it.
   static void abandon(const PlacedParts& placed) noexcept;
 
   /// Copies parts asynchronously. Returns one DeviceParts for each chunk: null for parts without a source; all null for
@@ -121,10 +122,10 @@ class DeviceMeshes {
 
  private:
   friend class DeviceMemory;
-  /// Frees the buffer when the queue has reached the value.
+  /// Frees the buffer when the queue has reached the timeline value.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
   using Retired = std::list<std::pair<uint64_t, Buffer>>;
-  /// Returns the value that the queue has reached, for freeing buffers.
+  /// Returns the timeline value that the queue has reached, for freeing buffers.
   uint64_t reached() const noexcept;
   /// Removes the buffers that can be freed from the list; the caller destroys them after releasing the mutex.
   /// Precondition: the mutex is held.

@@ -25,20 +25,21 @@ struct DeviceInfo {
   uint32_t max_shared_bytes = 0;
   uint32_t max_invocations = 0;  ///< maximum number of invocations in a workgroup
   uint32_t max_push_bytes = 0;
-  uint32_t max_storage_buffers = 0;  ///< maximum number per shader stage
+  uint32_t max_storage_buffers = 0;  ///< maximum number of storage buffers per shader stage
 
-  /// shaderRoundingModeRTEFloat32: shaders may require round-to-nearest, so the arithmetic contract holds.
+  /// True if shaders may require round-to-nearest (shaderRoundingModeRTEFloat32), so that the arithmetic contract
+  /// holds.
   bool exact = false;
   bool preserves_denormals = false;  ///< shaderDenormPreserveFloat32
   bool timeline_semaphores = false;
-  bool subgroups_compute = false;  ///< subgroup operations work in compute shaders
+  bool subgroups_compute = false;  ///< true if subgroup operations work in compute shaders
   VkSubgroupFeatureFlags subgroup_operations = 0;
   uint32_t subgroup_size = 0;
-  uint64_t max_allocation = 0;  ///< maximum bytes of one vkAllocateMemory
+  uint64_t max_allocation = 0;  ///< maximum size of one vkAllocateMemory, in bytes
   std::string driver;
   DeviceId id{};  ///< deviceUUID
 
-  bool software() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }  ///< lavapipe and similar
+  bool software() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }  ///< true for lavapipe and similar
 };
 
 /// Returns the reason why the device cannot mesh, as a sentence: the first missing feature or limit. Empty if it can

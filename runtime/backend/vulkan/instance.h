@@ -15,9 +15,9 @@ namespace sgm::vulkan {
 /// How much VK_LAYER_KHRONOS_validation checks; each level includes the previous ones.
 enum class Validation : uint8_t {
   none,
-  core,             ///< the arguments and states of every call
-  synchronization,  ///< missing barriers
-  gpu_assisted,     ///< shader accesses outside of their buffers; slow
+  core,             ///< checks the arguments and states of every call
+  synchronization,  ///< checks for missing barriers
+  gpu_assisted,     ///< checks for shader accesses outside of their buffers; slow
 };
 
 /// Warnings and errors of the validation layer. Thread-safe.

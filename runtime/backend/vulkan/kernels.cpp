@@ -33,7 +33,7 @@ namespace {
 // each.
 constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
 constexpr uint64_t kAllKinds = ~uint64_t{0};
-// The creation of pipelines is reported only if it takes longer.
+// The creation of pipelines is reported only if it takes longer than this, in seconds.
 constexpr double kNoticedSeconds = 1;
 
 bool interprets(Kernel kernel) {
@@ -128,8 +128,8 @@ Result<std::shared_ptr<const Pipeline>> Kernels::makePipeline(Kernel kernel, uin
   return std::make_shared<const Pipeline>(std::move(*made));
 }
 
-/// Creates the missing pipelines. If more kinds are requested meanwhile, begins again with these. aside: in the
-/// background.
+/// Creates the missing pipelines. If more kinds of instructions are requested meanwhile, starts again with these kinds.
+/// aside: true if the background thread calls this.
 Result<void> Kernels::make(bool aside) {
   const ProfileScope scope(profiler_, zone::kShaders);
   for (;;) {

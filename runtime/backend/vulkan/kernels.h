@@ -41,9 +41,9 @@ using Pipelines = std::array<std::shared_ptr<const Pipeline>, kernels>;
 
 /// Receives messages about the creation of pipelines. Each function may be null, and is called on any thread.
 struct KernelNews {
-  /// pipelines were created in the background; the message says how long it took
+  /// called after pipelines were created in the background; the message says how long it took
   std::function<void(const std::string&)> inform;
-  std::function<void(const std::string&)> warn;  ///< pipelines cannot be created, or cannot be cached
+  std::function<void(const std::string&)> warn;  ///< called if pipelines cannot be created, or cannot be cached
 };
 
 /// The pipelines of all kernels on one device. A software device executes every branch of an interpreter. So there,
@@ -58,8 +58,8 @@ class Kernels {
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
-  /// Returns pipelines that support these kinds of instructions (Tape::kinds). Creates missing ones, which may take
-  /// seconds. Errors: same as Pipeline::create. Throws std::bad_alloc.
+  /// Returns pipelines that support these kinds of instructions (Tape::kinds). Creates missing pipelines, which may
+  /// take seconds. Errors: same as Pipeline::create. Throws std::bad_alloc.
   Result<Pipelines> get(uint64_t kinds);
   /// Returns true if get() would return at once. If not, starts a background thread that creates the pipelines; if no
   /// thread can be started, returns true, so that the caller waits in get(). Never waits itself.
@@ -89,11 +89,11 @@ class Kernels {
   const KernelNews news_;
 
   std::mutex making_mutex_;         ///< held while pipelines are created; locked before mutex_
-  std::array<Made, kernels> made_;  ///< while pipelines are replaced, not all support the same kinds
+  std::array<Made, kernels> made_;  ///< pipelines by kernel; during replacement, they may support different kinds
   bool warned_ = false;             ///< true if the warning that pipelines cannot be created was sent; it is sent once
 
   std::mutex mutex_;
-  uint64_t kinds_ = 0;   ///< kinds that the pipelines support
+  uint64_t kinds_ = 0;   ///< kinds of instructions that the pipelines support
   uint64_t wanted_ = 0;  ///< kinds that pipelines must support when they are created next
   Pipelines pipelines_;  ///< null until all pipelines have been created
   std::thread maker_;

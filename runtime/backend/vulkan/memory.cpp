@@ -7,7 +7,7 @@
 namespace sgm::vulkan {
 namespace {
 
-constexpr uint64_t kGranule = 256;  // no device requires a larger alignment of offsets in storage buffers
+constexpr uint64_t kGranule = 256;  // alignment of buffers in bytes; no device requires more for storage buffers
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -25,7 +25,8 @@ int scoreOf(VkMemoryPropertyFlags flags, MemoryKind kind, bool unified) {
   // Protected, lazily allocated and vendor-specific memory has special rules, so it is not used.
   if (flags & ~(kNear | kVisible | kCoherent | kCached)) return -1;
   const auto has = [&](VkMemoryPropertyFlags bits) { return (flags & bits) == bits ? 1 : 0; };
-  // If host and device memory are separate, device memory that the host can see is scarce, and other programs need it.
+  // Where host and device memory are separate, upload and readback buffers avoid device memory that the host can see:
+  // there is little of it, and other programs need it.
   const int fits = has(kNear) == (unified ? 1 : 0) ? 1 : 0;
   switch (kind) {
     case MemoryKind::device:
@@ -99,7 +100,7 @@ class ExportedBlock final : public SharedBlock {
 struct Memory::Block {
   Ranges ranges;
   MemoryKind kind;
-  bool whole;  // true if the block is for a single buffer
+  bool whole;  // true if the block was allocated for a single large buffer
   uint64_t size = 0;
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;

@@ -81,13 +81,13 @@ class Buffer {
   std::byte* data_ = nullptr;
 };
 
-/// How another API can import blocks of the device's memory; nullopt in places where it cannot.
+/// How another API must import blocks of the device's memory. nullopt if it cannot.
 struct SharedMemoryNeeds {
-  bool dedicated = false;  ///< the block is one allocation for one buffer, and must be imported as such
+  bool dedicated = false;  ///< true: each block is one allocation for one buffer, and must be imported as such
 };
 std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 
-/// Thread-safe. The device must outlive it. The content of a new buffer is undefined.
+/// Allocates buffers on a device. Thread-safe. The device must outlive it. The content of a new buffer is undefined.
 class Memory {
  public:
   explicit Memory(Device& device, const MemoryOptions& options = {});

@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kHeadSize = sizeof(batch::Head);
 constexpr uint32_t kSumSlices = 4;  // number of workgroups that add up the triangles of a part
 
-/// Keeps the buffer if it has at least this many bytes; otherwise replaces it by a larger one.
+/// Keeps the buffer if it has at least this many bytes; otherwise replaces it by a larger buffer.
 Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
   bytes = std::max<uint64_t>(bytes, 256);
   if (buffer && buffer.size() >= bytes) return {};
@@ -28,7 +28,7 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 uint32_t Mesher::maxScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
-  // grow() makes buffers a quarter larger than requested
+  // three quarters, because grow() makes buffers a quarter larger than requested
   return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);
 }
 
@@ -201,11 +201,12 @@ Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
   return out;
 }
 
-/// Downloads the vertices and indices that were not downloaded with the batch.
+/// Downloads the vertices and indices that the batch's own submission did not download.
 Result<void> Mesher::downloadLater(const batch::Head& head, BatchBuffers& b) {
   const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
   const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
-  // A quarter more than this batch had, because successive batches are similar.
+  // Successive batches are similar, so the next batch downloads a quarter more than this batch needed, without waiting
+  // for its own numbers.
   usual_vertices_.store((vertices + vertices / 4) / 256 * 256);
   usual_indices_.store((indices + indices / 4) / 256 * 256);
   if (vertices <= b.brought_vertices && indices <= b.brought_indices) return {};

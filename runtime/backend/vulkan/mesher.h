@@ -15,23 +15,23 @@ namespace sgm::vulkan {
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
   /// Copies for the host, if it cannot read the device's buffers. While batches run, their buffers together form a ring
-  /// for downloads. The numbers of vertices and indices are known only to the device, so as many as recent batches had
-  /// are downloaded with the batch itself; if the batch has more, the rest is downloaded later.
+  /// for downloads. The host does not know the numbers of vertices and indices when it submits a batch. So the
+  /// submission downloads as many as recent batches had; if the batch has more, the rest is downloaded later.
   Buffer parts_back, signs_back, vertices_back, indices_back;
-  /// bytes of vertices and of indices that are downloaded with the batch
+  /// bytes of vertices and of indices that the submission itself downloads
   uint64_t brought_vertices = 0, brought_indices = 0;
-  uint64_t reading = 0;  ///< value of the queue until which vertices and indices are being downloaded
+  uint64_t reading = 0;  ///< timeline value of the queue at which the download of vertices and indices has ended
 };
 
-/// Thread-safe. All arguments of the constructor must outlive it.
+/// Runs the mesher's shaders on one device. Thread-safe. All arguments of create() must outlive it.
 class Mesher {
  public:
-  /// Errors: same as Memory::buffer.
+  /// Creates a mesher. Errors: same as Memory::buffer.
   static Result<std::unique_ptr<Mesher>> create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels);
 
-  /// Submits a planned batch. Returns the value of the queue at its end; until then, the plan and the buffers must not
-  /// change. Waits for missing pipelines (Kernels::get). Errors: device_lost, out_of_memory, limit, unsupported. Throws
-  /// std::bad_alloc.
+  /// Submits a planned batch. Returns the timeline value of the queue at its end; until then, the plan and the buffers
+  /// must not change. Waits for missing pipelines (Kernels::get). Errors: device_lost, out_of_memory, limit,
+  /// unsupported. Throws std::bad_alloc.
   Result<uint64_t> submit(const BatchPlan& plan, BatchBuffers& buffers);
 
   /// Returns the results in host memory, valid until the next submission. Call after the end of the submission with

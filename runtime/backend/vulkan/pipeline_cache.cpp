@@ -21,7 +21,7 @@ struct FileHeader {
 };
 static_assert(sizeof(FileHeader) == 24);
 
-constexpr uint64_t kLargestFile = uint64_t{256} << 20;  // our shaders take some hundred kilobytes
+constexpr uint64_t kLargestFile = uint64_t{256} << 20;  // in bytes; this library's shaders take some 100 KB
 
 FileHeader headerFor(std::span<const std::byte> data) {
   FileHeader header;
@@ -65,7 +65,7 @@ std::optional<std::span<const std::byte>> unpackPipelineCache(const DeviceInfo& 
 
 Result<std::unique_ptr<PipelineCache>> PipelineCache::create(Device& device, const std::filesystem::path& folder) {
   std::unique_ptr<PipelineCache> cache(new PipelineCache(device));
-  // A file that is missing or cannot be read is made anew.
+  // If the file is missing or cannot be read, the cache starts empty.
   Result<std::string> file = std::string();
   VkPipelineCacheCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;

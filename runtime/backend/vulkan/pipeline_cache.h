@@ -49,7 +49,7 @@ class PipelineCache {
   explicit PipelineCache(Device& device) : device_(device) {}
 
   Device& device_;
-  std::filesystem::path file_;  // empty: no file
+  std::filesystem::path file_;  // path of the cache file; empty: no file
   VkPipelineCache cache_ = VK_NULL_HANDLE;
   bool loaded_ = false;
   std::mutex saving_;

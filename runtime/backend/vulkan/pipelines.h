@@ -13,10 +13,10 @@ namespace sgm::vulkan {
 class PipelineCache;
 
 struct PipelineDesc {
-  const char* name = "";  ///< for error messages
+  const char* name = "";  ///< name of the shader in error messages
   std::span<const uint32_t> spirv;
-  uint32_t buffers = 0;                 ///< storage buffers of set 0, bound at 0, 1, 2...; at most kMaxBuffers
-  uint32_t push_bytes = 0;              ///< a multiple of 4, at most 128
+  uint32_t buffers = 0;                 ///< number of storage buffers in set 0 (bindings 0, 1, 2...), up to kMaxBuffers
+  uint32_t push_bytes = 0;              ///< size of the push constants: a multiple of 4, at most 128
   std::span<const uint32_t> constants;  ///< values of the specialization constants 0, 1, 2..., one word each
 };
 

@@ -76,8 +76,8 @@ void Queue::drain() const {
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore_;
   info.pValues = &last;
-  // wait() is not used, because it returns at once if the device is lost. A second attempt is made, since the driver
-  // may have been out of memory.
+  // Does not call wait(), which returns at once if the device is lost. Tries twice, since the driver may have been out
+  // of memory.
   const auto ended = [&] {
     return device_.calls().vkWaitSemaphores(device_.handle(), &info, UINT64_MAX) == VK_SUCCESS;
   };

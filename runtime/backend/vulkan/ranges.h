@@ -25,14 +25,14 @@ class Ranges {
   bool empty() const { return ranges_.size() == 1 && gaps_.size() == 1; }
 
  private:
-  using Gaps = std::set<std::pair<uint64_t, uint64_t>>;  // pairs of size in bytes and offset
+  using Gaps = std::set<std::pair<uint64_t, uint64_t>>;  // gaps, as pairs of size in bytes and offset
   struct Range {
     uint64_t bytes;
-    Gaps::node_type gap;  // set while the range is taken, so that freeing it needs no memory
+    Gaps::node_type gap;  // node of gaps_, kept while the range is taken, so that freeing needs no memory
     bool taken() const { return !gap.empty(); }
   };
   uint64_t granule_;
-  std::map<uint64_t, Range> ranges_;  // by offset, without holes; two neighbours are never both free
+  std::map<uint64_t, Range> ranges_;  // all ranges by offset, without holes; two adjacent ranges are never both free
   Gaps gaps_;                         // the free ranges
 };
 

@@ -58,7 +58,7 @@ uint32_t wordsOf(const TapeScratch::Node& n, const uint32_t* params) {
   return parameterWords(n.weighs ? Op::kernel : static_cast<Op>(n.kind), params);
 }
 
-/// Returns the variant of a mix or a morph, or of the operand of a sum; 0 for all others.
+/// Returns how a mix or a morph, or the operand of a sum, is computed (record_header.h); 0 for all other instructions.
 uint32_t howOf(const TapeScratch::Node& n) {
   using namespace record_header;
   return (n.by_constant ? kHowByConstant : 0) | (n.morphs ? kHowMorphs : 0) | (n.weighs ? kHowWeighs : 0);

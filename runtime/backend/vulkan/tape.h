@@ -1,15 +1,20 @@
 #pragma once
 // A field program in the order and form in which the mesher's shaders run it (shaders/mesher/tape.glsl).
 //
-// A shader sweeps over all kinds of op, and in each step of a sweep runs all consecutive instructions of that kind. The
-// reason: software Vulkan executes both sides of every branch, so that a switch would cost it all ops for each
-// instruction, and hardware also prefers long runs of one op. Hence the order of instructions: within a block, as many
-// instructions of one kind as possible stand together, first those whose results others read. Ops that only join values
-// first count as one kind, and are then sorted among themselves. Values are stored in slots; a slot is written once and
-// read any number of times before it is reused. The folds of groups (field/program.h) are instructions, too, and keep
-// their order. Some operations are merged into other instructions (tape_fuse.h): a union of primitives, in which each
-// primitive takes the minimum of its own value and its operand (the first one's operand is far); the parameter of a mix
-// or morph, if it is constant; and the weight that a sum adds.
+// A shader sweeps repeatedly over all kinds of ops, and in each step of a sweep runs all consecutive instructions of
+// one kind. A loop with a switch would be slower: software Vulkan executes both sides of every branch, so that each
+// instruction would cost as much as all ops together, and hardware also prefers long runs of one op.
+//
+// Hence the order of instructions: within a block, as many instructions of one kind as possible stand together, and
+// instructions whose results others read come first. Ops that only join values are sorted as if they were one kind, and
+// then by kind among themselves.
+//
+// Values are stored in slots; a slot is written once and read any number of times before it is reused. The folds of
+// groups (field/program.h) are instructions, too, and keep their order.
+//
+// Some operations are merged into other instructions (tape_fuse.h). In a union of primitives, each primitive takes the
+// minimum of its own value and of its operand, the union of the primitives before it (for the first one: kFarSlot). A
+// mix or morph includes its parameter, if that is constant. A sum includes the weight that it adds.
 
 #include <cstdint>
 #include <memory_resource>
@@ -26,34 +31,35 @@ inline constexpr uint32_t kTapeRecordWords = 32;
 inline constexpr uint32_t kMaxTapeRecords = 1024;
 inline constexpr uint32_t kMaxTapeLayers = 64;
 
-/// Instructions that are not an Op; they have the numbers from Op::count on.
+/// Instructions that are not an Op, with numbers from Op::count on. They combine groups, layers and cuts
+/// (field/program.h).
 enum class TapeOp : uint32_t {
   fold = static_cast<uint32_t>(
-      Op::count),  ///< joins a group to the field or to its layer's cuts; or subtracts these cuts from the field
-  smooth,          ///< joins a smooth group to the field
+      Op::count),  ///< adds a group to the field or to the cuts of its layer; or subtracts these cuts
+  smooth,          ///< blends a smooth group with the field
   count
 };
 
-/// Where a tape is in a batch's words.
+/// The place of a tape in a batch's words.
 struct Tape {
   uint32_t headers = 0;  ///< offset in units of four words; one header per record
   uint32_t records = 0;
   float initial = kFar;
   uint32_t initial_label = 0;
   float q_scale = 1;
-  uint64_t kinds = 0;  ///< bit per kind of instruction that occurs; flags in the highest bits (record_header.h)
+  uint64_t kinds = 0;  ///< one bit per kind of instruction in the tape; flags in the highest bits (record_header.h)
 };
 
 /// Working memory for building tapes, reused for further programs.
 struct TapeScratch {
   struct Node {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
-    bool ends_layer = false;   ///< a fold that belongs to no group: subtracts the layer's cuts from the field
+    bool ends_layer = false;   ///< for a fold without a group: it subtracts the layer's cuts from the field
     bool layer_cuts = false;   ///< for ends_layer: true if the layer has cuts
     bool gone = false;         ///< true if the node was merged into the nodes that read it
-    bool by_constant = false;  ///< for a mix or a morph: `by` is its parameter instead of operand c
-    bool morphs = false;       ///< for a sum: it adds the morph of a and c by `by`
-    bool weighs = false;       ///< for a sum: what it adds is weighted by the kernel with these params
+    bool by_constant = false;  ///< for a mix or morph: its parameter is the constant `by`, not operand c
+    bool morphs = false;       ///< for a sum: it adds the morph of a and c with the parameter `by`
+    bool weighs = false;       ///< for a sum: the kernel with these params weighs the added distance
     float by = 0;
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< indices of values; -1: none
 

@@ -76,7 +76,7 @@ uint32_t parameterWords(Op op, const uint32_t* p) {
     case Op::prism:
       return 15 + 6 * p[14];
     case Op::lattice:
-      return 10;  // the samples are stored separately
+      return 10;  // without the samples, which writeLattice() appends
     default:
       return shapeOf(op).position ? 21 : shapeOf(op).words;
   }

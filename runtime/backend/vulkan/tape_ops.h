@@ -1,6 +1,6 @@
 #pragma once
-// Properties of ops that tapes need: the number of operands, whether they read the position, the number of parameter
-// words, and their turn in a sweep.
+// Properties of ops that tapes need: the number of operands, whether the op reads a position, the number of parameter
+// words, and its turn in a sweep.
 
 #include <cstdint>
 

@@ -11,10 +11,10 @@ namespace sgm {
 
 namespace {
 
-// Parameter words of octaves must be in the first part of a record (shaders/mesher/tape.glsl), which limits their
-// number.
+// Maximum number of octaves of a noise. Their parameter words must fit into the first part of a record
+// (shaders/mesher/tape.glsl).
 constexpr uint32_t kMaxOctaves = (kFirstWords - 6) / 2;
-// A shader would wait forever for a record that is larger than its window.
+// Maximum number of parameter words of a record. A shader would wait forever for a record larger than its window.
 constexpr uint32_t kMaxWords = 100 * kTapeRecordWords;
 
 class Scheduler {
@@ -60,7 +60,7 @@ class Scheduler {
         end.ends_layer = true;
         end.group = k;
         end.layer = layers_++;
-        // The cuts of a layer follow its adds, so the last group shows whether there are cuts.
+        // In a layer, groups that cut follow groups that add, so the last group shows whether there are cuts.
         end.layer_cuts = g.cut;
         add(end);
       }
@@ -98,7 +98,7 @@ class Scheduler {
           break;
         case Op::warp:
           n.dst = -1;
-          n.group = in.dst;  // the place that the warp makes
+          n.group = in.dst;  // index of the place (warped position) that this warp makes
           break;
         default:
           n.dst = registers_[in.dst] = newValue();
@@ -113,8 +113,8 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
-  /// Divides the program into blocks so short that their values certainly get slots. A place is made at most once in a
-  /// block, and not read before that.
+  /// Divides the program into blocks, and sorts each block. Blocks are so short that their values certainly get slots.
+  /// A place (warped position) is made at most once in a block, and is not read in the block before that.
   void sortBlocks() {
     for (const Node& n : nodes_) TapeScratch::forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
     for (size_t first = 0; first < nodes_.size();) {
@@ -139,7 +139,7 @@ class Scheduler {
       v.in_block = false;
       v.stage = v.rank = 0;
     }
-    // Counts the values made earlier that are read in this block or later.
+    // Counts the values that earlier blocks make and that this block or later ones read.
     for (size_t v = 0; v < made_; ++v) values += values_[v].last >= begin ? size_t{1} : size_t{0};
     std::bitset<kMaxPlaces> touched;
     size_t i = first;
@@ -182,7 +182,8 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
-      // Among kinds with the same turn, that is, all ops that join values, equal kinds are grouped in the same way.
+      // All ops that only join values have the same turn. Within that turn, `step` keeps equal kinds together, in the
+      // way that `stage` keeps equal turns together.
       n.step = 0;
       TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];
@@ -209,8 +210,8 @@ class Scheduler {
     uint64_t free = ~uint64_t{0};
     for (uint32_t i = 0; i < nodes_.size(); ++i) {
       const Node& n = nodes_[i];
-      // A result gets the slot of its first operand, if that value is not needed later: so if pruning reduces the
-      // instruction to a copy of this operand, it costs nothing.
+      // A result gets the slot of its first operand if that operand is not needed later. Then the instruction costs
+      // nothing if pruning reduces it to a copy of this operand.
       for (const int32_t v : {n.a, n.b, n.c}) {
         if (v >= 0 && values_[static_cast<size_t>(v)].last == i) free |= bitOf(v);
       }

@@ -1,5 +1,5 @@
 #pragma once
-// Orders the instructions of a tape so that sweeps have long runs of each kind, and assigns values to as few slots as
+// Orders the instructions of a tape so that a sweep has long runs of each kind, and assigns values to as few slots as
 // possible.
 
 #include "backend/vulkan/tape.h"

@@ -10,15 +10,15 @@ namespace sgm {
 namespace vulkan {
 namespace {
 
-/// Number of chunks per batch. Large batches fill the many invocations of a device; on a few CPU threads they only take
-/// longer.
+/// Number of chunks per batch, on hardware and on software devices. A GPU needs large batches to fill its many
+/// invocations; on the few CPU threads of a software device, they would only make a batch take longer.
 constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
 
 struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   BatchPlan plan;
   BatchBuffers buffers;
-  uint64_t value = 0;  ///< value of the queue until which the device works in the slot
+  uint64_t value = 0;  ///< timeline value of the queue until which the device works in the slot
 };
 
 class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
@@ -63,7 +63,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Result<void> submit(DeviceSlot& base) override {
     auto& slot = static_cast<Slot&>(base);
-    // The wait is repeated if it was given up because the driver ran out of memory.
+    // Downloads of the slot's previous batch must have ended. Waits again if read() gave up because the driver ran out
+    // of memory.
     if (Result<void> brought = reach(slot.buffers.reading); !brought) {
       slot.stuck = true;
       return brought;
@@ -98,7 +99,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       if (!done(job)) return false;
     }
     if (staying.empty()) return false;
-    // Parts for which this fails are uploaded later by the caller, if it wants them on the device.
+    // If this fails, the caller uploads the parts later, if it wants them on the device.
     Result<KeptParts> kept = kept_->keep(shared_from_this(), sources);
     if (!kept) return kept.error();
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move(kept->chunks[i]);
@@ -124,7 +125,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (!ring) return ring.error();
     ring_ = std::move(*ring);
     if (!options.pipeline_folder.empty()) {
-      // Without a cache, pipelines are compiled again; everything else works.
+      // If the cache cannot be created, pipelines are compiled in each run; everything else works.
       if (auto cache = PipelineCache::create(*device_, options.pipeline_folder)) {
         cache_ = std::move(*cache);
       } else if (options.warn) {
@@ -144,7 +145,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return {};
   }
 
-  /// Waits until the queue has reached the value. Tries twice, since the driver may have been out of memory.
+  /// Waits until the queue has reached the timeline value. Tries twice, since the driver may have been out of memory.
   Result<void> reach(uint64_t value) const {
     if (queue_->wait(value)) return {};
     const Result<bool> reached = queue_->wait(value);

@@ -28,19 +28,21 @@ struct ExportBlend {
   std::array<uint8_t, 3> planes{};
 };
 
-/// Texture vertices. A mesh vertex at the border of two charts, or of two pairs of materials, has several of them.
+/// Vertices with texture coordinates. A mesh vertex at the border of two texture charts, or of two pairs of materials,
+/// has several texture vertices.
 struct ExportTexture {
   std::span<const uint32_t> vertices;                 ///< index of the mesh vertex of each texture vertex
   std::span<const std::array<float, 2>> coordinates;  ///< texture coordinates, one pair per texture vertex
-  std::span<const ExportBlend> blends;                ///< one per texture vertex
-  std::span<const uint32_t> corners;                  ///< indices of texture vertices, parallel to the mesh's indices
-  std::span<const std::byte> png;                     ///< a PNG file, repeated over the whole mesh; empty: no image
+  std::span<const ExportBlend> blends;                ///< materials and projections at each texture vertex
+  std::span<const uint32_t> corners;                  ///< index of the texture vertex at each triangle corner
+  std::span<const std::byte> png;                     ///< content of a PNG file, repeated over the mesh; may be empty
 };
 
-/// Additional content of the file. Materials with indices beyond the table are written as grey, named "material N".
+/// Additional content of an exported file. Triangles with a material index beyond `materials` are written in grey, as
+/// "material N".
 struct ExportInfo {
   std::string name = "mesh";      ///< name of the object
-  std::string generator = "sgm";  ///< name and version of the program
+  std::string generator = "sgm";  ///< name and version of the program that writes the file
   std::vector<ExportMaterial> materials;
   std::vector<std::string> tags;
   /// borrowed; null: no texture. Ignored by .ply and .stl, which cannot store it
@@ -49,19 +51,19 @@ struct ExportInfo {
 
 enum class MeshFormat { glb, obj, ply, stl };
 
-/// Returns the format for a file extension, in upper or lower case. Error: Code::invalid_argument, which lists the four
-/// extensions.
+/// Returns the format for a file extension, in upper or lower case. Error: Code::invalid_argument; its message lists
+/// the four extensions.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 
 /// An output file that is opened before the mesh is computed, so that an unwritable path is reported early.
 ///
 /// Positions are in metres from mesh.origin, rounded to float32.
-///  .glb  binary glTF 2.0: one primitive per material with vertices of its own, POSITION, NORMAL, _TAG; the scene's
-///        extras hold the origin in units and metres and the tag names. With a texture TEXCOORD_0 and _BLEND, the
-///        shares of planes (xyz) and of the second material (w); pairs of materials have primitives of their own,
-///        whose colours COLOR_0 blends and whose material's extras name the two
-///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials are in a .mtl file beside it,
-///        of the same name if that consists of ASCII letters, digits, `.`, `-` and `_`
+///  .glb  binary glTF 2.0: one primitive per material, with vertices of its own (POSITION, NORMAL, _TAG). The scene's
+///        extras hold the tag names, and the origin in units and metres. With a texture, vertices also have TEXCOORD_0
+///        and _BLEND: the shares of the projections (xyz) and of the second material (w). Each pair of materials then
+///        has a primitive of its own, with blended colours (COLOR_0) and with both names in its material's extras.
+///  .obj  text, with normals and usemtl, and with texture coordinates if there are any; the materials are in a .mtl
+///        file beside it, of the same name if that consists of ASCII letters, digits, `.`, `-` and `_`
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments
 ///  .stl  binary, with facet normals and positions only, so that a reader must weld by position
 /// A triangle has the material that two of its vertices share, or else that of its first vertex. An empty mesh makes a
@@ -76,9 +78,9 @@ class MeshFile {
   /// Call once. Errors: Code::io; Code::limit if the format cannot hold the mesh.
   Result<void> write(const WorldMesh& mesh, const ExportInfo& info);
 
-  /// The files that write creates: the path, and the .mtl of an .obj.
+  /// Returns the paths of the files that write() creates: the given path, and for an .obj that of its .mtl.
   const std::vector<std::filesystem::path>& paths() const { return paths_; }
-  /// The total size of the files, once write has succeeded.
+  /// Returns the total size of the files, once write() has succeeded.
   uint64_t bytes() const;
 
  private:
@@ -86,7 +88,7 @@ class MeshFile {
 
   MeshFormat format_;
   std::vector<std::filesystem::path> paths_;
-  std::vector<FileWriter> files_;  // one per path
+  std::vector<FileWriter> files_;  // one writer per path
 };
 
 /// Creates and writes a MeshFile in one call.

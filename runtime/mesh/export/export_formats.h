@@ -15,10 +15,10 @@ Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
 /// Writes an .obj to `file` and its materials to `library`. library_name: the .mtl name that the .obj refers to.
 Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
                       FileWriter& library, FileWriter& file);
-/// Returns the .mtl file name for an .obj. Many readers end a name at a space and accept only ASCII letters, so a name
-/// with other characters is replaced by a unique one that has none.
+/// Returns the name of the .mtl file for an .obj. Many readers end a name at a space and accept only ASCII letters, so
+/// a name with other characters is replaced by a unique name without them.
 std::string materialLibraryName(const std::filesystem::path& obj);
-/// Error: Code::io if the file exists and was not written by writeObj, and so must not be overwritten.
+/// Checks whether a .mtl file may be replaced. Error: Code::io if the file exists and was not written by writeObj().
 Result<void> mayReplaceLibrary(const std::filesystem::path& library);
 
 using Float3 = std::array<float, 3>;
@@ -27,7 +27,7 @@ Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex);
 Float3 exportedNormal(const WorldMesh& mesh, uint32_t vertex);
 uint16_t triangleMaterial(const WorldMesh& mesh, size_t first_index);
 ExportMaterial materialAt(const ExportInfo& info, uint16_t index);
-/// The shortest text that reads back as the same number, in any locale.
+/// Returns the shortest text that reads back as the same number, in any locale.
 std::string decimalText(float value);
 std::string decimalText(double value);
 /// Replaces line breaks and other control characters by spaces, so that a name stays within its line of the file.

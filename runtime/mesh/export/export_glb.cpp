@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 constexpr size_t kVertexBytes = 28;   // bytes per vertex: position, normal, tag, two bytes of padding
 constexpr size_t kTextureBytes = 12;  // additional bytes per vertex with a texture: coordinates, blend
-constexpr size_t kColourBytes = 8;    // additional bytes per vertex of a pair of materials
+constexpr size_t kColourBytes = 8;    // additional bytes per vertex of a primitive with two materials: colour
 
 /// The triangles of one material, or of a pair of materials. Vertices are renumbered in the order in which the
 /// triangles use them.
@@ -21,11 +21,11 @@ struct Primitive {
   std::array<uint16_t, 2> materials{};
   size_t vertex_size = kVertexBytes;
   std::vector<uint32_t> vertices;  // indices of the mesh's vertices; with a texture, indices of its texture vertices
-  std::vector<uint32_t> indices;   // into vertices
+  std::vector<uint32_t> indices;   // indices into `vertices`
   Float3 low{}, high{};
 
   bool blends() const { return materials[0] != materials[1]; }
-  // Index 65535 is reserved: it restarts a primitive.
+  // Index 65535 is reserved for primitive restart.
   bool shortIndices() const { return vertices.size() <= 65535; }
   size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
   size_t paddedIndexBytes() const { return (indexBytes() + 3) / 4 * 4; }
@@ -37,7 +37,7 @@ uint32_t vertexOf(const ExportTexture* texture, uint32_t number) {
 }
 
 std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTexture* texture) {
-  // offset of the first index of each triangle, by materials
+  // for each pair of materials: the positions in mesh.indices at which its triangles start
   std::map<std::array<uint16_t, 2>, std::vector<size_t>> triangles_of;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const uint16_t alone = triangleMaterial(mesh, i);
@@ -75,7 +75,7 @@ std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTextur
   return primitives;
 }
 
-/// A JSON string. Bytes that are not UTF-8 would make the file invalid: they become '?'.
+/// Returns a JSON string. Bytes that are not UTF-8 would make the file invalid: they become '?'.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (size_t i = 0; i < text.size();) {
@@ -104,7 +104,7 @@ std::string vectorText(const Float3& v) {
   return '[' + decimalText(v[0]) + ',' + decimalText(v[1]) + ',' + decimalText(v[2]) + ']';
 }
 
-/// Joins the texts item(i) for i < count.
+/// Returns a JSON array of the texts item(i) for i < count.
 template <class Item>
 std::string listOf(size_t count, Item item) {
   std::string out = "[";
@@ -123,7 +123,8 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
          "],\"tags\":" + listOf(info.tags.size(), [&](size_t i) { return quoted(info.tags[i]); }) + "}}";
 }
 
-/// The material of a primitive; for a pair of materials it is white, because the vertices have the colours.
+/// Returns the material of a primitive as JSON. For a pair of materials it is white, because the vertices have the
+/// colours.
 std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   const ExportMaterial first = materialAt(info, primitive.materials[0]);
   const ExportMaterial second = materialAt(info, primitive.materials[1]);

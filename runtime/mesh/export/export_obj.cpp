@@ -11,7 +11,7 @@ namespace {
 /// generator.
 constexpr const char* kSecondLine = "# origin_units ";
 
-/// Many readers end the names in usemtl and newmtl at white space.
+/// Returns the name of a material without white space, at which many readers end the names in usemtl and newmtl.
 std::string materialWord(const ExportInfo& info, uint16_t index) {
   std::string word = oneLine(materialAt(info, index).name);
   for (char& c : word)
@@ -85,7 +85,7 @@ std::string materialLibraryName(const std::filesystem::path& obj) {
     if (!plain) c = '_';
   }
   if (name == stem) return name + ".mtl";
-  // Different names may become equal by the replacement; the hash of the original name keeps them apart.
+  // The replacement may make different names equal, so the hash of the original name is added.
   constexpr char kDigits[] = "0123456789abcdef";
   name += '_';
   const uint64_t hash = hashText(stem);

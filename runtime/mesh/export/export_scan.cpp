@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// A linear colour as the sRGB bytes that viewers of PLY files expect.
+/// Converts a linear colour to the sRGB bytes that viewers of PLY files expect.
 std::array<uint8_t, 3> displayColour(const std::array<float, 3>& linear) {
   std::array<uint8_t, 3> bytes{};
   for (size_t i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
 
 Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
   if (mesh.indices.size() / 3 > std::numeric_limits<uint32_t>::max()) return tooLarge(".stl");
-  // Readers treat a file that begins with "solid" as text.
+  // The header must not begin with "solid": readers would treat the file as text.
   std::string header = "binary STL, " + oneLine(info.generator) + ", origin_units " + std::to_string(mesh.origin.x) +
                        ' ' + std::to_string(mesh.origin.y) + ' ' + std::to_string(mesh.origin.z);
   header.resize(80, ' ');

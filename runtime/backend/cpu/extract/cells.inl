@@ -1,22 +1,22 @@
-// Makes triangles from active cells, a vector of loops at a time. The includer of the .inl files must define the types
+// Makes triangles from active cells, a vector of loops at a time. A file that includes .inl files must define the types
 // and functions of shaders/common/real.h, and
-//   kLanes                     lanes of a vector
+//   kLanes                     number of lanes of a vector
 //   loadValues, loadLanes      loads of consecutive lanes
 //   loadFour                   four numbers of each lane
 //   loadAt, loadIntAt          gathers
 //   storeLanes                 stores consecutive lanes
-//   storeThree, storeFour      interleaves the lanes' numbers
+//   storeThree, storeFour      stores three or four numbers of each lane, interleaved
 //   squareRoot, quotient       as in IEEE 754
 //   scaledDouble               Int times double, rounded to float
 //   minInt, maxInt             of integers
-//   maskOf, all, any           a bit a lane; whether all are true, whether one is
+//   maskOf, all, any           one bit per lane; whether all lanes are true; whether any lane is
 //   spreadBits<n>              64 bytes of n words: bit i of word k becomes bit k of byte i
 //   writeTriangles<n>          the triangles of a loop's triangulation
-//   addSteps                   the vertices of a cell's edges: the numbers of the edges' first samples, with `steps`,
-//                              a byte each, added for the edges 4 to 11
+//   addSteps                   numbers of the vertices on a cell's edges: the number of the first vertex at the sample
+//                              where the edge starts, plus, for each of the edges 4 to 11, a byte of `steps`
 
-/// For each edge of a cube: where it begins in its cell, in 256ths of a cell, 9 bits per axis. The vertex's offset
-/// along the edge is added to it.
+/// For each edge of a cube: where it begins in its cell, in 1/256 of a cell, 9 bits per axis. The offset of the vertex
+/// along the edge is added to this value.
 struct CubePlaces {
   uint32_t of_edge[kCubeEdges];
 };
@@ -31,12 +31,13 @@ constexpr CubePlaces makeCubePlaces() {
 }
 inline constexpr CubePlaces kCubePlaces = makeCubePlaces();
 
-/// True if some loop of N edges has a chord that chordMask forbids: only loops of 6 and 7 edges have
-/// (tests/unit/backend).
+/// True if chordMask() forbids a diagonal in some loop of N edges, which is the case only for 6 and 7 edges (proved in
+/// tests/unit/backend).
 template <size_t N>
 inline constexpr bool kForbids = N >= 6;
 
-/// kLanes loops of one length: their vertices and, for each point, its position and the chordMask of its edge.
+/// kLanes loops with the same number of points: their vertices and, for each point, its position and the chordMask of
+/// its edge.
 template <size_t N>
 struct LoopLanes {
   alignas(64) uint32_t vertex[kLanes][8];
@@ -114,8 +115,8 @@ void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
   storeLanes(way[0][N - 1], ways);
 }
 
-/// A loop that waits in a queue: the vertices of its cell by edge of the cube, the loop's edges, and where to write its
-/// triangles.
+/// A loop that waits in a queue: the numbers of the vertices on its cell's edges, by edge of the cube; the loop's
+/// edges; and where to write its triangles.
 struct alignas(64) WaitingLoop {
   uint32_t number[kCubeEdges];
   const uint8_t* edges;
@@ -126,7 +127,7 @@ struct alignas(64) WaitingLoop {
 /// unpredictable, so cells are added without a branch on it.
 class LoopQueues {
  public:
-  /// offsets[v - first]: placeOffset of vertex v. Triangles are written to `out` and behind it.
+  /// offsets[v - first]: result of placeOffset() for vertex v. Triangles are written from `out` on.
   LoopQueues(const uint32_t* offsets, size_t first, uint32_t* out) : offsets_(offsets), first_(first), out_(out) {
     for (size_t n = 0; n < kLengths; ++n) {
       next_[kShortest + n] = waiting_[n];
@@ -134,7 +135,8 @@ class LoopQueues {
     }
   }
 
-  /// Adds the loops of a cell. `place(number)` must write the vertices of the cell's edges.
+  /// Adds the loops of a cell. `place(number)` must write the numbers of the vertices on the cell's edges to
+  /// number[edge].
   template <class Place>
   FN void add(uint64_t cell_case, const Place& place) {
     const uint32_t loop = kCubeFirstLoop[cell_case];
@@ -230,10 +232,12 @@ class LoopQueues {
 };
 static_assert(kLongestCubeLoop == 7);
 
-/// Offsets from the number of a sample's first vertex to the vertex of a cube's edge. There is a byte for each of the
-/// edges 4 to 11, since edges 0 to 3 are the first of their samples. One part of the offset depends on the case, which
-/// shows which edges the cell's own samples have. The other part depends on the edges beyond the cell: along x (bits 0
-/// to 2: rows 0 to 2 at high x) and along y (bits 3, 4: row 1 at low and high x).
+/// What to add to the number of a sample's first vertex to get the number of the vertex on a cube edge that starts at
+/// the sample. One byte for each of the edges 4 to 11; edges 0 to 3 run along x, so each has the first vertex of its
+/// sample.
+///
+/// The added value is the sum of two parts. of_case: counts crossed edges of the cell itself. of_high: counts crossed
+/// edges beyond the cell, along x (bits 0 to 2: rows 0 to 2 at high x) and y (bits 3, 4: row 1 at low and high x).
 struct CellSteps {
   uint64_t of_case[256], of_high[32];
 };

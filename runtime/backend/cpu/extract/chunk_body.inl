@@ -33,7 +33,7 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
     memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
   }
 
-  // Same as vertexUnits: at most one coordinate of a vertex lies between samples.
+  // Same result as vertexUnits(): only the coordinate along the edge lies between samples, so only it needs rounding.
   const Int along = toIntBits(toUintBits(wrapAdd(wrapMul(t, cell), broadcastInt(kSubcell / 2))) >> 8);
   storeLanes(wrapAdd(corner_x, sel(e.along_x, along, zero)), scratch.place_x.data() + vertex);
   storeLanes(wrapAdd(corner_y, sel(e.along_y, along, zero)), scratch.place_y.data() + vertex);
@@ -58,7 +58,7 @@ inline void writeChunkPlane(const ChunkSamples& samples, const ChunkGrid& grid, 
   writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, keys, scratch, part);
 }
 
-/// kList: the function MeshKernels::list of the instruction set.
+/// Meshes the body of a chunk. kList: the function MeshKernels::list of the instruction set.
 template <auto kList>
 void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool keys, MeshScratch& scratch,
                      MeshPart& part) {

@@ -1,4 +1,4 @@
-// Further passes over a chunk, as loops that the compiler can vectorise.
+// Small passes over the samples or the mesh of a chunk, as loops that the compiler can vectorise.
 
 inline uint32_t countSolid(const ChunkSamples& samples) {
   constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;

@@ -1,4 +1,4 @@
-// A vector of crossed edges, for grids and chunks. See cells.inl.
+// Vectors of crossed edges, used for grids and for chunks. See cells.inl.
 
 /// A vector of edges of plane z.
 struct EdgeLanes {
@@ -31,7 +31,7 @@ FN Int crossingOf(Int q0, Int q1) {
   return sel(t > broadcastInt(255), broadcastInt(255), t);
 }
 
-/// The vertex's offset along its edge, in the format of makeCubePlaces.
+/// Returns the vertex's offset along its edge, in the format of makeCubePlaces().
 FN Int placeOffset(const EdgeLanes& e, Int t) {
   return wrapMul(t, sel(e.along_x, broadcastInt(1), sel(e.along_y, broadcastInt(1 << 9), broadcastInt(1 << 18))));
 }

@@ -39,7 +39,8 @@ FN bool any(Bool b) { return b; }
 FN Int minInt(Int a, Int b) { return std::min(a, b); }
 FN Int maxInt(Int a, Int b) { return std::max(a, b); }
 
-// Processes eight bytes at a time: a multiplication copies bits into each byte, and a mask selects the right one.
+// Transposes bits, eight bytes at a time: a multiplication copies bits into each byte, and a mask selects the right
+// one.
 template <size_t kCount>
 FN void spreadBits(const uint64_t* words, uint8_t* out) {
   for (int at = 0; at < 64; at += 8) {

@@ -22,7 +22,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-// Without Highway vectors, extract_scalar.cpp is used.
+// If Highway has no vectors for this target, extract_scalar.cpp is used instead.
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace sgm {
@@ -79,7 +79,7 @@ FN void spreadBits(const uint64_t* words, uint8_t* out) {
   }
 }
 
-// The corners of the triangles of a triangulation, one per lane: the first 8, then the rest.
+// For each triangulation of a loop of N points: the corners of its triangles, one per lane; the first 8, then the rest.
 template <size_t N>
 struct TriangleLanes {
   alignas(64) uint32_t corner[static_cast<size_t>(triangulation::kWays[N])][16];

@@ -5,7 +5,7 @@
 inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.0f; }
 inline bool isFinite(float value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
 
-/// Prefetch distance, in floats, while signs of a caller's grid are read row by row.
+/// Prefetch distance, in floats, for reading the samples of a caller's grid row by row.
 inline constexpr size_t kFetchAhead = 2048;
 
 inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, uint64_t* uniform) {
@@ -27,7 +27,7 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
       largest = maxInt(largest, toIntBits(realToBits(v) & Uint(0x7FFFFFFFu)));
     };
     if (size == 64) {
-      // Memory limits this loop: the processor's own prefetching does not reach far enough.
+      // Memory bandwidth limits this loop, and hardware prefetching does not reach far enough ahead.
       for (size_t line = 0; line < 4; ++line) __builtin_prefetch(values + first + kFetchAhead + 16 * line);
 #pragma GCC unroll 16
       for (lane = 0; lane < 64; lane += kLanes) take();
@@ -41,7 +41,7 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
     words[first / 64] = word;
   }
   good = good && !any(largest > broadcastInt(0x7F7FFFFF));
-  uint64_t some = 0, lacking = 0;  // for a group of words: bits set if a sample is solid, and if a sample is void
+  uint64_t some = 0, lacking = 0;  // bit per group of words: a sample is solid (some), is void (lacking)
   const size_t group = job.lattice.group();
   for (size_t word = 0, bit = 0; word < job.lattice.words; ++bit) {
     for (const size_t end = std::min(word + group, job.lattice.words); word < end; ++word) {
@@ -58,7 +58,7 @@ struct Vector {
   Real x, y, z;
 };
 
-/// Returns the value in 1024ths of a cell, clamped to the range of Q.
+/// Returns the value in the unit of the quantised samples Q, clamped to their range but not rounded.
 FN Real scaledOf(const GridJob& job, Real value) {
   PRECISE Real v = value * broadcast(job.scale);
   return clampReal(v, -static_cast<float>(kMaxQ), static_cast<float>(kMaxQ));
@@ -92,8 +92,8 @@ struct Surroundings {
   alignas(64) float y0[kLanes], y1[kLanes], z0[kLanes], z1[kLanes];
 };
 
-/// The samples around both ends of a vector of edges. `there` is false if they were not copied, because one of the
-/// edges lies at the grid's border, or no normals are requested.
+/// The samples around both ends of a vector of edges. `there` is false if the samples were not copied, either because
+/// one of the edges lies at the grid's border or because no normals are requested.
 struct EdgeSurroundings {
   bool there;
   Surroundings start, end;
@@ -120,8 +120,8 @@ FN Vector gradientOf(const GridJob& job, const Surroundings& around, Real& scale
           half(loadValues(around.z1), loadValues(around.z0))};
 }
 
-/// Returns the interpolated gradient between the ends of the edges, normalised; if it is 0, `own`, the direction of the
-/// edge from solid to void.
+/// Returns the normalised gradient, interpolated between the ends of the edges. If it is 0, returns `own`, the
+/// direction of the edge from solid to void.
 FN Vector normalBetween(const Vector& g0, const Vector& g1, Int t, const Vector& own) {
   const Real part = toReal(t) * broadcast(1.0f / kSubcell);
   const auto between = [&](Real a, Real b) {
@@ -161,7 +161,7 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   const auto inside = [&](Int at, Int end, size_t axis) {
     return at > zero && end < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
   };
-  // Four samples of a row are read, although the last one is not used: it must not lie beyond the row's end.
+  // look() reads four samples of a row. The last one is not used, but must not lie beyond the row's end.
   around.there = all(inside(e.x, wrapAdd(e.x, sel(e.along_x, broadcastInt(2), one)), 0) &&
                      inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
                      inside(e.z, wrapAdd(e.z, sel(e.along_z, one, zero)), 2));
@@ -176,7 +176,8 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   }
 }
 
-/// Computes where the surface crosses the edges (t) and the normals there, from the copied samples or from the grid.
+/// Returns the normals where the surface crosses the edges, and sets t to these points, in 1/256 of an edge. Uses the
+/// copied samples or reads the grid.
 FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, const EdgeSurroundings& around,
                     bool normals, Int& t) {
   if (around.there) {
@@ -234,9 +235,9 @@ inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, cons
 /// Processes the listed edges of plane z. Without `write`, computes only the offsets of vertices along their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
                        uint32_t* offsets, bool write, BoundsLanes& bounds) {
-  // Vectors are processed in batches, so that values are written long before they are read as vectors. The plane after
-  // the next is usually not in cache; and no plane may be, if a thread on another core has processed the slab below. So
-  // the samples for edges further ahead in the list are prefetched.
+  // Vectors are processed in batches, so that some time passes between writing values and reading them as vectors.
+  // Samples for edges further ahead in the list are prefetched. The plane after the next is usually not in the cache;
+  // nor are the nearer planes if a thread on another core has processed the slab below.
   constexpr size_t kBatch = 2, kAhead = 128;
   const float* const beyond = job.row(0, std::min(z + 2, job.lattice.size[2] - 1));
   const size_t cold = write ? 0 : 2;

@@ -6,8 +6,8 @@ FN uint64_t wordMask(size_t word, size_t count) {
   return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
 }
 
-/// Returns the groups of four rows that may have crossed edges or active cells: those that are not proven uniform
-/// together with the next group, into which the last cells of a group reach.
+/// Returns, as a mask, the groups of words in which four adjacent rows may have crossed edges or active cells. The
+/// other groups are proven uniform together with the next group, into which the last cells of a group reach.
 FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2]) {
   const size_t group = lattice.group(), groups = group == 1 ? lattice.words : (lattice.words + group - 1) / group;
   if (lattice.words == 1 || lattice.uniform == nullptr) return wordMask(0, groups);
@@ -39,8 +39,8 @@ FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size
 inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
 
-/// Packs an active cell of a layer: the index of its lowest sample in the plane; which edges exist beyond it
-/// (CellSteps); and its case.
+/// Packs an active cell of a layer: the index of its lowest sample in the plane; which edges beyond the cell are
+/// crossed (index into CellSteps::of_high); and its case.
 constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
   return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }

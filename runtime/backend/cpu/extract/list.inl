@@ -1,5 +1,5 @@
-// Lists everything that follows from signs alone: crossed edges, active cells, their cases, and counts. See
-// mesh_kernels.h; cells.inl lists the definitions that the including file must provide.
+// Lists everything that follows from the signs of samples alone: crossed edges, active cells, their cases, and counts.
+// See mesh_kernels.h; cells.inl lists the definitions that the including file must provide.
 
 /// The signs of a row at a word's samples, and at the samples that follow each of them. The row's last sample counts as
 /// followed by itself, so that no edge begins there.
@@ -13,7 +13,7 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
   return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
 }
 
-/// Calls f(word) for the words of those groups whose bit in `wanted` is set, in order.
+/// Calls f(word), in order, for the words of all groups whose bit in `wanted` is set.
 template <class F>
 FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   const size_t group = lattice.group();
@@ -23,7 +23,8 @@ FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
   }
 }
 
-/// By case: bits 0 to 2 are set if the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are crossed.
+/// For each case of a cell: bits 0 to 2 are set if the edges along x in the rows (y, z), (y + 1, z), (y, z + 1) are
+/// crossed.
 struct CaseEdges {
   uint8_t along_x[256];
 };
@@ -39,9 +40,9 @@ inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 
 /// The active cells of a word, with the data from which their cases are made.
 struct WordCells {
-  const uint64_t* corner;  ///< signs at the cells' corners, in the order of a case's bits, with one more word
+  const uint64_t* corner;  ///< signs at the cells' eight corners, in the order of a case's bits; then one unused word
   uint32_t next_case;      ///< case of the cell after the word's last cell; 0 if there is none
-  uint64_t along_y[2];     ///< bits of cells at whose low, or high, x a crossed edge along y begins beyond the cell
+  uint64_t along_y[2];     ///< bit per cell: the next edge along y (from y + 1) is crossed; [0] at low x, [1] at high x
   uint64_t active;
   size_t place;  ///< index of the word's first cell in the plane
 };
@@ -95,8 +96,8 @@ struct OneByOne {
   }
 };
 
-/// Lists what rows of plane z own: crossed edges, sorted by sample and axis, as vertices are; and the active cells of
-/// the layer above, in the canonical order.
+/// Lists the crossed edges that start in rows first_row..last_row - 1 of plane z, sorted by sample and axis like
+/// vertices, and the active cells of the layer above these rows, in canonical order.
 inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
                            uint64_t* cells) {
   ListCounts counts;
@@ -119,8 +120,8 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
         every &= s.low & s.high;
       }
       corner[8] = 0;
-      // A sample at which a crossed edge starts is the lowest sample of an active cell, unless the cell lies outside of
-      // the lattice.
+      // If all signs are equal, there is no active cell. Nor does a crossed edge start here: its first sample would be
+      // the lowest sample of an active cell, unless that cell lies outside of the lattice.
       if ((some & ~every) == 0) return;
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
       if ((x | y_edges | z_edges) != 0) {

@@ -37,15 +37,15 @@ namespace {
 
 #include "backend/cpu/extract/lattice.inl"
 
-/// The order in which the edges of 64 samples are listed: x, y, z of each sample in turn, a byte each, in three
-/// vectors. This is one axis's share of one vector: its samples, as bits of the axis's word from `shift` on, and the
-/// bytes of their edges.
+/// The position of the edges along one axis within a vector of edges. Three vectors list the possible edges of 64
+/// samples, one byte per edge: the x, y and z edge of each sample in turn. shift: the first sample of the vector, as a
+/// bit of the axis's word. bytes: mask of the bytes of the vector that hold edges along the axis.
 struct TurnOfAxis {
   int shift;
   uint64_t bytes;
 };
 struct Tables {
-  TurnOfAxis turns[3][3];              ///< by vector and axis
+  TurnOfAxis turns[3][3];              ///< by vector and by axis: where its edges are
   alignas(64) uint8_t edge[3][64];     ///< by vector and byte: the edge's axis (two bits), and its sample (six bits)
   alignas(64) uint8_t number[64];      ///< index of a byte in its vector
   alignas(64) uint8_t following[64];   ///< index of the next byte
@@ -75,8 +75,8 @@ constexpr Tables kTables = makeTables();
 
 FN __m512i bytesOf(const uint8_t* bytes) { return _mm512_load_si512(bytes); }
 
-/// Makes bit i of word k bit k of byte i: groups the bytes by samples, and transposes each group of eight bytes as a
-/// bit matrix.
+/// Transposes bits: bit i of word k becomes bit k of byte i. Groups the bytes by samples, then transposes each group of
+/// eight bytes as a bit matrix.
 FN __m512i spreadBits(__m512i words) {
   return _mm512_gf2p8affine_epi64_epi8(_mm512_set1_epi64(static_cast<int64_t>(0x8040201008040201u)),
                                        _mm512_permutexvar_epi8(bytesOf(kTables.by_samples), words), 0);
@@ -187,12 +187,14 @@ FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has
                                                     static_cast<int64_t>(high[2]), static_cast<int64_t>(low[2]),
                                                     static_cast<int64_t>(high[1]), static_cast<int64_t>(low[1]),
                                                     static_cast<int64_t>(high[0]), static_cast<int64_t>(low[0])));
-  // Behind the word's last cell: whether the first two samples of the next word, if they exist, differ.
+  // For the cell behind the word's last cell: the first two samples of the next word, whose difference shows whether an
+  // edge along x is crossed; 0 if they do not exist.
   const bool has_two = (word + 1) * 64 + 1 < lattice.size[0];
   const uint64_t behind = (next[0] & 3) | (next[1] & 3) << 2 | (next[2] & 3) << 4;
   const __m512i following = _mm512_mask_set1_epi8(_mm512_permutexvar_epi8(bytesOf(kTables.following), cases),
                                                   uint64_t{1} << 63, static_cast<char>(has_two ? behind : 0));
-  // In a case, bits 0 and 1 are the two ends of an edge along x, as are bits 2 and 3, and bits 4 and 5.
+  // Bits 0 to 2 of along_x tell whether edges along x are crossed. Their two ends are bits 0 and 1, bits 2 and 3, and
+  // bits 4 and 5 of a case.
   const __m512i along_x =
       _mm512_gf2p8affine_epi64_epi8(following, _mm512_set1_epi64(static_cast<int64_t>(0x030C300000000000u)), 0);
   const uint64_t far = around.following[word], far_next = around.following[word + goes_on] & going;
@@ -224,7 +226,7 @@ FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t 
       some_next = _mm512_or_si512(some_next, next_signs);
       every_next = _mm512_and_si512(every_next, next_signs);
     }
-    // The last sample begins no cell, but edges along y and z.
+    // The last sample of a row begins no cell, but edges along y and z can start there.
     const __m512i cells =
         left > 8 ? _mm512_set1_epi64(-1)
                  : _mm512_mask_set1_epi64(_mm512_set1_epi64(-1), static_cast<__mmask8>(1u << (left - 1)),

@@ -6,10 +6,10 @@
 
 namespace sgm {
 
-/// True if this processor supports both. Thread-safe.
+/// True if this processor supports both extensions. Thread-safe.
 bool vbmi2RunsHere();
 
-/// Precondition: vbmi2RunsHere(). Built only for x86-64.
+/// Same as listRows() of list.inl. Precondition: vbmi2RunsHere(). Built only for x86-64.
 ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, size_t last, uint32_t* edges,
                          uint64_t* cells);
 

@@ -34,28 +34,29 @@ struct SignLattice {
 struct GridJob {
   const float* values = nullptr;
   SignLattice lattice;
-  /// distances of rows and planes in floats; stride_y * size[1] and 4 * stride_z are below 2^31
+  /// distances between rows and between planes, in floats; stride_y * size[1] and 4 * stride_z are below 2^31
   size_t stride_y = 0, stride_z = 0;
   float scale = 0;  ///< factor from values to quantised samples Q
   double step = 0;  ///< 1/256 of a cell, in the unit of the positions
 
-  float* positions = nullptr;   ///< three per vertex
-  float* normals = nullptr;     ///< three per vertex; null if not wanted
+  float* positions = nullptr;   ///< three coordinates per vertex
+  float* normals = nullptr;     ///< three components per vertex; null if not wanted
   uint32_t* indices = nullptr;  ///< three per triangle
 
   const float* row(size_t y, size_t z) const { return values + y * stride_y + z * stride_z; }
 };
 
-/// The results of listing rows of a plane: the numbers of crossed edges that start in these rows, which become
-/// vertices, and of active cells in the layer above the plane.
+/// The results of listing rows of a plane: the number of crossed edges that start in these rows (one vertex each), and
+/// the numbers of active cells and of their triangles in the layer above.
 struct ListCounts {
   uint64_t vertices = 0, cells = 0, triangles = 0;
 };
 
-/// Lanes of the widest vector. A pass may write up to this number of elements past the end of a list.
+/// Number of lanes of the widest vector. A pass may write up to this number of elements past the end of a list.
 inline constexpr size_t kMaxLanes = 16;
 
-/// Capacities of the lists for `rows` rows: of edges (packed as in lattice.inl), and of cells.
+/// Capacities of the lists for `rows` rows of samples: of crossed edges (packed as in lattice.inl), and of active
+/// cells.
 constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMaxLanes; }
 constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMaxLanes; }
 
@@ -64,8 +65,9 @@ struct GridBounds {
   std::array<int32_t, 3> lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
 };
 
-/// A slab to be meshed: the planes first..last - 1, and the layers of cells below each of them; their lists, and the
-/// counts before them. A layer has the number of the plane below it.
+/// A slab to be meshed: planes first..last - 1, and the layers of cells below each of these planes. Holds their lists
+/// of edges and cells, and the numbers of the first vertices, cells and triangles. A layer has the number of the plane
+/// below it.
 struct GridSlab {
   size_t first = 0, last = 0;
   /// by plane, with one more element at the end: number of the plane's first vertex
@@ -75,19 +77,21 @@ struct GridSlab {
   uint64_t first_triangle = 0;      ///< number of the slab's first triangle
   const uint32_t* edges = nullptr;  ///< list of crossed edges of the slab's planes
   const uint64_t* cells = nullptr;  ///< list of active cells of the layers from `first` on
-  /// Lists of plane first - 1 and of the layer above it; null if `first` is 0.
+  /// Lists of plane first - 1 and of the layer above that plane; null if `first` is 0.
   const uint32_t* edges_below = nullptr;
   const uint64_t* cells_below = nullptr;
 };
 
-/// Working memory for one slab, which need not be initialised.
+/// Working memory for one slab, which need not be initialised. Capacities: of `numbers`, 2 * size[0] * size[1]; of
+/// `offsets`, the number of vertices of the slab and of the plane below it, plus kMaxLanes.
 struct GridScratch {
-  uint32_t* numbers = nullptr;  ///< capacity 2 * size[0] * size[1]
-  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane below it, plus kMaxLanes
+  uint32_t* numbers = nullptr;  ///< number of each sample's first vertex, for two planes
+  uint32_t* offsets = nullptr;  ///< offset of each vertex of the slab and of the plane below it along its edge
 };
 
-inline constexpr int kBrickSamples = 8;                      ///< per axis; the last brick of a chunk has one more
-inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< per axis
+/// number of samples of a brick along each axis; a chunk's last brick has one more
+inline constexpr int kBrickSamples = 8;
+inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< number of bricks of a chunk along each axis
 inline constexpr int kBrickCount = kBricks * kBricks * kBricks;
 
 /// Working memory for one chunk; allocated once, then reused.
@@ -112,11 +116,11 @@ struct MeshScratch {
 
   RawArray<uint32_t> numbers, edges, offsets;
   RawArray<uint64_t> cells;
-  /// For each vertex of a body: the brick of the sample at which the vertex's edge starts (x fastest), and the vertex's
-  /// position in units.
+  /// For each vertex of a body: the brick (a block of 8^3 samples) of the sample at which the vertex's edge starts (x
+  /// fastest), and the vertex's position in units.
   RawArray<uint32_t> brick;
   RawArray<int32_t> place_x, place_y, place_z;
-  /// For the vertices in the order of their evaluation: their indices, and their attributes.
+  /// For the vertices in the order in which they are evaluated, brick by brick: their indices, and their attributes.
   RawArray<uint32_t> order, label;
   RawArray<int32_t> x, y, z, q;
   RawArray<int16_t> normal_x, normal_y;
@@ -131,7 +135,8 @@ struct MeshScratch {
 /// concurrent calls must not share.
 struct MeshKernels {
   const char* name;
-  /// Writes the signs of a row of the grid, and the bits of uniform groups. Returns false if a value is not finite.
+  /// Writes the signs of a row of the grid, and the bits of its uniform groups (SignLattice::uniform). Returns false if
+  /// a value is not finite.
   bool (*signs)(const GridJob&, size_t y, size_t z, uint64_t* signs, uint64_t* uniform);
   /// Lists the crossed edges and active cells of rows first..last - 1 of plane z.
   using List = ListCounts(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
@@ -142,8 +147,8 @@ struct MeshKernels {
   uint32_t (*count)(const ChunkSamples&);
   /// Same as polygonizeBody of mesh/body.h, with or without keys; also fills scratch.brick and scratch.place_x, y, z.
   void (*polygonize)(const ChunkSamples&, const ChunkGrid&, bool keys, MeshScratch&, MeshPart&);
-  /// Sorts the vertices of the last polygonize() by brick: fills scratch.order, and x, y and z in units. start[b]:
-  /// index where brick b begins.
+  /// Sorts the vertices of the last polygonize() by brick: fills scratch.order, and scratch.x, y and z in units.
+  /// start[b]: index in scratch.order where brick b begins.
   void (*sort)(MeshScratch&, size_t count, std::array<uint32_t, kBrickCount + 1>& start);
   /// Copies the attributes from scratch to the vertices scratch.order[0..count).
   void (*attribute)(MeshScratch&, size_t count, MeshPart&);
