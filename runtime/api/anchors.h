@@ -1,5 +1,5 @@
 #pragma once
-// Converts anchors to the C interface.
+// Converts anchors (oriented points that a grammar places) to the structs of the C interface.
 
 #include "derive/shape.h"
 #include "sgm/sgm.h"

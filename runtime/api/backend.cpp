@@ -29,8 +29,8 @@ Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest re
   return std::shared_ptr<Backend>(std::move(*made));
 }
 
-/// Returns CUDA if it can store meshes in the memory of the external device; otherwise that device if it is hardware;
-/// otherwise the CPU.
+/// Creates the automatic backend for a runtime with an external Vulkan device that shares memory with CUDA: CUDA if it
+/// can store meshes in that device's memory; otherwise that device if it is hardware; otherwise the CPU.
 Result<std::shared_ptr<Backend>> createWithInterop(sgm_runtime& runtime) {
   Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
   if (cuda) return cuda;
@@ -62,7 +62,7 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const bool device = request.automatic || request.kind != BackendKind::cpu;
   const std::scoped_lock lock(shared.mutex);
   const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
-  // A GPU should have only one CUDA context, so AUTO uses the backend that was requested by name, if there is one.
+  // A GPU should have only one CUDA context, so AUTO reuses the CUDA backend if it already exists.
   if (request.automatic && !shared.automatic && shared.cuda) shared.automatic = shared.cuda;
   std::shared_ptr<Backend>& kept = request.automatic                   ? shared.automatic
                                    : request.kind == BackendKind::cuda ? shared.cuda
@@ -74,7 +74,8 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   const std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
   if (device && !on_cpu) kept = backend;
-  // A later request by name gets the same backend, for the same reason.
+  // A GPU should have only one CUDA context, so a later request for CUDA by name reuses the backend that AUTO has
+  // created.
   if (request.automatic && backend->capabilities().kind == BackendKind::cuda && !shared.cuda) shared.cuda = backend;
   shared.none = shared.none || (request.automatic && on_cpu);
   return backend;
@@ -82,8 +83,8 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 
 namespace {
 
-/// Releases a backend that was only queried, so that an external one can replace it. Error: busy if a field uses the
-/// backend, or if it is external itself.
+/// Releases a backend that was only queried, so that an external device can replace it. Error: busy if a field uses the
+/// backend, or if it is itself on an external device.
 Result<void> yieldTo(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool external) {
   const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
     return kept && kept->capabilities().kind == kind;
@@ -132,13 +133,14 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
   BackendRequest request = requestFor(BackendKind::cuda);
   request.external_context = std::move(context);
   Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
-  // The code device_lost is reserved for a device that the runtime has used; here it only means that it cannot be used.
+  // device_lost is converted to unsupported: to callers, device_lost means that a device failed after the runtime used
+  // it.
   if (!made)
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.external_context = true;
-  // The automatic choice stays if it is an external hardware device, or CUDA with meshes in the external device's
-  // memory.
+  // CUDA becomes the automatic choice, unless that is already an external hardware Vulkan device that does not share
+  // memory with CUDA.
   if (shared.drawing || !shared.external || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }

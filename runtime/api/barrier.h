@@ -1,6 +1,5 @@
 #pragma once
-// The barrier between C callers and C++: checks of arguments that return codes, and a guard that catches all
-// exceptions.
+// Helpers for C functions that are implemented in C++: checks of arguments, and a guard that catches all exceptions.
 
 #include <exception>
 #include <new>
@@ -13,19 +12,19 @@
 
 namespace sgm::api {
 
-/// Writes code, place and message into the caller's error (which may be null), truncated at a whole UTF-8 character.
-/// Returns code.
+/// Writes code, position and message into `error` (which may be null); a long message is cut at a whole UTF-8
+/// character. Returns code.
 sgm_result fail(sgm_error* error, sgm_result code, std::string_view message, int line = 0, int column = 0) noexcept;
 
-/// Converts an internal code to the C code.
+/// Converts an internal error code to the code of the C interface.
 sgm_result resultOf(Code code) noexcept;
 
 inline sgm_result fail(sgm_error* error, const Error& e) noexcept {
   return fail(error, resultOf(e.code), e.message, e.line, e.column);
 }
 
-/// Returns SGM_OK, or the reason why a descriptor cannot be read: it is null, has the size of another version, or an
-/// unknown extension. name: of the descriptor, for the message.
+/// Checks a descriptor struct of the caller. Returns SGM_OK, or an error if it is null, has the size of another
+/// version, or has an extension in `next`. name: the parameter's name, for the message.
 template <class Desc>
 sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
   if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
@@ -43,7 +42,8 @@ inline sgm_result nullArgument(sgm_error* error, const char* name) {
   return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
 }
 
-/// If a stride is 0, sets it to the element's size. Returns SGM_OK, or the reason why the stride is invalid.
+/// Checks the stride of an array. A stride of 0 becomes the element's size. Returns SGM_OK, or an error if the stride
+/// is invalid.
 template <class Element>
 sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
   if (stride == 0) stride = sizeof(Element);
@@ -53,7 +53,7 @@ sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
                   std::to_string(alignof(Element)));
 }
 
-/// Runs the body of a C function and converts exceptions to a result, because no exception may reach C.
+/// Runs the body of a C function, and converts C++ exceptions to result codes, because no exception may reach C code.
 template <class Body>
 sgm_result guarded(sgm_error* error, Body&& body) noexcept {
   try {

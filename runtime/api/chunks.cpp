@@ -47,7 +47,7 @@ sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request
   return grid ? SGM_OK : fail(error, grid.error());
 }
 
-/// Owns the finished meshes, and destroys them unless they were passed to the caller.
+/// Owns the finished meshes until they are passed to the caller; destroys them if an error occurs first.
 class MadeMeshes {
  public:
   MadeMeshes(size_t count, std::pmr::memory_resource* memory) : meshes_(count, nullptr, memory) {}
@@ -106,7 +106,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     MadeMeshes made(desc->count, memory);
     std::pmr::vector<std::optional<sgm::Error>> errors(desc->count, memory);
     const auto finish = [&](size_t i) {
-      // Each chunk is released after it was copied, because a batch may be large.
+      // Moved out of the array, so that its memory is released after copying: a batch may contain many chunks.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
       const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
@@ -122,7 +122,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // With many requests, a job takes several in a row: most chunks are empty, and take less time than scheduling a
+    // If there are many requests, a job processes several: most chunks are empty, and take less time than scheduling a
     // job.
     const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
     sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of the collider of one chunk; reference-counted.
+// The reference-counted handle of one chunk's collision mesh.
 
 #include <memory>
 

@@ -31,7 +31,7 @@ sgm_result sgm_runtime_lend_cuda(sgm_runtime* runtime, const sgm_cuda_device_des
     if (runtime == nullptr) return nullArgument(error, "runtime");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (desc->context == nullptr) return nullArgument(error, "desc.context");
-    constexpr uintptr_t kPerThread = 2;  // CU_STREAM_PER_THREAD, a special stream handle
+    constexpr uintptr_t kPerThread = 2;  // value of the special stream handle CU_STREAM_PER_THREAD
     if (reinterpret_cast<uintptr_t>(desc->stream) == kPerThread) {
       return fail(error, SGM_ERR_INVALID_ARGUMENT,
                   "desc.stream is CU_STREAM_PER_THREAD, which is another stream on every thread: pass a stream of "

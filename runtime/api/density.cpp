@@ -8,10 +8,10 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMaxPoints = 16384;         // maximum number of points on an axis
-constexpr uint64_t kMaxInVolume = 1ull << 33;  // maximum number of points in a volume
+constexpr uint32_t kMaxPoints = 16384;         // maximum number of points along an axis
+constexpr uint64_t kMaxInVolume = 1ull << 33;  // maximum total number of points
 
-/// Converts a pitch from bytes to values; 0 becomes the minimum pitch.
+/// Converts a row or slice pitch from bytes to a number of values, and checks it; 0 becomes the minimum pitch.
 sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least, const char* name, size_t& pitch) {
   if (bytes == 0) {
     pitch = least;
@@ -98,7 +98,8 @@ sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* de
     if (world == nullptr) return nullArgument(error, "world");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkLevel(world->finest_cell, desc->level, error); r != SGM_OK) return r;
-    // This field is used until the end, even if another one is set meanwhile.
+    // The reference keeps this field alive and in use to the end, even if sgm_world_set_field replaces it in the
+    // meantime.
     const std::shared_ptr<const sgm::WorldField> field = world->world->field();
     return sampleVolume(error, world->world->queryField(desc->level), *field, world->runtime, *desc);
   });

@@ -47,7 +47,7 @@ sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_edit_id*
 
 sgm_result sgm_world_undo(sgm_world* world, const sgm_edit_id* id, sgm_edit_id* undone, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {
-    // copied first, because the caller may pass the same object for both
+    // The id is copied before `undone` is written, because the caller may pass the same object for both.
     const sgm_edit_id of = id != nullptr ? *id : sgm_edit_id{};
     writeId(undone, {});
     if (world == nullptr) return nullArgument(error, "world");

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-// AddressSanitizer is told that the memory of destroyed handles must not be used: otherwise it would not detect such
-// uses until the memory is freed.
+// The memory of destroyed handles is poisoned for AddressSanitizer, because it is not freed immediately, so that
+// AddressSanitizer alone would not detect a use after destruction.
 #if defined(__SANITIZE_ADDRESS__)
 #define SGM_WATCHES_ADDRESSES 1
 #elif defined(__has_feature)

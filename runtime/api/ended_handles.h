@@ -1,6 +1,6 @@
 #pragma once
-// The head in front of every handle. Its memory stays allocated for a while after the handle is destroyed, so that
-// destroying the handle twice is detected.
+// The header that precedes every handle in memory. This memory stays allocated for a while after the handle is
+// destroyed, so that destroying the handle twice is detected.
 
 #include <atomic>
 #include <cstddef>
@@ -12,27 +12,27 @@ struct sgm_runtime;
 
 namespace sgm::api {
 
-/// The head lies directly before its handle, so that it can be found from any kind of handle. Aligned for all kinds.
+/// The header lies directly before its handle, so that it can be found from a handle of any type. Aligned for all
+/// types.
 struct alignas(std::max_align_t) HandleHead {
   sgm_runtime& runtime;
-  size_t size;                        ///< bytes of head and handle together
-  std::atomic<uint32_t> owners{1};    ///< number of owners; 0: the handle is destroyed
-  HandleHead* ended_after = nullptr;  ///< the next handle in the list of destroyed ones
+  size_t size;                        ///< size in bytes of header and handle together
+  std::atomic<uint32_t> owners{1};    ///< number of owners; 0 if the handle is destroyed
+  HandleHead* ended_after = nullptr;  ///< next element of the list of destroyed handles
 };
 
-/// The maximum size of head and handle together. The public header states it as the memory that a destroyed handle
-/// holds.
+/// Maximum size in bytes of header and handle together. sgm.h documents the resulting memory of destroyed handles.
 inline constexpr size_t kMaxHandleSize = 512;
 
-/// Adds an owner. Returns false, and changes nothing, if the handle is destroyed.
+/// Adds an owner. Returns false, without any change, if the handle is already destroyed.
 bool gainOwner(HandleHead& head) noexcept;
 
-/// Removes an owner. Returns the previous number of owners: if it is 1, the caller must destroy the handle; if it is 0,
-/// the handle was already destroyed, and nothing changes.
+/// Removes an owner. Returns the previous number of owners. If it was 1, the caller must destroy the handle; if it was
+/// 0, the handle was already destroyed, and nothing changes.
 uint32_t loseOwner(HandleHead& head) noexcept;
 
-/// The most recently destroyed handles of a runtime, without their content. They form an intrusive list, so that
-/// destroying a handle needs no memory and cannot fail. Thread-safe.
+/// The memory of a runtime's most recently destroyed handles; their contents are already freed. An intrusive list, so
+/// that destroying a handle needs no memory and cannot fail. Thread-safe.
 class EndedHandles {
  public:
   static constexpr size_t kMost = 1024;
@@ -42,9 +42,9 @@ class EndedHandles {
   EndedHandles& operator=(const EndedHandles&) = delete;
   ~EndedHandles();
 
-  /// Takes ownership of the memory of a destroyed handle. Frees the oldest one if there are too many.
+  /// Takes ownership of a destroyed handle's memory. If the list is full, frees the memory of the oldest handle.
   void add(HandleHead* head) noexcept;
-  /// Returns the bytes of the runtime's memory that the destroyed handles hold.
+  /// Returns the number of bytes that destroyed handles still occupy.
   uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:

@@ -12,7 +12,7 @@ sgm_result fail(sgm_error* error, sgm_result code, std::string_view message, int
   error->column = column;
   size_t length = std::min(message.size(), sizeof error->message - 1);
   if (length < message.size()) {
-    // Bytes 10xxxxxx continue a character, so the text must not be cut before one of them.
+    // The message must not be cut inside a character: in UTF-8, bytes of the form 10xxxxxx continue a character.
     while (length > 0 && (static_cast<unsigned char>(message[length]) & 0xC0u) == 0x80u) --length;
   }
   std::memcpy(error->message, message.data(), length);

@@ -26,8 +26,8 @@ const sgm::Diagnostic* firstError(const std::vector<sgm::Diagnostic>& diagnostic
   return nullptr;
 }
 
-/// Reports the first error as one line. If it is in an import, the message names that file, to which line and column
-/// refer.
+/// Reports the first compile error as one line. If it is in an imported file, the message names that file; line and
+/// column are positions in it.
 sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string_view root) {
   std::string message = d.message;
   if (d.file != root) message = "in " + d.file + ": " + message;
@@ -35,7 +35,7 @@ sgm_result failToCompile(sgm_error* error, const sgm::Diagnostic& d, std::string
   return fail(error, SGM_ERR_GRAMMAR, message, d.line, d.column);
 }
 
-/// Returns a name of the program as a C string, which is valid as long as the program.
+/// Returns a name of the compiled grammar as a C string, which is valid as long as the grammar.
 const char* nameAt(const std::pmr::vector<std::pmr::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }

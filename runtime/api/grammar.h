@@ -1,5 +1,5 @@
 #pragma once
-// The handles of the language: a compiled grammar, its diagnostics, and values for its parameters.
+// The handles for the SG+M language: a compiled grammar, its diagnostics, and values for its parameters.
 
 #include <memory>
 #include <vector>
@@ -15,7 +15,8 @@ struct sgm_grammar {
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;
-  /// shared by all fields of the grammar, because a parameter may change many times a second
+  /// the log of derivation warnings, shared by all fields of the grammar: a new field may be created many times a
+  /// second, and must not repeat the warnings
   std::shared_ptr<sgm::api::NoteLog> notes;
 };
 

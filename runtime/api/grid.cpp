@@ -9,8 +9,8 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint32_t kMaxAxisSamples = 16384;   // maximum number of samples on an axis
-constexpr uint64_t kMaxSamples = 1ull << 33;  // maximum number of samples in a grid
+constexpr uint32_t kMaxAxisSamples = 16384;   // maximum number of samples along an axis
+constexpr uint64_t kMaxSamples = 1ull << 33;  // maximum total number of samples
 constexpr double kSmallestCell = 1e-30, kLargestCell = 1e30;
 
 sgm_result checkGrid(const sgm_grid_desc& desc, GridSamples& grid, sgm_error* error) {

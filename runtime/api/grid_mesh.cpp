@@ -14,46 +14,47 @@
 namespace sgm::api {
 namespace {
 
-/// The maximum number of vertices and of indices.
+/// Maximum number of vertices, and of indices: indices have 32 bits.
 constexpr uint64_t kMaxNumbers = std::numeric_limits<uint32_t>::max();
 
-/// The crossed edges and the active cells of a slab of planes.
+/// Lists of the grid edges that the surface crosses, and of the cells that it crosses, in one slab of the grid.
 struct Lists {
   explicit Lists(std::pmr::memory_resource* memory) : edges(memory), cells(memory) {}
   RawArray<uint32_t> edges;
   RawArray<uint64_t> cells;
 };
 
-/// The memory of one thread. It is reused for successive slabs, because using memory that is fresh, or that another
-/// processor has written, takes longer than the work itself.
+/// The buffers of one thread, reused for successive slabs: using new memory, or memory that another processor has
+/// written, takes longer than the work itself.
 struct Worker {
   explicit Worker(std::pmr::memory_resource* memory)
       : signs(memory), uniform(memory), numbers(memory), offsets(memory) {}
-  RawArray<uint64_t> signs, uniform;  ///< signs of the planes of a slab, and of the first plane of the slab above
+  RawArray<uint64_t> signs, uniform;  ///< signs of the samples in a slab's planes, and in the first plane of the slab
+                                      ///< above
   RawArray<uint32_t> numbers, offsets;
-  std::vector<std::unique_ptr<Lists>> free;  ///< unused lists; guarded by the mesher's lock
+  std::vector<std::unique_ptr<Lists>> free;  ///< unused lists, for reuse; guarded by the mesher's mutex
 };
 
-/// A slab of the grid: the planes first..last - 1, and the layers of cells above them.
+/// A slab of the grid: the planes of samples first..last - 1, and the layers of cells above these planes.
 struct Slab {
   size_t first, last;
   Worker* worker = nullptr;
   std::unique_ptr<Lists> lists{};
-  int readers;  ///< number of slabs that still read the lists: this one and the slab above, until they are meshed
+  int readers;  ///< number of slabs that still need the lists: this slab and the one above it, until they are meshed
   bool listed = false, meshed = false;
 };
 
-/// Returns the number of planes in a slab. Each slab shares a plane with the slab below, which makes thin slabs
-/// expensive; but with thick slabs, the samples are no longer in cache when vertices are placed.
+/// Returns the number of planes per slab. Neighbouring slabs both need the plane between them, which makes thin slabs
+/// expensive; with thick slabs, samples have left the CPU cache when vertices are placed.
 size_t thicknessOf(const std::array<size_t, 3>& size, size_t threads) {
   constexpr size_t kThinnest = 4, kSamples = size_t{1} << 19, kWorthSharing = 8;
   const size_t in_cache = std::max(kThinnest, kSamples / (size[0] * size[1]));
   return threads == 1 ? in_cache : std::min(in_cache, std::max(kWorthSharing, size[2] / (threads * 4) + 1));
 }
 
-/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. A slab is
-/// first LISTED: its crossed edges and cells are counted. When all slabs below are listed, too, it is SETTLED: the
-/// position of its part in the mesh is known, and it can be meshed. `settled_` is the number of settled slabs.
+/// Meshes a grid slab by slab, so that samples are still in the CPU cache when vertices are placed between them. First
+/// a slab is listed: its crossed edges and cells are counted. Once all slabs below it are listed too, it is settled:
+/// its offset in the mesh's arrays is known, and it can be meshed. `settled_` is the number of settled slabs.
 class GridMesher {
  public:
   GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory, const MeshKernels& kernels)
@@ -101,25 +102,25 @@ class GridMesher {
   std::pmr::memory_resource* memory_;
   const MeshKernels& kernels_;
   GridJob job_;
-  const size_t thick_;  ///< number of planes of every slab except the last
+  const size_t thick_;  ///< number of planes per slab; the last slab may have fewer
   std::vector<Slab> slabs_;
-  /// The signs of the first plane of each slab, which the slab below needs, too: the first thread that needs it reads
-  /// it for both.
+  /// The signs of each slab's first plane, which the slab below also needs. The first thread that needs a plane reads
+  /// it for both slabs.
   RawArray<uint64_t> shared_signs_, shared_uniform_;
   std::pmr::vector<std::atomic<uint8_t>> shared_;
-  /// By plane, and twice by the layer of cells above it: counts while a slab is listed; sums over all lower ones once
-  /// it is settled.
+  /// Offsets in the mesh. first_vertex_ is indexed by plane, the others by the layer of cells above the plane. While a
+  /// slab is listed, they contain counts; once it is settled, sums of the counts of all lower planes or layers.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
   std::atomic<bool> finite_{true}, stopped_{false};
-  std::atomic<size_t> next_{0}, settled_{0};  ///< next slab to be taken; number of settled slabs
-  std::mutex mutex_;                          ///< guards the following members, and settling
+  std::atomic<size_t> next_{0}, settled_{0};  ///< number of the next slab to be listed; number of settled slabs
+  std::mutex mutex_;                          ///< guards settling, and the members below
   GridBounds bounds_;
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
-/// Reserves memory for the mesh, by an estimate from sampled rows. The rows are scattered over y and z, so that
-/// surfaces parallel to the grid's axes are sampled as often as others.
+/// Reserves memory for the mesh, whose size is estimated from sampled rows. These rows are spread over y and z, so that
+/// surfaces parallel to an axis of the grid are sampled as often as others.
 void GridMesher::expect() {
   constexpr double kGolden = 0.6180339887498949;
   const size_t size_x = grid_.size[0], rows = std::min<size_t>(grid_.size[1], 3);
@@ -152,7 +153,7 @@ void GridMesher::expect() {
   provide(expected(sum.vertices), expected(sum.triangles), 0);
 }
 
-/// Resizes the arrays, and keeps the meshed parts of the slabs before `meshed`.
+/// Resizes the mesh's arrays. Keeps the parts of the first `meshed` slabs, which are already meshed.
 void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   uint64_t had_vertices = 0, had_triangles = 0;
   if (meshed > 0) {
@@ -167,7 +168,7 @@ void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
   job_.indices = mesh_.indices.data();
 }
 
-/// After an error, wakes threads that wait for slabs which will never be settled.
+/// Stops all threads after an error, and wakes those that wait for slabs which will never be settled.
 void GridMesher::stop() {
   const std::lock_guard lock(mutex_);
   stopped_.store(true);
@@ -175,7 +176,7 @@ void GridMesher::stop() {
   settled_.notify_all();
 }
 
-/// Reads the signs of a plane, row by row. A value that is not finite stops all threads.
+/// Computes the signs of a plane's samples, row by row. A value that is not finite stops all threads.
 void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   bool finite = true;
   for (size_t y = 0; y < grid_.size[1]; ++y)
@@ -185,7 +186,7 @@ void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   stop();
 }
 
-/// Same as readSigns, but a plane that two slabs need is read only once.
+/// Does the same as readSigns, but computes a plane that two slabs need only once.
 void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   if (z % thick_ != 0) return readSigns(z, signs, uniform);
   const size_t slab = z / thick_, words = job_.lattice.words * grid_.size[1], rows = 2 * grid_.size[1];
@@ -203,8 +204,8 @@ void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
 }
 
 void GridMesher::list(Slab& slab, Worker& worker) {
-  // Memory is allocated for some rows at a time: the number of crossings in a plane is unknown, and planes can be
-  // large.
+  // Memory is allocated for kRows rows at a time, because the number of crossings in a plane is unknown, and planes can
+  // be large.
   constexpr size_t kRows = 16;
   const size_t size_x = grid_.size[0], size_y = grid_.size[1], words = job_.lattice.words * size_y, rows = 2 * size_y;
   uint64_t vertices = 0, cells = 0;
@@ -248,7 +249,7 @@ void GridMesher::list(Slab& slab, Worker& worker) {
   }
 }
 
-/// Converts the counts of a listed slab, and of the slabs above that have waited for it, to sums.
+/// Settles a listed slab, and slabs above it that have waited for it: replaces their counts by sums, which are offsets.
 void GridMesher::settle(Slab& slab) {
   const std::lock_guard lock(mutex_);
   if (stopped_.load()) return;
@@ -264,12 +265,13 @@ void GridMesher::settle(Slab& slab) {
   settled_.notify_all();
 }
 
-/// Call this when one of the readers of a slab's lists has finished. Precondition: the lock is held.
+/// Called when one of the readers of a slab's lists has finished; the last one returns the lists for reuse.
+/// Precondition: the caller holds mutex_.
 void GridMesher::release(Slab& slab) {
   if (--slab.readers == 0) slab.worker->free.push_back(std::move(slab.lists));
 }
 
-/// Waits until all slabs below are settled and memory is reserved; then meshes the slab.
+/// Waits until all slabs below are settled and memory for the mesh is reserved, then meshes the slab.
 void GridMesher::meshInTurn(size_t number, Worker& worker) {
   for (size_t settled; (settled = settled_.load()) <= number;) settled_.wait(settled);
   const Slab& slab = slabs_[number];
@@ -321,8 +323,8 @@ void GridMesher::shareOut() {
   shared_uniform_.allocate(2 * grid_.size[1] * slabs_.size());
 }
 
-/// The work of a thread. Slabs are taken in ascending order: so when a slab is listed, all slabs below have been taken
-/// by some thread, and listing never waits for slabs above.
+/// The loop of one thread. Threads take slabs in ascending order. So when a slab is listed, every slab below was
+/// already taken by some thread, and waiting for it cannot deadlock.
 void GridMesher::work(Worker& worker) {
   try {
     for (size_t number; !stopped_.load() && (number = next_.fetch_add(1)) < slabs_.size();) {
@@ -338,7 +340,8 @@ void GridMesher::work(Worker& worker) {
 
 Result<GridMesh> GridMesher::run() {
   shareOut();
-  // With few slabs, most are listed before one is meshed, so that the size of the mesh is known without an estimate.
+  // If there are no more slabs than threads, most slabs are listed before the first is meshed, so no estimate is
+  // needed.
   if (slabs_.size() > workers_.size()) expect();
   parallelFor(jobs_, workers_.size(), [&](size_t i) { work(*workers_[i]); });
   if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
@@ -359,7 +362,7 @@ Result<GridMesh> GridMesher::run() {
   mesh_.normals.cut(vertices * 3);
   mesh_.indices.cut(triangles * 3);
   for (size_t axis = 0; axis < 3 && vertices > 0; ++axis) {
-    // Computed like the positions of vertices; rounding preserves the order of values.
+    // Computed in the same way as positions of vertices. Rounding preserves the order, so the bounds are exact.
     mesh_.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
     mesh_.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
   }
@@ -370,7 +373,8 @@ Result<GridMesh> GridMesher::run() {
 
 Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory,
                           const MeshKernels& kernels) {
-  // Offsets within a plane and its neighbours must fit 32 bits, which only very large strides exceed.
+  // Offsets within a plane and its neighbours must fit in 32 bits. If the strides are too large, the samples are copied
+  // to a dense grid.
   constexpr size_t kFarthest = std::numeric_limits<int32_t>::max();
   if (grid.stride_y <= kFarthest / grid.size[1] && grid.stride_z <= kFarthest / 4)
     return GridMesher(grid, jobs, memory, kernels).run();

@@ -28,7 +28,8 @@ sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& pr
   return SGM_OK;
 }
 
-/// Converts the result of a callback to an internal code. No code makes the library call the callback again.
+/// Converts the result of the caller's sample function to an internal code. Whatever the code, the library does not
+/// retry the call.
 Code codeOf(sgm_result result) {
   switch (result) {
     case SGM_ERR_INVALID_ARGUMENT:

@@ -1,5 +1,5 @@
 #pragma once
-// Converts the host fields of the C interface to internal ones.
+// Converts the host fields (fields that the engine samples) of the C interface to internal objects.
 
 #include <vector>
 
@@ -9,7 +9,8 @@
 
 namespace sgm::api {
 
-/// Converts the descriptor's host fields. Returns SGM_OK, or the problem of one of them. Throws std::bad_alloc.
+/// Checks and converts the host fields of a descriptor. Returns SGM_OK, or the error of the first invalid host field.
+/// Throws std::bad_alloc.
 sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program& program,
                      std::vector<HostField>& hosts);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sources of imported texts: the caller's callback, or else a folder on disk. No import can read files outside of the
+// Sources of imported grammar files: the caller's callback, and a folder on disk. Imports cannot read files outside the
 // folder.
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace sgm::api {
 
-/// Reads imports from regular files in one folder. Rejects links that lead out of it.
+/// Reads imports from regular files in one folder. Rejects symbolic links that lead out of it.
 class FolderImports final : public ImportResolver {
  public:
   explicit FolderImports(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -23,7 +23,8 @@ class FolderImports final : public ImportResolver {
   std::filesystem::path folder_;
 };
 
-/// The imports of the C interface: asks the callback first (may be null), then the folder (may be null).
+/// Resolves the imports of a grammar that is compiled through the C interface: asks the callback first, then the
+/// folder. Either may be null.
 class CallerImports final : public ImportResolver {
  public:
   CallerImports(sgm_import_function function, void* user, const char* folder);
@@ -35,7 +36,8 @@ class CallerImports final : public ImportResolver {
   std::optional<FolderImports> folder_;
 };
 
-/// Returns a line of the file with this name, without its line end; "" if it does not exist. line: from 1.
+/// Returns a line of a source file without its line end; "" if the file or the line does not exist. file: the file's
+/// name; line: counted from 1.
 std::string sourceLine(const std::vector<SourceFile>& files, std::string_view file, int line);
 
 }  // namespace sgm::api

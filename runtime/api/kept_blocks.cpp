@@ -26,8 +26,8 @@ void systemRelease(void*, void* memory, size_t, size_t alignment) {
 
 sgm_allocator systemAllocator() { return {systemAllocate, systemRelease, nullptr}; }
 
-/// Returns the size class. Classes are eighths of powers of two, so that a block is reused for nearly equal sizes; the
-/// pages that a smaller block does not touch cost nothing.
+/// Returns the size class of a block. A class spans an eighth of a power of two, so that a block can be reused for
+/// nearly equal sizes. A smaller block does not touch the pages at the end, so they cost no physical memory.
 size_t KeptBlocks::numberOf(size_t size) {
   const auto octave = static_cast<size_t>(std::bit_width(size - 1)) - 1;  // 2^octave < size <= 2^(octave + 1)
   const size_t step = (size_t{1} << octave) / kSteps;
@@ -45,7 +45,7 @@ bool KeptBlocks::keeps(size_t size, size_t alignment) {
 
 void* KeptBlocks::fromSystem(size_t size, size_t alignment) {
   if (void* memory = system_.allocate(system_.user, size, alignment)) return memory;
-  // The stored blocks must not cause a failure, so they are freed before the second attempt.
+  // Memory of unused blocks must not cause a failure, so they are freed before a second attempt.
   dropAll();
   return system_.allocate(system_.user, size, alignment);
 }

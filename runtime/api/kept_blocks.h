@@ -1,5 +1,5 @@
 #pragma once
-// Memory from the system, with a pool of large blocks: the default of a runtime whose caller supplies no allocator.
+// The default allocator of a runtime: takes memory from the system, and keeps released large blocks in a pool.
 
 #include <array>
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace sgm::api {
 
-/// Returns an allocator that uses malloc and free.
+/// Returns an allocator that uses the C++ heap (aligned operator new and delete).
 sgm_allocator systemAllocator();
 
-/// Reuses large blocks. malloc returns large blocks to the system and gets new ones from it, page by page. For a mesh
-/// of a million triangles, that takes half as long as meshing, and threads wait for each other there. So released
-/// blocks are stored here for the next request of their size; all of them are freed if the system runs out of memory.
-/// Thread-safe.
+/// A pool that reuses large blocks. malloc returns a large block to the system and later gets a new one, page by page.
+/// For a mesh of a million triangles this takes half as long as meshing, and threads wait for each other in the system.
+/// The pool instead keeps released blocks for the next request of their size; all of them are freed if the system runs
+/// out of memory. Thread-safe.
 class KeptBlocks {
  public:
-  /// Allocates from `system`, whose user pointer must outlive this object.
+  /// system: the allocator for new blocks; its `user` pointer must outlive this object.
   explicit KeptBlocks(const sgm_allocator& system = systemAllocator()) : system_(system) {}
   KeptBlocks(const KeptBlocks&) = delete;
   KeptBlocks& operator=(const KeptBlocks&) = delete;
@@ -28,29 +28,29 @@ class KeptBlocks {
 
   static constexpr size_t kSmallest = size_t{1} << 14;  ///< minimum size of a block that is stored for reuse, in bytes
   static constexpr size_t kLargest = size_t{1} << 26;
-  /// Limit for all stored blocks in bytes. Beyond it, blocks of the size that was unused for longest are freed first.
+  /// Maximum total size of kept blocks in bytes. Above it, blocks of the least recently used size class are freed.
   static constexpr size_t kMost = size_t{1} << 27;
 
-  /// Same as the functions of sgm_allocator.
+  /// The functions of sgm_allocator (sgm.h), without `user`.
   void* allocate(size_t size, size_t alignment);
   void release(void* memory, size_t size, size_t alignment);
 
-  /// Returns the total size of the blocks that are stored now.
+  /// Returns the total size in bytes of the blocks that are kept for reuse.
   size_t bytes();
 
-  /// Returns these functions as a table, which must not be used after this object is destroyed.
+  /// Returns a function table for this object. The table must not be used after this object is destroyed.
   sgm_allocator allocator();
 
  private:
-  static constexpr size_t kSteps = 8;  ///< number of size classes from one power of two to the next
+  static constexpr size_t kSteps = 8;  ///< number of size classes per power of two
   static constexpr size_t kSizes = 12 * kSteps + 1;
   static_assert(kSmallest << (kSizes / kSteps) == kLargest);
 
-  /// The stored blocks of one size class, the most recent last. The most recent one is used first: it is most likely in
-  /// cache.
+  /// The kept blocks of one size class. The block that was released last is at the end and is reused first, because it
+  /// is most likely still in the CPU cache.
   struct Shelf {
     std::vector<void*> blocks;
-    uint64_t used = 0;  ///< value of clock_ at the last use
+    uint64_t used = 0;  ///< value of clock_ when this size class was last used
   };
 
   static size_t numberOf(size_t size);
@@ -67,7 +67,7 @@ class KeptBlocks {
   std::mutex mutex_;
   std::array<Shelf, kSizes> shelves_;
   uint64_t clock_ = 0;
-  size_t bytes_ = 0;  ///< total size of all stored blocks
+  size_t bytes_ = 0;  ///< total size of all kept blocks in bytes
 };
 
 }  // namespace sgm::api

@@ -58,7 +58,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
       view->bounds_min[axis] = surface.bounds.lo[axis];
       view->bounds_max[axis] = surface.bounds.hi[axis];
     }
-    // Both types have the same layout, as asserted above.
+    // sgm_vertex and the internal vertex have the same layout, as the static assertions check.
     view->vertices = reinterpret_cast<const sgm_vertex*>(surface.mesh.vertices.data());
     view->indices = surface.mesh.indices.data();
     view->vertex_count = static_cast<uint32_t>(surface.mesh.vertices.size());

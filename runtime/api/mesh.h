@@ -1,5 +1,5 @@
 #pragma once
-// The handle of the mesh of one chunk: body and seams in one vertex array and one index array; reference-counted.
+// The reference-counted handle of one chunk's mesh, with body and seams in one vertex array and one index array.
 
 #include <memory>
 

@@ -7,8 +7,8 @@ namespace {
 
 constexpr size_t kMaxReported = 64;
 
-/// Returns the message without its numbers: for example, the amount by which a shape is too large differs from cell to
-/// cell.
+/// Removes the digits of a message, so that messages which differ only in numbers count as one kind; for example, the
+/// amount by which a shape is too large differs from cell to cell.
 std::string kindOf(std::string message) {
   message.erase(std::remove_if(message.begin(), message.end(), [](char c) { return c >= '0' && c <= '9'; }),
                 message.end());
@@ -26,7 +26,7 @@ bool NoteLog::isNew(const DeriveNote& note, bool& last) {
 void NoteLog::tell(const GrammarChunk& cell) {
   for (const DeriveNote& note : cell.notes) {
     bool last = false;
-    // A note without a place only states how many notes of the cell were dropped.
+    // A note without a line only tells how many further notes of the cell were discarded.
     if (note.line == 0 || !isNew(note, last)) continue;
     if (last) {
       runtime_.log(SGM_LOG_WARNING, "notes at further places in the grammar are not logged");

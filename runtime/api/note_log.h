@@ -1,5 +1,5 @@
 #pragma once
-// Logs what derivation has left out, to the runtime's log function.
+// Logs warnings about shapes that derivation of a grammar has left out, through the runtime's log function.
 
 #include <mutex>
 #include <set>
@@ -11,8 +11,8 @@
 
 namespace sgm::api {
 
-/// Logs each kind of note at each place of the grammar once, as a warning, up to a maximum number: an endless world
-/// would repeat the same notes for every cell. Thread-safe.
+/// Logs each kind of warning only once per position in the grammar, up to a maximum number, because an endless world
+/// would repeat the same warnings in every cell. Thread-safe.
 class NoteLog {
  public:
   explicit NoteLog(const sgm_runtime& runtime) : runtime_(runtime) {}
@@ -20,7 +20,8 @@ class NoteLog {
   void tell(const GrammarChunk& cell);
 
  private:
-  /// Returns true if the note must be logged. Sets `last` to true at the first note beyond the maximum.
+  /// Returns true if the note must be logged. Sets `last` to true if the maximum number is reached, so that only this
+  /// fact is logged.
   bool isNew(const DeriveNote& note, bool& last);
 
   const sgm_runtime& runtime_;

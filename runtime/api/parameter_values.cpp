@@ -15,7 +15,7 @@ Result<uint32_t> findParameter(const Program& program, std::string_view name) {
   for (const Param& param : program.params) nearest.offer(program.text(param.name));
   std::string message = join({"the grammar has no parameter '", name, "'"});
   if (const std::string hint = nearest.hint(); !hint.empty()) message += "; " + hint;
-  // The maximum number of names listed in a message; a grammar may have hundreds.
+  // The maximum number of parameter names that a message lists, because a grammar may have hundreds.
   constexpr size_t kMaxNames = 12;
   const size_t count = program.params.size();
   message += count == 0 ? "; it has none" : "; it has ";

@@ -10,7 +10,8 @@ namespace {
 
 std::array<double, 3> vectorOf(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-/// Writes the point, or that none was found, or the error. Keeps out's struct_size and next.
+/// Writes the result of a query to `out`: the point found, or that there is none. Returns the query's error if it
+/// failed. Keeps struct_size and next of `out`.
 sgm_result writePoint(const sgm::Result<std::optional<sgm::SurfacePoint>>& asked, sgm_surface_point& out,
                       sgm_error* error) {
   if (!asked) return fail(error, asked.error());
@@ -29,7 +30,7 @@ sgm_result writePoint(const sgm::Result<std::optional<sgm::SurfacePoint>>& asked
   return SGM_OK;
 }
 
-/// Returns SGM_OK if desc and out are valid.
+/// Checks the structs desc and out of a query; returns SGM_OK if both are valid.
 template <class Desc, class Out>
 sgm_result checkQuestion(sgm_error* error, const Desc* desc, const Out* out) {
   if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
@@ -72,7 +73,8 @@ sgm_result findWalkable(const sgm::QueryField& field, const sgm_walk_desc* desc,
   return SGM_OK;
 }
 
-/// The code that all queries have in common, for fields and worlds.
+/// Common code of all queries. name: name of the parameter `owner` in the C function, for error messages; field: a
+/// function that returns the field to query.
 template <class Owner, class Field, class Question, class Desc, class Out>
 sgm_result ask(Owner* owner, const char* name, const Field& field, const Question& question, const Desc* desc, Out* out,
                sgm_error* error) {

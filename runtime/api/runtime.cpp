@@ -35,7 +35,7 @@ sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
 }  // namespace
 
 void* CallerMemory::do_allocate(size_t size, size_t alignment) {
-  // Containers may request zero bytes, which the caller's allocator need not support.
+  // std containers may request zero bytes, which the caller's allocator need not support.
   const size_t bytes = size == 0 ? 1 : size;
   const uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   void* memory = limit_ != 0 && live > limit_ ? nullptr : allocator_.allocate(allocator_.user, bytes, alignment);
@@ -79,7 +79,7 @@ void CallerJobs::submit(void (*function)(void*), void* argument, int priority) {
     ++waiting_;
   }
   if (jobs_.submit(jobs_.user, runAccepted, job.get(), priority) != 0) {
-    static_cast<void>(job.release());  // runAccepted owns the job, and may have deleted it already
+    static_cast<void>(job.release());  // runAccepted now owns the job, and may already have deleted it
   } else {
     runAccepted(job.release());
   }
@@ -93,7 +93,7 @@ CallerJobs::~CallerJobs() {
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
 
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept {
-  ShortText<128> message;  // on the stack, because memory may have run out
+  ShortText<128> message;  // stack buffer, because memory may be exhausted
   message.add(function).add(": this handle was already destroyed; nothing was done");
   head.runtime.log(SGM_LOG_ERROR, message.c_str());
   return SGM_ERR_INVALID_ARGUMENT;
@@ -146,7 +146,7 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
 sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
   if (runtime == nullptr) return SGM_OK;
   if (const uint64_t alive = runtime->children.load(std::memory_order_acquire); alive != 0) {
-    sgm::ShortText<128> message;  // on the stack, because memory may have run out
+    sgm::ShortText<128> message;  // stack buffer, because memory may be exhausted
     message.add("sgm_runtime_destroy: handles of this runtime that were not destroyed: ").add(alive);
     runtime->log(SGM_LOG_ERROR, message.c_str());
     return SGM_ERR_BUSY;
@@ -160,7 +160,7 @@ sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
 sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak) {
   if (runtime == nullptr) return SGM_ERR_INVALID_ARGUMENT;
   if (live != nullptr) {
-    // The two counters may change between the two reads, so the difference is clamped to 0.
+    // Both counters may change between the two reads, so a negative difference is clamped to 0.
     const uint64_t ended = runtime->ended.bytes(), held = runtime->memory.live();
     *live = held > ended ? held - ended : 0;
   }

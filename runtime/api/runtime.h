@@ -1,6 +1,6 @@
 #pragma once
-// The runtime handle: adapts the caller's memory, threads, log and profiler to internal interfaces, and counts the
-// handles that exist.
+// The runtime handle: adapts the caller's allocator, job system, log and profiler to internal interfaces, and counts
+// the handles that exist.
 
 #include <atomic>
 #include <condition_variable>
@@ -26,7 +26,8 @@ struct BorrowedDevice;
 
 namespace sgm::api {
 
-/// Makes the caller's allocator a memory resource that counts bytes, enforces the limit, and throws std::bad_alloc.
+/// A memory resource on top of the caller's allocator. Counts bytes, enforces memory_limit, and throws std::bad_alloc
+/// on failure.
 class CallerMemory final : public std::pmr::memory_resource {
  public:
   CallerMemory(const sgm_allocator& allocator, uint64_t limit) : allocator_(allocator), limit_(limit) {}
@@ -43,8 +44,8 @@ class CallerMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> live_{0}, peak_{0};
 };
 
-/// Adapts the caller's job system. The destructor waits until every accepted job has run: even a job that has nothing
-/// left to do may hold memory of the runtime.
+/// Adapts the caller's job system. The destructor waits until every accepted job has run, because even a job without
+/// remaining work may own memory of the runtime.
 class CallerJobs final : public JobSystem {
  public:
   explicit CallerJobs(const sgm_job_system& jobs) : jobs_(jobs) {}
@@ -66,7 +67,7 @@ class CallerJobs final : public JobSystem {
   sgm_job_system jobs_;
   std::mutex mutex_;
   std::condition_variable ended_;
-  uint64_t waiting_ = 0;  ///< number of jobs that were accepted but have not finished
+  uint64_t waiting_ = 0;  ///< number of jobs that were accepted and have not finished
 };
 
 /// Converts a UTF-8 path from the caller; empty for null.
@@ -74,14 +75,15 @@ inline std::filesystem::path pathOf(const char* utf8) {
   return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
 }
 
-/// The device backends of a runtime, shared by all its fields: opening one takes long, and it needs much memory.
+/// The device backends of a runtime, shared by all of its fields, because opening a device takes long and needs much
+/// memory.
 struct DeviceBackends {
   std::mutex mutex;
-  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until first requested
-  /// true if `vulkan` uses an external device; true if `cuda` uses an external context
+  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< backends that exist; null until first requested
+  /// true if `vulkan` uses an external device, or `cuda` an external context
   bool external = false, external_context = false;
-  bool none = false;  ///< true if the automatic choice has found no device
-  /// The external device in whose memory CUDA stores meshes; null if there is none.
+  bool none = false;  ///< true if a previous automatic choice has found no usable device
+  /// external Vulkan device in whose memory CUDA stores meshes; null if there is none
   std::shared_ptr<const vulkan::BorrowedDevice> drawing;
 };
 
@@ -96,15 +98,15 @@ struct sgm_runtime {
   }
   void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
-  sgm_allocator allocator;    ///< also frees the runtime itself, which contains `memory`
-  sgm::api::KeptBlocks kept;  ///< used if the caller supplied no allocator
+  sgm_allocator allocator;    ///< also used to free the runtime itself, after its member `memory` is destroyed
+  sgm::api::KeptBlocks kept;  ///< allocator for a runtime whose caller supplied none
   sgm::api::CallerMemory memory;
   sgm::api::EndedHandles ended{&memory};
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
-  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< shared by all worlds of the runtime
-  std::filesystem::path pipeline_folder;       ///< empty: pipelines are not cached
+  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< schedules the planning jobs of all worlds of the runtime
+  std::filesystem::path pipeline_folder;       ///< folder of the Vulkan pipeline cache; empty: no cache
   sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
 };
@@ -113,8 +115,8 @@ namespace sgm::api {
 
 inline HandleHead& headOf(void* handle) { return static_cast<HandleHead*>(handle)[-1]; }
 
-/// Creates a handle behind its head, in the runtime's memory. It is counted as a child of the runtime, and has one
-/// owner. Throws std::bad_alloc and what the constructor throws.
+/// Creates a handle, with a header before it, in the runtime's memory. Counts it as a child of the runtime. The handle
+/// has one owner. Throws std::bad_alloc, and exceptions of the constructor.
 template <class Handle, class... Arguments>
 Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   constexpr size_t kSize = sizeof(HandleHead) + sizeof(Handle);
@@ -133,18 +135,19 @@ Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
   return handle;
 }
 
-/// Returns INVALID_ARGUMENT, and logs that `function` was called with a handle that was already destroyed.
+/// Logs that `function` was called with a handle that was already destroyed. Returns SGM_ERR_INVALID_ARGUMENT.
 sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept;
 
-/// Adds an owner to a handle; ignores null. If the handle is destroyed, returns INVALID_ARGUMENT and changes nothing.
+/// Adds an owner to a handle; ignores null. Returns SGM_ERR_INVALID_ARGUMENT, without any change, if the handle is
+/// already destroyed.
 inline sgm_result acquireHandle(void* handle, const char* function) noexcept {
   if (handle == nullptr || gainOwner(headOf(handle))) return SGM_OK;
   return refuseEnded(headOf(handle), function);
 }
 
-/// Removes an owner of a handle, and destroys the handle with its last owner; ignores null. If the handle is already
-/// destroyed, returns INVALID_ARGUMENT and changes nothing. The content is freed at once, the memory of the handle
-/// itself later (EndedHandles).
+/// Removes an owner of a handle, and destroys the handle if it was the last one; ignores null. The content is freed
+/// immediately, the memory of the handle itself later (EndedHandles). Returns SGM_ERR_INVALID_ARGUMENT, without any
+/// change, if the handle is already destroyed.
 template <class Handle>
 sgm_result releaseHandle(Handle* handle, const char* function) noexcept {
   if (handle == nullptr) return SGM_OK;

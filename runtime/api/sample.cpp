@@ -14,10 +14,10 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr size_t kSlice = size_t{1} << 18;  // number of points that are sorted and evaluated together
-constexpr int kBlockCells = 32;             // cells: points within a block of this edge share a program
-constexpr int kBrickCells = 8;              // cells: points within a brick of this edge share a pruned program
-constexpr size_t kWorthPruning = 32;        // number of points from which pruning saves time
+constexpr size_t kSlice = size_t{1} << 18;  // number of points that are sorted and evaluated at a time
+constexpr int kBlockCells = 32;             // edge in cells of a block whose points share one compiled program
+constexpr int kBrickCells = 8;              // edge in cells of a brick whose points share one pruned program
+constexpr size_t kWorthPruning = 32;        // minimum number of points in a brick for which pruning saves time
 
 sgm_result checkSamples(const sgm_sample_desc& desc, sgm_error* error) {
   if (desc.count == 0) return SGM_OK;
@@ -44,13 +44,13 @@ struct Place {
   }
 };
 
-/// A group of points that share one program, and memory for their results.
+/// Evaluates groups of points with one program each; reuses buffers for the results.
 class Evaluation {
  public:
   Evaluation(const sgm_sample_desc& desc, std::pmr::memory_resource* memory)
       : desc_(desc), scratch_(memory), prune_scratch_(memory), pruned_(memory) {}
 
-  /// Evaluates the places. Precondition: they lie in one brick.
+  /// Evaluates the field at a group of points. Precondition: the points lie in one brick.
   void run(const sgm::FieldProgram& program, std::span<const Place> places) {
     sgm::ProgramView view = program.view();
     if (places.size() >= kWorthPruning) {
@@ -60,7 +60,8 @@ class Evaluation {
         box = box.joined({p, p});
       }
       sgm::prune(view, box, prune_scratch_, pruned_);
-      // A program that is proven uniform would be pruned to nothing, but its exact values are needed here.
+      // A program that is proven uniform is not replaced, because only its sign is known after pruning, and exact
+      // values are needed here.
       if (!pruned_.solid() && !pruned_.empty()) view = pruned_.view();
     }
     for (size_t first = 0; first < places.size(); first += sgm::kEvalBlock)
@@ -110,7 +111,7 @@ class Evaluation {
   uint32_t label_[sgm::kEvalBlock];
 };
 
-/// Divides `places` into runs of adjacent places with equal `part`.
+/// Divides `places` into runs of adjacent elements for which the function `part` returns the same value.
 template <class Part>
 std::vector<std::span<const Place>> runsOf(std::span<const Place> places, Part part) {
   std::vector<std::span<const Place>> runs;

@@ -11,8 +11,8 @@ using namespace sgm::api;
 
 namespace {
 
-/// Hashes words with their index, as for mesh parts. Every 2^32 words, the index starts again and a new number is mixed
-/// in, so that no key occurs twice.
+/// Hashes words together with their positions, in the same way as the hash of mesh parts. Positions have 32 bits; after
+/// every 2^32 words they restart at 0, and another constant is mixed in, so that no two words have the same key.
 class WordHash {
  public:
   void add(uint32_t word) {

@@ -1,6 +1,6 @@
 #include "sgm/sgm.h"
 
-// Makes text of macros that the build defines; the version itself is only in the header.
+// Converts the value of a macro to a string literal.
 #define SGM_TEXT_OF(x) #x
 #define SGM_TEXT(x) SGM_TEXT_OF(x)
 #define SGM_VERSION_TEXT SGM_TEXT(SGM_VERSION_MAJOR) "." SGM_TEXT(SGM_VERSION_MINOR) "." SGM_TEXT(SGM_VERSION_PATCH)

@@ -36,7 +36,7 @@ sgm_result takeQuestion(sgm_error* error, const sgm_way_desc& desc, sgm::VoidQue
   return SGM_OK;
 }
 
-/// Writes the result to `out`; keeps out's struct_size and next.
+/// Writes the result of a path search to `out`; keeps struct_size and next of `out`.
 void writeWay(const sgm::VoidAnswer& answer, sgm_way& out) {
   const sgm::VoidWay& way = *answer.way;
   const auto volume = [&](uint64_t samples) { return static_cast<double>(samples) * answer.sample; };

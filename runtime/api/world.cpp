@@ -195,7 +195,7 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
         return true;
       } catch (...) {
         if (*count == 0) throw;
-        return false;  // earlier events were delivered; the next call retries this event
+        return false;  // the events before this one were delivered; the next call retries this event
       }
     });
     return SGM_OK;

@@ -1,5 +1,5 @@
 #pragma once
-// The handle of a streamed world. It owns its backend; the world owns the fields that it needs.
+// The handle of a streamed world. The handle owns the backend; the internal world owns the fields that it needs.
 
 #include <memory>
 
@@ -14,20 +14,20 @@ struct sgm_world {
 
   sgm_runtime& runtime;
   std::shared_ptr<sgm::Backend> backend;
-  const int32_t finest_cell;          ///< cell edge of level 0 of all its fields, in units
-  std::unique_ptr<sgm::World> world;  ///< destroyed before its backend
+  const int32_t finest_cell;          ///< cell edge at level 0, in units; equal for all fields of the world
+  std::unique_ptr<sgm::World> world;  ///< declared last, because it must be destroyed before its backend
 };
 
 namespace sgm::api {
 
-/// Fills `error` and returns its code: SGM_ERR_DATA for Code::bad_input, because the invalid data is not a grammar
-/// here.
+/// Writes an error to `error` and returns its code. Code::bad_input becomes SGM_ERR_DATA, because world functions read
+/// data files, not a grammar.
 inline sgm_result failData(sgm_error* error, const Error& e) {
   return fail(error, e.code == Code::bad_input ? SGM_ERR_DATA : resultOf(e.code), e.message);
 }
 
-/// Fills `error`, logs it, and returns its code: games often ignore the results of the functions that they call every
-/// frame.
+/// Logs an error, writes it to `error` and returns its code. Logged because games often ignore the results of functions
+/// that they call every frame.
 inline sgm_result failLogged(const sgm_world& world, sgm_error* error, const Error& e) {
   world.runtime.log(SGM_LOG_WARNING, e.message);
   return failData(error, e);

@@ -1,4 +1,4 @@
-// Statistics of a world for monitoring; the functions can be called from any thread.
+// Statistics of a world for monitoring. All functions may be called from any thread.
 
 #include <algorithm>
 #include <cstring>

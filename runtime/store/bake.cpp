@@ -14,11 +14,11 @@ constexpr uint64_t kMaxTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
 constexpr uint32_t kTileVersion = 3;
 
-/// The encoded content of a part that is about to be written.
+/// An encoded chunk part that is about to be written.
 struct Made {
   ContentId id;
   std::pmr::vector<std::byte> content;
-  /// compressed; nullopt if the content will be inlined in the record
+  /// the compressed content; nullopt if the content will be stored inline, in the tile's record
   std::optional<std::pmr::vector<std::byte>> frame;
 };
 

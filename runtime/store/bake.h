@@ -1,5 +1,5 @@
 #pragma once
-// Bakes the tiles of a store (tile.h), each independently of the others.
+// Bakes the tiles of a store. A tile (tile.h) is a block of 8 x 8 x 8 chunks; tiles are baked independently.
 
 #include <array>
 #include <filesystem>
@@ -10,45 +10,47 @@
 
 namespace sgm::store {
 
-/// The inputs for baking a region of a world. They are the same wherever its tiles are made. Borrows everything it
-/// refers to; thread-safe if those objects are.
+/// The inputs for baking a region of a world. All workers that bake tiles of the region have equal inputs. Does not own
+/// the objects that it refers to; thread-safe if those objects are.
 struct Bakery {
   const WorldField& world;
   Backend& backend;
   JobSystem& jobs;
   BakedRegion region;
-  bool sharp = false;  ///< true: chunks have sharp features
-  ContentId key, job;  ///< worldKey and jobKey of these inputs
-  /// where tiles are written: Folder::baking of the job; must exist when tiles are made
+  bool sharp = false;  ///< true: surfaces have sharp features, so that edges and corners are not rounded
+  ContentId key, job;  ///< results of worldKey and jobKey for these inputs
+  /// folder to which tiles are written: Folder::baking(job); must exist before a tile is baked
   std::filesystem::path folder;
-  UnfinishedFiles* unfinished = nullptr;  ///< same as for FileWriter::create()
+  UnfinishedFiles* unfinished = nullptr;  ///< registry of unfinished files for a signal handler (FileWriter::create());
+                                          ///< may be null
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// Returns a hash that identifies all baked content of a world: its identity, and how it is meshed and encoded. If
-/// version 0.2 baked the world into the store, returns the key under which it did. Error: invalid_argument if the world
-/// has no identity.
+/// Returns a hash that identifies all baked content of a world: its identity, and how it is meshed and encoded. If the
+/// store has this world under the key that version 0.2 of the library used, returns that key. Error: invalid_argument
+/// if the world has no identity.
 Result<ContentId> worldKey(const Folder& store, const WorldField& world, bool sharp);
-/// Returns a hash that identifies the region in addition to the world.
+/// Returns a hash that identifies the world and the region together.
 ContentId jobKey(const ContentId& world, const BakedRegion& region);
 
-/// Creates the bakery for a region of a world. Errors: those of check and worldKey.
+/// Creates the bakery for a region of a world. Errors: those of check(region) and worldKey().
 Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jobs, const BakedRegion& region,
                         bool sharp, const Folder& store, std::pmr::memory_resource* memory);
 
-/// Returns the record of a tile that was baked before; nullopt if it was not, or the record is damaged.
+/// Returns the record of a tile that was already baked; nullopt if the tile was not baked, or its record is damaged.
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile);
 
-/// Bakes a tile: meshes its chunks, each with all seams that may ever be drawn, measures them, and writes first the
-/// pack and then the record, whose existence marks the tile as done. Level 0 also gets anchors and voids, since a
-/// streamed world requests them. A pure function of world, region and tile. Errors: those of meshing; io. Throws
-/// std::bad_alloc.
+/// Bakes a tile: meshes its chunks with all seams that may ever be drawn, measures them, and writes first the file of
+/// their meshes (the pack), then the tile's record, whose existence marks the tile as done. Chunks of level 0 also get
+/// anchors and void components, since a streamed world requests them. The result is a pure function of world, region
+/// and tile. Errors: those of meshing; io. Throws std::bad_alloc.
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress = {});
 
-/// Meshes a chunk again, and returns the ids of the contents of its parts. Errors: those of meshing.
+/// Meshes a chunk again, and returns the hashes of its encoded parts, to compare them with the baked ones. Errors:
+/// those of meshing.
 Result<std::array<ContentId, kChunkParts>> idsOf(const Bakery& bakery, const ChunkKey& chunk);
 
-/// Returns the content of a tile's file: the record, with a head and a checksum that show whether it is complete.
+/// Returns the bytes of a tile's file: the encoded record, preceded by a header with a checksum.
 std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& record);
 std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes,
                                          std::pmr::memory_resource* memory = std::pmr::get_default_resource());

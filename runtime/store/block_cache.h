@@ -1,5 +1,5 @@
 #pragma once
-// Caches blocks of files that are on a server.
+// Caches blocks of files that are on a server, in memory.
 
 #include <condition_variable>
 #include <cstddef>
@@ -17,24 +17,25 @@
 
 namespace sgm::store {
 
-/// Caches the most recently read blocks. If a thread needs a block that another thread is fetching, it waits for it.
+/// An LRU cache of blocks. If a thread needs a block that another thread is fetching, it waits for that fetch.
 /// Thread-safe.
 class BlockCache {
  public:
-  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; the last block of a file may be shorter
+  static constexpr size_t kBlock = size_t{1} << 17;  ///< size of a block in bytes; the last block of a file may be
+                                                     ///< shorter
   static constexpr size_t kMaxBlocks = 256;
-  /// maximum number of blocks per fetch: small, so that little of a slow download is lost if it is interrupted
+  /// maximum number of blocks per fetch: small, so that an interrupted download loses little data
   static constexpr size_t kMaxConcurrent = 4;
 
-  /// Fetches bytes of a file. The range begins at the start of a block and ends at the end of a block.
+  /// Fetches a range of bytes of a file. The range starts and ends at block boundaries, or at the end of the file.
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;
 
-  /// memory: must be thread-safe and outlive the cache.
+  /// memory: resource for the blocks; must be thread-safe and outlive the cache.
   explicit BlockCache(std::pmr::memory_resource* memory) : memory_(memory), blocks_(memory), used_(memory) {}
 
-  /// Reads a range of bytes of a file, fetching missing blocks. file: a number that identifies the file, chosen by the
-  /// caller; file_bytes: its size. The range must lie in the file. Adjacent missing blocks are fetched together.
-  /// Errors: those of fetch; errors are not cached. Throws std::bad_alloc.
+  /// Reads a range of bytes of a file, and fetches missing blocks; adjacent missing blocks are fetched together. file:
+  /// a number that the caller has chosen to identify the file; file_bytes: size of the file. The range must lie in the
+  /// file. Errors: those of `fetch`; they are not cached. Throws std::bad_alloc.
   Result<std::pmr::vector<std::byte>> read(uint64_t file, uint64_t file_bytes, uint64_t offset, size_t bytes,
                                            const Fetch& fetch, std::pmr::memory_resource* memory);
 
@@ -44,19 +45,20 @@ class BlockCache {
     std::optional<Error> error;
     bool is_done = false;
   };
-  using Key = std::pair<uint64_t, uint64_t>;  ///< number of the file, and of the block in it
+  using Key = std::pair<uint64_t, uint64_t>;  ///< number of the file, and index of the block in that file
   struct Entry {
     std::shared_ptr<Block> block;
     std::pmr::list<Key>::iterator used;
   };
-  /// The adjacent blocks that one read needs.
+  /// The adjacent blocks that one call of read() needs.
   struct Wanted {
     uint64_t file, first;
     std::vector<std::shared_ptr<Block>> blocks;
     std::vector<bool> is_mine;  ///< for each block: true if this thread must fetch it
   };
 
-  /// Returns the block, and true if the caller must fetch it. Precondition: the caller holds the lock.
+  /// Finds or adds a block. Returns the block, and true if it was added, so that the caller must fetch it.
+  /// Precondition: the caller holds mutex_.
   std::pair<std::shared_ptr<Block>, bool> find(const Key& key);
   void claim(Wanted& wanted, size_t count);
   void fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fetch);

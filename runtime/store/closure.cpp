@@ -20,17 +20,19 @@ FaceAxes axesOf(int face) {
 
 bool isFaceFeature(const VertexKey& key, int axis) { return key.axis == kFaceVertex + axis; }
 
-/// True if the vertex lies in the face of a chunk. The key must be in coordinates in which the chunk's cells have edge
-/// 1.
+/// True if a vertex lies in the plane of a chunk's face. key: the vertex's key, in coordinates relative to the chunk,
+/// in which a cell has edge 1.
 bool isIn(const VertexKey& key, int face) {
   const int axis = face / 2, plane = face % 2 == 0 ? 0 : kChunkCells;
   const bool lies_across = key.axis < 3 ? key.axis != axis : isFaceFeature(key, axis) || key.axis == kLateral;
   return lies_across && key.corner[axis] == plane;
 }
 
-/// Returns a number that identifies the vertex within its border: from one or two coordinates, and its kind.
+/// Returns a number that identifies a vertex among all vertices of one border. a, b: the vertex's coordinates along the
+/// border.
 uint64_t placeOf(const VertexKey& key, int32_t a, int32_t b) {
-  // The fan numbers of lateral vertices at a corner depend on the rest of the frame, so they are ignored.
+  // A lateral vertex lies between the samples of two levels. Its number `fan`, which tells it from others at the same
+  // place, depends on chunks elsewhere in the frame, so it is ignored.
   const uint32_t fan = key.axis == kLateral ? 0 : key.fan;
   return uint64_t{static_cast<uint32_t>(a)} << 40 | uint64_t{static_cast<uint32_t>(b) & 0xFFFFFF} << 16 |
          uint64_t{key.axis} << 8 | fan;
@@ -38,7 +40,7 @@ uint64_t placeOf(const VertexKey& key, int32_t a, int32_t b) {
 
 EdgeSum sumOf(uint64_t from, uint64_t to) { return hashCombine(from, to) - hashCombine(to, from); }
 
-/// Returns the chunk of the same level beyond a face.
+/// Returns the chunk of the same level on the other side of a face.
 ChunkKey beyond(const ChunkKey& chunk, int face) {
   ChunkKey other = chunk;
   other.at[face / 2] += face % 2 == 0 ? -1 : 1;
@@ -58,7 +60,7 @@ void addBodyEdge(const VertexKey& p, const VertexKey& q, BorderSums& sums) {
     const auto [axis, u, v] = axesOf(face);
     const auto f = static_cast<size_t>(face);
     sums.own[f] += sumOf(placeOf(p, p.corner[u], p.corner[v]), placeOf(q, q.corner[u], q.corner[v]));
-    // The edge lies in one square of the face; the minimum of its corners is the square's lowest corner.
+    // The edge lies in one grid square of the face; the minimum of its end points is that square's lowest corner.
     const int half_u = std::min(p.corner[u], q.corner[u]) < kChunkCells / 2 ? 0 : 1;
     const int half_v = std::min(p.corner[v], q.corner[v]) < kChunkCells / 2 ? 0 : 1;
     const auto finer = [=, u = u, v = v](const VertexKey& key) {
@@ -175,8 +177,10 @@ void Closure::addPair(const Border& border, EdgeSum sum) {
   open_.erase(at);
 }
 
-/// Adds an end of a seam. All ends along an edge depend only on the samples along it, of both levels: so they are
-/// equal, except for the direction in which each seam runs around its border.
+/// Adds the hash of one of a seam's four ends (borders along the edges of its chunk's face). All seams that end at the
+/// same chunk edge have the same vertices there, because these depend only on the samples along the edge, at both
+/// levels. So the hashes must be equal, except for their sign, which depends on the direction in which each seam runs
+/// around its border.
 void Closure::addEnd(const ChunkKey& chunk, int face, int side, EdgeSum sum) {
   if (sum == 0) return;
   const auto [axis, u, v] = axesOf(face);
@@ -195,7 +199,7 @@ void Closure::addEnd(const ChunkKey& chunk, int face, int side, EdgeSum sum) {
   open_.erase(at);
 }
 
-/// Returns the number of seams of the region that end along the edge.
+/// Returns the number of seams in the region that end at this chunk edge.
 int Closure::endsAt(const Border& border) const {
   const int a = (border.number + 1) % 3, b = (border.number + 2) % 3;
   int ends = 0;

@@ -1,11 +1,13 @@
 #pragma once
-// Checks that every frame that can be drawn from a store is closed. There are too many frames to check each; instead,
-// each pair of borders that may meet is checked.
+// Checks that every set of chunks that can be drawn together (a frame) has a closed surface. There are too many frames
+// to check each; instead, each pair of borders that may meet is checked.
 //
-// Every frame, that is, the leaves of an octree, is closed if these pairs of borders fit: the bodies of two neighbours
-// of one level, at their common face; a seam and the body of its own chunk, at the seam's face; a seam and the coarser
-// chunk's body, in a quarter of the coarser chunk's face; and the ends of all seams that may meet along an edge of
-// their chunks (any of these may be in a frame).
+// A frame consists of the leaves of an octree of chunks. A chunk's mesh consists of its body and of seams, which
+// connect the body to coarser neighbours. Every frame is closed if these borders fit:
+// - the bodies of two neighbours of one level, at their common face
+// - a seam and the body of its own chunk, at the seam's face
+// - a seam and the body of the coarser chunk, in a quarter of the coarser chunk's face
+// - the ends of all seams that may meet along an edge of their chunks (any of them may be in a frame)
 
 #include <array>
 #include <functional>
@@ -17,46 +19,49 @@
 
 namespace sgm::store {
 
-/// A hash of a border: the sum, over its directed edges, of the hash of each edge minus the hash of the reversed edge.
-/// The sums of two borders that fit add up to 0.
+/// A hash of a border of a mesh: over all of its directed edges, the sum of the hash of the edge minus the hash of the
+/// reversed edge. The hashes of two borders that fit add up to 0.
 using EdgeSum = uint64_t;
 
-/// The sums of a part's borders. Each is in the coordinates of the part's own chunk, or of the finer chunk at the
-/// border, so that it depends only on the part's bytes.
+/// The hashes of the borders of one part (body or seam) of a chunk's mesh. They use coordinates relative to the part's
+/// own chunk, or to the finer chunk at the border, so that they depend only on the part's bytes.
 struct BorderSums {
-  std::array<EdgeSum, 6> own{};  ///< body: by face; seam: only at its face, towards the body of its own chunk
-  /// body: by face and quarter, in the coordinates of the seams of the finer neighbours there
+  std::array<EdgeSum, 6> own{};  ///< for a body: the border at each face; for a seam: only the border to its own
+                                 ///< chunk's body
+  /// for a body: the border in each quarter of each face, in the coordinates of the finer neighbour's seam there
   std::array<std::array<EdgeSum, 4>, 6> quarters{};
-  EdgeSum coarser = 0;            ///< seam: towards the body of the coarser chunk
-  std::array<EdgeSum, 4> ends{};  ///< seam: at the low and the high border along u, then along v
-  EdgeSum stray = 0;              ///< seam: all other edges; 0 unless the seam has a hole
+  EdgeSum coarser = 0;            ///< for a seam: the border to the coarser chunk's body
+  std::array<EdgeSum, 4> ends{};  ///< for a seam: its ends at the low and the high side of axis u, then of axis v
+  EdgeSum stray = 0;              ///< for a seam: all other open edges; 0 unless the seam has a hole
   friend bool operator==(const BorderSums&, const BorderSums&) = default;
 };
 
-/// Computes the sums of a part. part: 0 for a body, 1 + Face for a seam. Throws std::bad_alloc.
+/// Computes the hashes of a part's borders. part: 0 for the body, 1 + Face for a seam. Throws std::bad_alloc.
 BorderSums bordersOf(const PackedMesh& mesh, int part);
 
-/// Receives the chunks of one region in any order, each once. Stores only borders whose other side has not arrived yet.
+/// Checks a region's chunks, which are added in any order, each once. Stores only the borders whose counterpart has not
+/// been added yet.
 class Closure {
  public:
   /// Receives the description of a problem.
   using Tell = std::function<void(const std::string&)>;
 
-  /// region: must outlive this object.
+  /// region: must outlive this object. tell: called for each pair of borders that does not fit.
   Closure(const BakedRegion& region, Tell tell) : region_(region), tell_(std::move(tell)) {}
 
-  /// Adds the sums of a chunk's body and seams; null for a part without triangles. Throws std::bad_alloc.
+  /// Adds a chunk. parts: the border hashes of its body and seams; null for a part without triangles. Throws
+  /// std::bad_alloc.
   void add(const ChunkKey& chunk, const std::array<const BorderSums*, 7>& parts);
-  /// Reports the borders that remain open. Call it when all chunks of the region have been added.
+  /// Reports the borders that have no counterpart. Call it after all chunks of the region have been added.
   void finish();
-  /// Returns the number of borders with edges that were compared from both sides.
+  /// Returns the number of non-empty borders that were compared with their counterpart.
   uint64_t borders() const { return borders_; }
 
  private:
-  /// The pairs of borders that must fit: two bodies; a seam and the coarser body; ends of seams along an edge.
+  /// The kinds of borders: between two bodies; between a seam and the coarser body; at the ends of seams along an edge.
   enum class Kind : uint8_t { bodies, levels, ends };
-  /// Identifies a border. bodies: the lower chunk and the axis; levels: the finer chunk and its face; ends: the chunk
-  /// whose lowest edge along an axis it is, and that axis.
+  /// Identifies a border by a chunk and a number. bodies: the chunk on the low side, and the axis; levels: the finer
+  /// chunk, and its face; ends: the chunk whose lowest edge along an axis is the border, and this axis.
   struct Border {
     Kind kind;
     uint8_t number;
@@ -67,9 +72,10 @@ class Closure {
     size_t operator()(const Border& border) const;
   };
   struct Sides {
-    EdgeSum sum = 0;  ///< bodies, levels: sum of the two sides so far; ends: the sum that each end must have
+    EdgeSum sum = 0;  ///< bodies, levels: sum of the hashes of the two sides so far; ends: the hash that all ends must
+                      ///< have
     int count = 0;
-    bool differ = false;  ///< ends only: true if two ends have different sums
+    bool differ = false;  ///< ends only: true if two ends have different hashes
   };
 
   void addBodies(const ChunkKey& chunk, const BorderSums& body);

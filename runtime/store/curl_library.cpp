@@ -6,7 +6,7 @@ namespace sgm::store {
 
 Result<CurlTable> loadCurl() {
   void* library = platform::openLibrary("libcurl.so.4");
-  // Debian has two further builds of libcurl with the same functions, but other TLS libraries.
+  // Debian also packages libcurl built with other TLS libraries, under these names. They have the same functions.
   for (const char* name : {"libcurl-gnutls.so.4", "libcurl-nss.so.4"}) {
     if (library == nullptr) library = platform::openLibrary(name);
   }

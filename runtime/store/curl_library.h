@@ -1,5 +1,5 @@
 #pragma once
-// Loads libcurl when a server is first accessed: programs that use no server do not need it.
+// Loads libcurl at run time, when a server is first accessed. Programs that use no server do not need libcurl.
 
 #include <curl/curl.h>
 
@@ -7,7 +7,7 @@
 
 namespace sgm::store {
 
-/// Pointers to libcurl's functions. These allocate from libcurl's own heap, not from the caller's memory resources.
+/// Pointers to functions of libcurl. They allocate from libcurl's own heap, not from a std::pmr::memory_resource.
 struct CurlTable {
   decltype(&::curl_global_init) global_init = nullptr;
   decltype(&::curl_easy_init) easy_init = nullptr;
@@ -18,8 +18,7 @@ struct CurlTable {
   decltype(&::curl_easy_strerror) easy_strerror = nullptr;
 };
 
-/// Loads libcurl, which stays loaded until the process ends. Error: unsupported if libcurl is missing or lacks a
-/// function.
+/// Loads libcurl. It stays loaded until the process ends. Error: unsupported if libcurl is missing or lacks a function.
 Result<CurlTable> loadCurl();
 
 }  // namespace sgm::store

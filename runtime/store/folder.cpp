@@ -35,7 +35,7 @@ std::string placeName(const TileKey& tile) {
          std::to_string(tile.at.z);
 }
 
-/// Access to the files of a folder.
+/// Gives access to the files of a store in a local folder.
 class FolderFiles final : public StoreFiles {
  public:
   explicit FolderFiles(fs::path root) : root_(std::move(root)) {}
@@ -91,7 +91,8 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / kFormatFile;
   std::error_code error;
   if (!fs::exists(format, error)) {
-    // Another worker may be about to create the format file, or may have been killed before it did.
+    // A folder without other files is accepted, because another process may be about to write the format file, or was
+    // killed before.
     for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
       if (name != kFormatFile && name.rfind("format.sgm-part", 0) != 0)
@@ -113,11 +114,11 @@ Result<StoreLock> StoreLock::take(const Folder& store, std::chrono::milliseconds
   constexpr std::chrono::milliseconds kBetweenLooks{100};
   const auto until = std::chrono::steady_clock::now() + patience;
   const fs::path path = store.root() / kFormatFile;
-  // Network file systems can lock a file only if it is open for writing.
+  // Opened for writing, because network file systems can lock only such files.
   const int file = platform::openFile(path, platform::kRead | platform::kWrite);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
-  // The wait is limited: the process that holds the lock may hang, perhaps on another machine.
+  // Waits for a limited time, because the process that holds the lock may hang, perhaps on another machine.
   while (platform::lockFile(file) != 0) {
     if ((errno == EWOULDBLOCK || errno == EACCES) && std::chrono::steady_clock::now() < until) {
       std::this_thread::sleep_for(kBetweenLooks);

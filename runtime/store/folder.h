@@ -21,17 +21,17 @@
 namespace sgm::store {
 
 inline constexpr int kStoreVersion = 1;
-/// Names of files in a store, as StoreFiles takes them.
+/// Names of files in a store, relative to the store, for StoreFiles::open().
 inline constexpr const char* kFormatFile = "format";
 std::string worldFileName(const ContentId& key);
 std::string packFileName(const ContentId& name);
-/// Returns access to the files of the folder at this path; does not access the folder.
+/// Returns access to the files of a store in the folder `root`. Does not access the folder yet.
 std::unique_ptr<StoreFiles> folderFiles(const std::filesystem::path& root);
-/// Checks that the files are those of a store. Errors: io; bad_input if they are not a store of this version; others as
+/// Checks that the files are those of a store of this version. Errors: io; bad_input if they are not; errors of
 /// StoreFiles::open.
 Result<void> checkFormat(StoreFiles& files);
 
-/// The suffix of the folder of a job whose tiles were merged into a world. The folder is about to be removed.
+/// Suffix of the name of a baking job's folder after its tiles were merged, just before the folder is removed.
 inline constexpr const char* kMergedEnding = ".merged";
 
 class Folder {
@@ -44,7 +44,7 @@ class Folder {
   std::filesystem::path pack(const ContentId& name) const { return root_ / packFileName(name); }
   std::filesystem::path baking(const ContentId& job) const { return root_ / "baking" / nameOf(job); }
 
-  /// Creates the store if it is missing. Errors: io; bad_input if the folder contains something else, or a store of
+  /// Creates the store if it is missing. Errors: io; bad_input if the folder contains other files, or a store of
   /// another version.
   Result<void> make() const;
   /// Checks the store's version. Errors: io; bad_input if the folder is not a store of this version.
@@ -59,8 +59,8 @@ class StoreLock {
  public:
   static constexpr std::chrono::minutes kPatience{10};
 
-  /// Waits for the lock, at most for `patience`. Errors: busy if another process still holds it; io; unsupported if the
-  /// file system has no locks.
+  /// Waits for the lock, at most for `patience`. Errors: busy if another process still holds the lock; io; unsupported
+  /// if the file system has no locks.
   static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = kPatience);
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
@@ -74,7 +74,7 @@ class StoreLock {
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
-/// A regular file that is open for reading. If the file is replaced, this object still reads the old content.
+/// A regular file that is open for reading. If another file replaces it, this object still reads the old content.
 /// Thread-safe.
 class OpenFile final : public StoredFile {
  public:
@@ -96,16 +96,17 @@ class OpenFile final : public StoredFile {
   uint64_t size_;
 };
 
-/// Returns idOf the whole file, which is read in pieces. Error: io.
+/// Returns the hash (idOf) of the whole file, which is read piece by piece. Error: io.
 Result<ContentId> idOfFile(const StoredFile& file);
-/// True if the file has the size and id of the pack. False also if it cannot be read.
+/// True if the file at `path` has the size and the hash of the pack; false also if the file cannot be read.
 bool isPack(const std::filesystem::path& path, const PackFile& pack);
 
-/// Blocks until the names of the files in a folder are on disk. Error: io.
+/// Blocks until the folder's list of files is on disk (fsync). Error: io.
 Result<void> syncFolder(const std::filesystem::path& folder);
-/// Creates a folder and its parents. Error: io.
+/// Creates a folder and its missing parents. Error: io.
 Result<void> makeFolder(const std::filesystem::path& folder);
-/// Writes a file completely or not at all. unfinished: same as for FileWriter::create(). Error: io.
+/// Writes a file completely or not at all. unfinished: registry of unfinished files (FileWriter::create()); may be
+/// null. Error: io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);
 

@@ -9,7 +9,7 @@
 namespace sgm::store {
 namespace {
 
-// tests/bench/README.md compares the time and the size of other levels.
+// zstd level for baked content; tests/bench/README.md compares time and size of other levels
 constexpr int kZstdLevel = 9;
 
 }  // namespace
@@ -55,7 +55,7 @@ Unpacker::~Unpacker() {
 
 std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                             std::pmr::memory_resource* memory) {
-  // Checks the size before memory is allocated for it.
+  // The size in the header is checked before memory of this size is allocated.
   if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != content_bytes) return std::nullopt;
   std::pmr::vector<std::byte> content(content_bytes, memory);
   ZSTD_DCtx* context = nullptr;
@@ -71,7 +71,7 @@ std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std:
       ++made_;
     }
   }
-  // A zstd error code is larger than every valid size.
+  // zstd returns an error as a number that is larger than every valid size, so the comparison also detects errors.
   const size_t bytes = ZSTD_decompressDCtx(context, content.data(), content.size(), frame.data(), frame.size());
   {
     const std::lock_guard lock(mutex_);

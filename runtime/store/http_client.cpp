@@ -13,13 +13,14 @@
 namespace sgm::store {
 namespace {
 
-// A transfer fails if the server does not accept the connection within 3 s, is slower than 1,000 bytes/s for 4 s, or
-// takes 10 s in total. Longer waits are not worthwhile: deriving the chunk on this machine takes milliseconds.
+// Timeouts. A transfer fails if the server does not accept the connection within 3 s, is slower than 1,000 bytes/s for
+// 4 s, or takes 10 s in total. Longer waits are not worthwhile: deriving the chunk on this machine takes milliseconds.
 constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
-/// Blocks SIGPIPE and discards it. Writing to a connection that the server has closed raises this signal, which by
-/// default ends the program; and libcurl must not install handlers in a process with several threads.
+/// Blocks the signal SIGPIPE for the current thread, and discards it. Writing to a connection that the server has
+/// closed raises this signal, which by default ends the program. libcurl must not handle it, because a signal handler
+/// would affect the whole process.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -46,7 +47,7 @@ class NoPipeSignal {
   bool was_pending_;
 };
 
-/// A response while it arrives.
+/// A response that is being received.
 struct Transfer {
   const CurlTable& curl;
   CURL* handle;
@@ -80,11 +81,11 @@ bool beginsAs(std::string_view line, std::string_view lower_case) {
   return true;
 }
 
-/// Parses a header line, such as "Content-Range: bytes 0-99/1234".
+/// Parses a header line such as "Content-Range: bytes 0-99/1234". Called by libcurl.
 size_t takeHeader(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   std::string_view line(data, size * count);
-  // a redirection starts a new response
+  // A status line starts a new response, for example after a redirection.
   if (beginsAs(line, "http/")) transfer.file_bytes = transfer.range_first = std::nullopt;
   constexpr std::string_view kName = "content-range:";
   if (!beginsAs(line, kName)) return size * count;
@@ -105,7 +106,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   Transfer& transfer = *static_cast<Transfer*>(to);
   const size_t bytes = size * count;
   const long status = transfer.status();
-  constexpr size_t kMaxErrorPage = size_t{1} << 20;  // maximum size of a server's error page that is read
+  constexpr size_t kMaxErrorPage = size_t{1} << 20;  // maximum number of bytes read of a server's error page
   const bool wanted = status == 200 || status == 206;
   if (bytes > (wanted ? transfer.count : kMaxErrorPage) - transfer.bytes.size()) {
     transfer.too_long = true;
@@ -121,7 +122,7 @@ size_t takeBody(const char* data, size_t size, size_t count, void* to) {
   return bytes;
 }
 
-/// Converts the server's response to a part, or to an error.
+/// Converts the server's response to a part of the file, or to an error.
 Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   const auto answers = [](const std::string& what) { return Error{Code::io, "the server " + what}; };
   const long status = transfer.status();
@@ -130,7 +131,7 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   if (from_start) return std::optional(HttpPart{transfer.bytes.size(), std::move(transfer.bytes)});
   if (status == 200)
     return answers("ignores range requests and sends the whole file: use another server, such as nginx or Apache");
-  // Other statuses from 500 on concern only this file, so they are not treated as a failure of the server.
+  // These statuses mean that the server is unavailable. Other 5xx statuses concern only this file.
   if (status == 408 || status == 429 || status == 502 || status == 503 || status == 504)
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
   if (status == 401)
@@ -150,8 +151,8 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
 Result<std::unique_ptr<HttpClient>> HttpClient::create() {
   const Result<CurlTable> curl = loadCurl();
   if (!curl) return curl.error();
-  // Called once in a process, and never undone: before version 7.84, neither this function nor its counterpart is
-  // thread-safe.
+  // curl_global_init is called once per process, and curl_global_cleanup never, because before version 7.84 of libcurl
+  // neither function is thread-safe.
   static const CURLcode started = curl->global_init(CURL_GLOBAL_DEFAULT);
   CURL* const handle = started == CURLE_OK ? curl->easy_init() : nullptr;
   if (handle == nullptr) return Error{Code::out_of_memory, "libcurl cannot be started: there is too little memory"};
@@ -174,7 +175,7 @@ int HttpClient::progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_
 
 HttpClient::Connection::~Connection() {
   const std::lock_guard lock(client.mutex_);
-  // Cannot fail: the capacity was reserved when the handle was made.
+  // push_back cannot throw here: take() reserved the capacity when it created the handle.
   client.idle_.push_back(handle);
 }
 
@@ -191,7 +192,7 @@ CURL* HttpClient::take() {
   ++handles_;
   const auto set = [&](CURLoption option, auto value) { curl_.easy_setopt(handle, option, value); };
   set(CURLOPT_NOSIGNAL, 1L);
-  // Without this option a request waits for the system's resolver, which ignores both the timeouts and stop().
+  // Without this option, a request waits for the system's name resolver, which ignores the timeouts and stop().
   set(CURLOPT_QUICK_EXIT, 1L);
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
@@ -231,7 +232,7 @@ Result<std::optional<HttpPart>> HttpClient::get(const std::string& address, uint
   if (transfer.out_of_memory || code == CURLE_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == CURLE_OK || (code == CURLE_WRITE_ERROR && transfer.too_long)) return partOf(transfer);
   std::string why = words[0] != 0 ? words.data() : curl_.easy_strerror(code);
-  // This is OpenSSL's message if the server does not use TLS.
+  // OpenSSL reports "wrong version number" if the server does not use TLS.
   if (why.find("wrong version number") != std::string::npos) why += "; is it http:// instead of https://?";
   return Error{Code::busy, std::move(why)};
 }

@@ -16,13 +16,14 @@ namespace {
 
 using Clock = Outage::Clock;
 
-/// The maximum number of concurrent requests to a server, and the maximum time to wait for one of them to end.
+/// At most kMaxRequests requests to a server run concurrently. A further request waits up to kLongestWait for a free
+/// slot, then fails.
 constexpr int kMaxRequests = 4;
 constexpr std::chrono::seconds kLongestWait{2};
-/// A file that could not be read is not requested again for this time.
+/// For this time, a file that could not be read is not requested again.
 constexpr std::chrono::seconds kFailedFor{60};
 
-/// State shared by the files of one server. The files may outlive their StoreFiles.
+/// The state of one server, shared by its files. A file may outlive the StoreFiles object that opened it.
 class Server {
  public:
   Server(std::unique_ptr<HttpClient> client, std::string address, std::string shown, Log log,
@@ -53,7 +54,8 @@ class Server {
       return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
                                  " bytes instead of " + std::to_string(file_bytes)};
     };
-    // Checked before other threads wait for these blocks: they must not wait while the server is away.
+    // This is checked before the block cache is used, because threads must not wait for blocks of an unavailable
+    // server.
     if (!isThere()) return away();
     auto read = blocks_.read(*number, file_bytes, offset, bytes, fetch, memory);
     if (!read && read.error().code == Code::io) {
@@ -67,13 +69,14 @@ class Server {
 
  private:
   struct FileState {
-    uint64_t number = 0;  ///< stays the same when the file is opened again, so that its cached blocks remain valid
+    uint64_t number = 0;  ///< number of the file in the block cache; kept when the file is reopened, so that its cached
+                          ///< blocks stay valid
     Clock::time_point failed_until{};
   };
 
   Error away() const { return {Code::busy, "'" + shown_ + "' does not answer"}; }
 
-  /// Returns the number of a file in the block cache; nullopt if reading the file failed recently.
+  /// Returns the number of a file in the block cache; nullopt if reading the file has failed in the last minute.
   std::optional<uint64_t> numberOf(const std::string& file, uint64_t file_bytes) {
     const std::lock_guard lock(mutex_);
     const auto [at, is_new] = files_.try_emplace({file, file_bytes});
@@ -82,7 +85,7 @@ class Server {
     return at->second.number;
   }
 
-  /// True if a request may be sent. While the server is away, one caller tries it from time to time.
+  /// True if the server is available. If it was unavailable, sends a test request from time to time.
   bool isThere() {
     const Outage::Look look = outage_.look(Clock::now());
     if (look != Outage::Look::find_out) return look == Outage::Look::there;
@@ -118,7 +121,7 @@ class Server {
     throw;
   }
 
-  /// The right to send a request. is_free is false if no right became available in time.
+  /// Permission to send one of the concurrent requests. is_free is false if no slot became free in time.
   struct Slot {
     Server& server;
     bool is_free;
@@ -149,7 +152,7 @@ class Server {
   std::pmr::memory_resource* const memory_;
   Outage outage_;
   BlockCache blocks_;
-  std::mutex mutex_;  ///< guards the following members
+  std::mutex mutex_;  ///< guards the members below
   std::condition_variable ended_;
   int running_ = 0;
   std::map<std::pair<std::string, uint64_t>, FileState> files_;

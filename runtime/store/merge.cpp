@@ -11,9 +11,9 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// Where the store already has a content.
+/// The location of an encoded chunk part in the packs of the store.
 struct Place {
-  uint32_t pack;  ///< index into the list of known packs
+  uint32_t pack;  ///< index into packs_
   uint32_t stored;
   uint64_t offset;
 };
@@ -26,7 +26,7 @@ class Merger {
  public:
   Merger(const Folder& store, const Bakery& bakery) : store_(store), bakery_(bakery) {}
 
-  /// Reads which contents the other worlds of the store have, in the order of the worlds' names.
+  /// Reads the other worlds of the store, to find out which contents (encoded chunk parts) are already stored.
   Result<void> learn(std::vector<std::string>& warnings) {
     const Result<std::vector<fs::path>> worlds = worldsOf(store_);
     if (!worlds) return worlds.error();
@@ -47,7 +47,7 @@ class Merger {
     return {};
   }
 
-  /// Stores those contents of a tile that the store does not have, and sets all locations in the tile's record.
+  /// Stores the contents of a tile that the store lacks, and updates the location of each content in the tile's record.
   Result<void> settle(TileRecord& record) {
     std::vector<size_t> fresh;
     size_t own = 0;
@@ -80,7 +80,7 @@ class Merger {
     return {};
   }
 
-  /// Blocks until the names of the new packs are on disk.
+  /// Blocks until the folder entries of the new packs are on disk.
   Result<void> sync() const {
     for (const fs::path& folder : folders_) {
       if (Result<void> synced = syncFolder(folder); !synced) return synced;
@@ -100,7 +100,7 @@ class Merger {
     return at->second;
   }
 
-  /// True if the store has the content, in a pack whose bytes match its name.
+  /// True if the store already has the content, in a pack whose bytes match the hash in its name.
   bool isKnown(const ContentId& id) {
     const auto known = known_.find(id);
     if (known == known_.end()) return false;
@@ -110,7 +110,7 @@ class Merger {
     return *trusted;
   }
 
-  /// Creates the folder for a pack. Returns true if the store already has the pack.
+  /// Creates the folder for a pack. Returns true if the store already contains the pack.
   Result<bool> isThere(const PackFile& pack) {
     const fs::path folder = store_.pack(pack.name).parent_path();
     if (folders_.insert(folder).second) {
@@ -121,7 +121,7 @@ class Merger {
     return false;
   }
 
-  /// Moves the tile's pack into the store unchanged, because all of its contents are new.
+  /// Adds the tile's pack to the store unchanged, because all of its contents are new. Links the file, or copies it.
   Result<PackFile> adopt(const TileKey& tile, const PackFile& pack) {
     const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
     const Result<bool> there = isThere(pack);
@@ -130,7 +130,8 @@ class Merger {
     std::error_code error;
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
-    // Linking fails if a damaged file has that name, or if the file system has no links: then the pack is copied.
+    // Linking fails if a damaged file has the pack's name, or if the file system has no hard links. Then the pack is
+    // copied.
     const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
     if (Result<void> written = writeFile(to, std::as_bytes(std::span(*bytes)), bakery_.unfinished); !written)
@@ -138,7 +139,8 @@ class Merger {
     return pack;
   }
 
-  /// Makes a pack of only the contents that are new (`fresh`), and updates their locations in the record.
+  /// Writes a pack that contains only the new contents, and updates their offsets in the record. fresh: indices of the
+  /// new contents.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
     const auto pack_bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
     if (!pack_bytes) return pack_bytes.error();
@@ -164,13 +166,13 @@ class Merger {
   std::unordered_map<ContentId, Place, IdHash> known_;
   std::unordered_map<ContentId, uint32_t, IdHash> numbers_;
   std::vector<PackFile> packs_;
-  /// for each pack: whether its bytes match its name; nullopt if not checked yet
+  /// for each element of packs_: true if the file's bytes match the hash in its name; nullopt if not checked yet
   std::vector<std::optional<bool>> trusted_;
-  std::set<fs::path> folders_;  ///< folders that contain new packs
+  std::set<fs::path> folders_;  ///< folders to which packs were added
   uint64_t new_bytes_ = 0;
 };
 
-/// Returns the number of tiles that must still be made. A tile whose pack is damaged must be made again.
+/// Returns the number of tiles that are not baked yet. A tile whose pack is damaged counts too; its record is removed.
 uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   uint64_t missing = 0;
   for (const TileKey& tile : tiles) {
@@ -183,8 +185,8 @@ uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
   return missing;
 }
 
-/// Removes the folder of a job. Renames it first, so that a worker that is still running finds no folder instead of a
-/// part of it.
+/// Removes the folder of a baking job. Renames the folder first, so that a worker which still runs finds no folder
+/// instead of an incomplete one.
 void removeJob(const Bakery& bakery) {
   fs::path aside = bakery.folder;
   aside += kMergedEnding;

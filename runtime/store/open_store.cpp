@@ -7,21 +7,22 @@
 namespace sgm::store {
 namespace {
 
-/// The maximum number of cached tile records, each about 60 KB: a viewer sees a few hundred tiles of all levels.
+/// Maximum number of cached tile records, each about 60 KB. A viewer needs a few hundred tiles of all levels.
 constexpr size_t kMaxRecords = 256;
 
-/// The maximum number of open packs: those around a viewer.
+/// Maximum number of open pack files: enough for the tiles around a viewer.
 constexpr size_t kMaxOpen = 32;
 
 }  // namespace
 
-/// Reports an error of a file to tell_, and returns the error.
+/// Reports an error of a file through tell_, and returns the error.
 Error OpenStore::told(const std::string& file, std::string message) {
   tell_(file, message);
   return {Code::io, std::move(message)};
 }
 
-/// True if this is a store of this version. A folder was checked when it was opened; a server is checked at first use.
+/// True if the files are a store of this version. A folder was checked when it was opened; a server is checked at first
+/// use.
 Result<bool> OpenStore::isStore() {
   {
     const std::lock_guard lock(mutex_);

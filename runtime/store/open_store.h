@@ -1,5 +1,5 @@
 #pragma once
-// A store that is open for reading: its open files, and the search for parts of chunks in them.
+// A store that is open for reading: finds chunk parts in its files.
 
 #include <list>
 #include <map>
@@ -13,14 +13,14 @@
 namespace sgm::store {
 
 struct FoundPart {
-  uint32_t stored = 0;  ///< compressed size in the store
+  uint32_t stored = 0;  ///< compressed size of the part in bytes
   std::pmr::vector<std::byte> bytes;
 };
 
-/// Caches the most recently used indexes, tile records and packs. Thread-safe.
+/// Reads a store, and caches the most recently used indexes, tile records and open packs. Thread-safe.
 class OpenStore {
  public:
-  /// Receives the errors of files.
+  /// Receives error messages about files of the store.
   using Tell = std::function<void(const std::string& file, const std::string& message)>;
 
   /// tell and memory must outlive the store; memory must be thread-safe.
@@ -37,17 +37,18 @@ class OpenStore {
 
   StoreFiles& files() { return *files_; }
 
-  /// Searches a part; nullopt if the store does not have it. Errors: io, also if a file is damaged or invalid (which is
-  /// reported to tell); busy as StoreFiles::open. Throws std::bad_alloc.
+  /// Finds and reads a chunk part; nullopt if the store does not have it. Errors: io, also if a file is damaged or
+  /// invalid (which is reported through `tell`); busy if a server is unavailable. Throws std::bad_alloc.
   Result<std::optional<FoundPart>> find(const ContentId& world, const ChunkKey& chunk, int part,
                                         std::pmr::memory_resource* memory);
-  /// True if the world was searched and the store has no index of it.
+  /// True if find() has searched the world, and the store has no index of the world.
   bool lacks(const ContentId& world);
-  /// Call this if a part that was found is invalid. Reports it; find() will not return the part again.
+  /// The caller reports that a part which find() returned is invalid. The error is passed to `tell`, and find() does
+  /// not return the part again.
   void reject(const ContentId& world, const ChunkKey& chunk, int part);
 
  private:
-  /// null: the store has no index of the world, or the index is unreadable
+  /// null if the store has no index of the world, or the index is unreadable
   using World = std::shared_ptr<const WorldFile>;
   using Record = std::shared_ptr<const TileRecord>;
   using Pack = std::shared_ptr<const StoredFile>;
@@ -58,7 +59,7 @@ class OpenStore {
   };
   struct KeptRecord {
     RecordKey key;
-    Record record;  ///< null if the record cannot be read
+    Record record;  ///< null if the tile's record cannot be read
   };
   struct OpenPack {
     ContentId name;
@@ -66,7 +67,7 @@ class OpenStore {
   };
   struct Place {
     Record record;
-    const StoredContent* content = nullptr;  ///< points into the record; null: the store does not have the part
+    const StoredContent* content = nullptr;  ///< points into `record`; null if the store does not have the part
   };
 
   Error told(const std::string& file, std::string message);
@@ -82,14 +83,14 @@ class OpenStore {
   const Tell tell_;
   std::pmr::memory_resource* const memory_;
   Unpacker unpacker_;
-  std::mutex opening_;  ///< held while an index is read, so that it is read only once
-  std::mutex mutex_;    ///< guards the following members
+  std::mutex opening_;  ///< locked while an index is read, so that concurrent threads do not read it twice
+  std::mutex mutex_;    ///< guards the members below
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;
-  std::pmr::set<ContentId> lacking_;  ///< the worlds of which the store has no index
+  std::pmr::set<ContentId> lacking_;  ///< keys of worlds that were searched and have no index in the store
   std::pmr::list<KeptRecord> kept_;   ///< cached tile records, most recently used first
   std::pmr::map<RecordKey, std::pmr::list<KeptRecord>::iterator> records_;
-  std::pmr::list<OpenPack> packs_;  ///< open packs, most recently used first
+  std::pmr::list<OpenPack> packs_;  ///< open pack files, most recently used first
   std::pmr::set<ContentId> rejected_;
 };
 

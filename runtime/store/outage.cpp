@@ -15,7 +15,7 @@ Outage::Look Outage::look(Clock::time_point now) {
 
 bool Outage::failed(Clock::time_point begun, Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  // A request that began before the outage was known does not start another one.
+  // A failed request that began before the last failure belongs to the same outage, so it does not lengthen the delay.
   if (is_away_ && begun <= failed_at_) return false;
   const bool is_new = !is_away_;
   const bool goes_on = rest_.count() != 0 && (!is_new || now - answered_at_ < kLongestRest);

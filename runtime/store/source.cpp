@@ -18,7 +18,8 @@ class StoreSource final : public BakedParts {
   Result<void> open(const std::string& place) {
     Result<std::unique_ptr<StoreFiles>> files = storeFiles(place, log_, memory_);
     if (!files && files.error().code == Code::unsupported) {
-      // Not an error, like a server that does not answer: the world is the same without it.
+      // A store that this build cannot read is not an error, just like an unavailable server: the world looks the same
+      // without it.
       if (log_) log_("'" + shownPlace(place) + "': " + files.error().message + "; chunks are derived instead");
       return {};
     }
@@ -29,7 +30,8 @@ class StoreSource final : public BakedParts {
     const auto tell = [this](const std::string& file, const std::string& message) { this->tell(file, message); };
     const bool is_far = (*files)->isFar();
     auto store = std::make_unique<OpenStore>(std::move(*files), tell, memory_);
-    // Nearby stores come first, which is correct because a part is the same in all stores that have it.
+    // Local stores are searched before servers. The order does not matter otherwise, because all stores have the same
+    // bytes for a part.
     const auto first_far =
         std::find_if(stores_.begin(), stores_.end(), [](const auto& other) { return other->files().isFar(); });
     stores_.insert(is_far ? stores_.end() : first_far, std::move(store));
@@ -61,7 +63,7 @@ class StoreSource final : public BakedParts {
   }
 
   void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) override {
-    // Rejects the part in all stores, because it is the same in each.
+    // The part is rejected in all stores, because it is the same in each.
     for (const auto& store : stores_) {
       if (reach == Reach::far || !store->files().isFar()) store->reject(keyIn(*store, world), chunk, part);
     }
@@ -85,7 +87,9 @@ class StoreSource final : public BakedParts {
   }
 
  private:
-  /// Returns the key under which a store may have the world. Precondition: the store was searched for the world.
+  /// Returns the key under which to look for a world in a store: the former key if the store has no index under the
+  /// current key and a former key exists, otherwise the current key. Precondition: find() has searched the store for
+  /// the world.
   static DiskKey keyIn(OpenStore& store, const BakedWorld& world) {
     return world.former_key && store.lacks(world.key) ? world.former_key() : world.key;
   }
@@ -96,7 +100,7 @@ class StoreSource final : public BakedParts {
     const DiskKey key = keyIn(store, world);
     return key == world.key ? std::move(found) : store.find(key, chunk, part, memory);
   }
-  /// Reports that no store has data of a world. Only the first such world is reported: animated parameters request
+  /// Logs that no store has data of the world. Only the first such world is logged, because animated parameters create
   /// many.
   void tellIfLacking(const BakedWorld& world) {
     if (has_told_lack_ || !log_ || stores_.empty()) return;
@@ -122,7 +126,7 @@ class StoreSource final : public BakedParts {
   std::pmr::memory_resource* const memory_;
   std::vector<std::unique_ptr<OpenStore>> stores_;
   std::atomic<bool> has_told_lack_ = false;
-  mutable std::mutex mutex_;  ///< guards the following members
+  mutable std::mutex mutex_;  ///< guards the members below
   std::set<std::string> told_;
   BakedStats stats_;
 };

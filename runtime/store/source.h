@@ -8,13 +8,12 @@
 
 namespace sgm::store {
 
-/// Opens a source that returns each part from the first store that has it; folders are searched before servers. places:
-/// paths and addresses as for storeFiles(). The index of a world is searched at the first query for that world: a store
-/// that does not have the world costs nothing, and a server gets no earlier request. A faulty file is reported; the
-/// content of the file is derived instead. If no store has a world, that is reported once. If this build or machine
-/// cannot read from servers, that is reported, and servers are ignored. memory must be thread-safe and outlive the
-/// source. Errors: io and bad_input if a folder is not a store of this version, or an address is invalid; unsupported
-/// as available().
+/// Opens a source that returns each part from the first store that has the part; folders are searched before servers.
+/// places: paths or URLs, as for storeFiles(). The index of a world is read at the first query for this world; until
+/// then no request is sent to a server. An error in a file is logged, and the affected chunks are derived instead. If
+/// no store has a world, this is logged once. If this build or machine cannot read from servers, this is logged, and
+/// servers are ignored. memory must be thread-safe and outlive the source. Errors: io and bad_input if a folder is not
+/// a store of this version, or a URL is invalid; unsupported if the build lacks zstd and xxHash (available()).
 Result<std::shared_ptr<BakedParts>> openStores(std::span<const std::string> places, Log log,
                                                std::pmr::memory_resource* memory);
 

@@ -20,7 +20,8 @@ std::string shownPlace(const std::string& place) {
   const std::string authority = place.substr(host, path - host);
   size_t at = authority.rfind('@');
   if (at == std::string::npos) {
-    // A password may contain a '/' that should have been written as %2F. Then the text after the ':' is not a port.
+    // A password in the URL may contain a '/', although it should be written as %2F. Then the text after the ':' is not
+    // a port.
     const size_t colon = authority.rfind(':');
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     if (colon == std::string::npos || authority.back() == ']' ||

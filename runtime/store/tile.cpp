@@ -14,7 +14,7 @@ constexpr uint64_t kMaxTiles = uint64_t{1} << 22;
 
 int64_t floorOf(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 
-/// The first and the last chunk of a level on an axis.
+/// The numbers of the first and the last chunk of a region, along one axis at one level.
 struct Span {
   int64_t first, last;
   int64_t count(int64_t in) const { return floorOf(last, in) - floorOf(first, in) + 1; }

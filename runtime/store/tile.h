@@ -1,9 +1,9 @@
 #pragma once
-// The units of baking: a region at several levels is divided into tiles of 8 x 8 x 8 chunks of a level.
+// Tiles, the units of baking: a region at several levels is divided into blocks of 8 x 8 x 8 chunks of one level.
 //
-// A tile is the unit of work of a worker, the unit of a file, and what a reader requests first. Its content depends
-// only on the world, the region and the tile's position, so that no byte of a store depends on which worker made it, or
-// when.
+// A worker bakes one tile at a time, and writes one file per tile; a reader loads a tile's record before its chunks. A
+// tile's content depends only on the world, the region and the tile's position. So the bytes of a store do not depend
+// on which worker baked a tile, or when.
 
 #include <compare>
 #include <vector>
@@ -17,7 +17,7 @@ namespace sgm::store {
 inline constexpr int kTileEdge = 8;  ///< edge of a tile in chunks
 inline constexpr size_t kTileChunks = size_t{kTileEdge} * kTileEdge * kTileEdge;
 
-/// A tile, by its level and position: the lowest chunk of tile (x, y, z) is (8x, 8y, 8z) of its level.
+/// The level and position of a tile: the lowest chunk of tile (x, y, z) is chunk (8x, 8y, 8z) of its level.
 struct TileKey {
   int level = 0;
   Int3 at;
@@ -34,7 +34,7 @@ struct TileKey {
 inline TileKey tileOf(const ChunkKey& chunk) {
   return {chunk.level, {chunk.at.x >> 3, chunk.at.y >> 3, chunk.at.z >> 3}};
 }
-/// Returns the chunk's number in its tile, 0..511; x varies fastest.
+/// Returns the index of the chunk in its tile, 0..511; x varies fastest.
 inline size_t numberInTile(const ChunkKey& chunk) {
   return static_cast<size_t>((chunk.at.x & 7) + kTileEdge * ((chunk.at.y & 7) + kTileEdge * (chunk.at.z & 7)));
 }
@@ -43,34 +43,35 @@ inline ChunkKey chunkOf(const TileKey& tile, size_t number) {
   return {tile.level, {8 * tile.at.x + n % 8, 8 * tile.at.y + n / 8 % 8, 8 * tile.at.z + n / 64}};
 }
 
-/// Returns the faces of a chunk that may border a coarser chunk: bit (1 << Face). They are the faces on its parent's
-/// border, since a sibling lies across each other face. Only these seams can ever be drawn, so only they are baked.
+/// Returns the faces at which a chunk may border a coarser chunk, as bits (1 << Face). These are the three faces on the
+/// border of its parent chunk; behind the other faces are siblings of the same level. Only seams at these faces can
+/// ever be drawn, so only they are baked.
 inline uint8_t seamsOf(const ChunkKey& chunk) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis) faces = static_cast<uint8_t>(faces | 1 << (2 * axis + (chunk.at[axis] & 1)));
   return faces;
 }
-/// True if a part of the chunk is baked. part: 0 is its body, 1 + Face a seam.
+/// True if this part of the chunk is baked. part: 0 for the body, 1 + Face for a seam.
 inline bool isBakedPart(const ChunkKey& chunk, int part) {
   return part == 0 || (seamsOf(chunk) >> (part - 1) & 1) != 0;
 }
 
-/// A region to be baked: all chunks of these levels that meet the box lo <= p < hi.
+/// A region to be baked: at each of these levels, all chunks that intersect the box lo <= p < hi.
 struct BakedRegion {
   IntBox box;
   int first_level = 0, last_level = 0;
-  int32_t finest_cell = 0;  ///< cell edge of level 0 in units
+  int32_t finest_cell = 0;  ///< edge length of a cell of level 0, in units
 };
 
-/// Checks a region. Errors: invalid_argument if the levels or the cell are invalid, or the box is empty; range if
+/// Checks a region. Errors: invalid_argument if the levels or the cell size are invalid, or the box is empty; range if
 /// chunks leave the world; limit if there are more than 2^22 tiles.
 Result<void> check(const BakedRegion& region);
-/// Returns the region's tiles, sorted. Precondition of this and the next two functions: check accepts the region.
+/// Returns the region's tiles, sorted. Precondition of this and the next three functions: check() accepts the region.
 std::vector<TileKey> tilesOf(const BakedRegion& region);
 uint64_t countTiles(const BakedRegion& region);
 /// True if the chunk belongs to the region.
 bool holds(const BakedRegion& region, const ChunkKey& chunk);
-/// Returns the tile's chunks that belong to the region, as ascending numbers in the tile.
+/// Returns the indices within the tile, ascending, of its chunks that belong to the region.
 std::vector<size_t> chunksIn(const BakedRegion& region, const TileKey& tile);
 
 void putRegion(const BakedRegion& region, ByteWriter& out);

@@ -9,7 +9,7 @@
 namespace sgm::store {
 namespace {
 
-/// Calls f for every number of the sums, in a fixed order, to encode or decode them.
+/// Calls f for every number in `sums` in a fixed order, to encode or decode them.
 template <class Sums, class F>
 void forNumbers(Sums& sums, const F& f) {
   f(sums.bodies);

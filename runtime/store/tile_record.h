@@ -49,7 +49,8 @@ struct TileRecord {
   std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
   uint32_t chunks = 0;          ///< number of baked chunks
-  uint64_t unshared_bytes = 0;  ///< total size of all parts in bytes as stored, if identical contents were not shared
+  uint64_t unshared_bytes = 0;  ///< total stored size of all parts in bytes, if each part had its own copy of its
+                                ///< content
 
   /// Returns the content of a part; null if the part was not baked. chunk: index of the chunk in the tile.
   const StoredContent* contentOf(size_t chunk, int part) const {

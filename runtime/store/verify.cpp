@@ -19,7 +19,8 @@ std::string placeOf(const ChunkKey& chunk) {
          std::to_string(chunk.at.z) + ") of level " + std::to_string(chunk.level);
 }
 
-/// Returns the part that a content contains; nullopt if it contains several, or triangles of another part.
+/// Returns which part a decoded content contains: 0 for a body, 1 + Face for a seam. nullopt if it contains several
+/// parts.
 std::optional<int> partOf(const ChunkRecord& chunk) {
   std::optional<int> part = chunk.seams == 0 ? std::optional(0) : std::nullopt;
   for (int face = 0; face < 6; ++face) {
@@ -53,7 +54,8 @@ class Verifier {
 
  private:
   struct Looked {
-    std::optional<int> part;  ///< the part that the content contains; nullopt if the content is faulty
+    std::optional<int> part;  ///< the part that the content contains (0: body, 1 + Face: seam); nullopt if the content
+                              ///< is invalid
     BorderSums borders;
   };
   using Pack = std::shared_ptr<const OpenFile>;
@@ -86,7 +88,8 @@ class Verifier {
     }
   }
 
-  /// Opens a pack; null if it cannot be read. The first time, all of its bytes are compared with its name.
+  /// Opens a pack; null if it cannot be read or is damaged. The first time, compares the hash of its bytes with its
+  /// name.
   Pack open(const PackFile& pack) {
     const fs::path path = store_.pack(pack.name);
     const bool is_new = packs_.insert(pack.name).second;
@@ -110,8 +113,8 @@ class Verifier {
     return std::move(*file);
   }
 
-  /// Checks a content, and computes the borders of its part. A faulty content counts as having no triangles, so that
-  /// the borders next to it do not fit.
+  /// Checks the content of a chunk part, and computes the hashes of its borders. Invalid content is treated as a mesh
+  /// without triangles, so that the adjacent borders do not fit.
   Looked lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     known_.insert(content.id);
     const auto wrong = [&] {
@@ -123,7 +126,7 @@ class Verifier {
       const auto first = record.inlined.begin() + static_cast<ptrdiff_t>(content.offset);
       bytes.assign(first, first + static_cast<ptrdiff_t>(content.stored));
     } else {
-      if (packs[content.pack] == nullptr) return Looked{};  // the unreadable pack was already reported
+      if (packs[content.pack] == nullptr) return Looked{};  // the unreadable pack was already reported by open()
       const auto frame = packs[content.pack]->read(content.offset, content.stored);
       if (!frame) return wrong();
       std::optional<std::pmr::vector<std::byte>> unpacked = unpacker_.unpack(*frame, content.bytes, memory_);
@@ -148,8 +151,8 @@ class Verifier {
   Unpacker unpacker_;
   Verified found_;
   Closure closure_;
-  std::unordered_set<ContentId, IdHash> known_;  ///< contents that were checked
-  std::set<ContentId> packs_, damaged_;          ///< packs that were checked; packs that are damaged
+  std::unordered_set<ContentId, IdHash> known_;  ///< hashes of the contents that were checked
+  std::set<ContentId> packs_, damaged_;          ///< names of all packs that were checked, and of the damaged ones
 };
 
 }  // namespace
@@ -161,7 +164,8 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
   Compared compared;
   const std::pmr::vector<TileEntry>& tiles = world.index.tiles;
-  // Tiles of rock alone are selected by the random numbers, too, but only a few of them are compared.
+  // Tiles are selected at random. A tile without any surface is skipped, except in every 16th iteration, where one of
+  // its chunks is compared too.
   for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);
     const Result<TileRecord> record = world.record(tiles[random % tiles.size()], bakery.memory);

@@ -1,5 +1,5 @@
 #pragma once
-// Checks the content of a store, and removes files that no world needs.
+// Checks the content of a store, and removes files that no world of the store needs.
 
 #include <span>
 
@@ -21,13 +21,13 @@ struct Problems {
 
 struct Verified {
   uint64_t tiles = 0, chunks = 0, contents = 0, packs = 0, bytes = 0;
-  uint64_t borders = 0;  ///< number of borders with edges between chunks, or between levels, that were checked
+  uint64_t borders = 0;  ///< number of non-empty borders between chunks, or between levels, that were checked
   Problems problems;
 };
 
-/// Reads everything that a world needs, and checks it: records and packs are complete; each content exists, matches its
-/// id and can be decoded; bodies and seams fit at every common border, so that all frames that can be drawn are closed
-/// (closure.h). Throws std::bad_alloc.
+/// Checks everything that a world needs, by reading it: records and packs are complete; the content of each chunk part
+/// exists, matches its hash and can be decoded; bodies and seams fit at every common border, so that the surface is
+/// closed whichever chunks are drawn together (closure.h). Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
 struct Compared {
@@ -35,18 +35,18 @@ struct Compared {
   Problems problems;
 };
 
-/// Meshes `chunks` chunks of the world again and compares them with the stored ones. They are selected by `seed`,
-/// preferring chunks with triangles; fewer are compared if few have triangles. Errors: those of meshing; bad_input
-/// (verify reports details).
+/// Meshes `chunks` chunks of the world again, and compares them with the stored ones. The chunks are selected at random
+/// by `seed`, preferably ones with triangles; if only few have triangles, fewer chunks are compared. Errors: those of
+/// meshing; bad_input if the store is damaged (verify() reports details).
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
 
 struct Cleaned {
-  uint64_t packs = 0, bytes = 0;  ///< number and size of the removed packs
-  uint64_t unfinished = 0;        ///< number of bakes that are not merged yet; they are not removed
+  uint64_t packs = 0, bytes = 0;  ///< number and total size in bytes of the packs that were removed
+  uint64_t unfinished = 0;        ///< number of baking jobs that are not merged yet; their files are kept
 };
 
-/// Removes packs that no world of the store needs, and the rest of merged bakes. Errors: busy and unsupported as
-/// StoreLock; errors of reading an index, before anything is removed; io.
+/// Removes packs that no world of the store needs, and leftovers of baking jobs that were merged. Errors: those of
+/// StoreLock::take; errors of reading an index, before anything is removed; io.
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory,
                       std::chrono::milliseconds patience = StoreLock::kPatience);
 

@@ -31,7 +31,8 @@ struct WorldSummary {
   uint64_t tiles = 0, chunks = 0;
   uint64_t contents = 0;  ///< number of distinct contents of chunk parts, including inlined ones
   uint64_t packs = 0, pack_bytes = 0;
-  uint64_t unshared_bytes = 0;  ///< total size of all parts in bytes as stored, if identical contents were not shared
+  uint64_t unshared_bytes = 0;  ///< total stored size of all parts in bytes, if each part had its own copy of its
+                                ///< content
   measure::SurfaceSums measured;
 
   void add(const TileRecord& record);

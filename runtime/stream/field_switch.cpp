@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-/// Number of chunks that one job compares: it takes some milliseconds if none of their cells is cached.
+/// Number of chunks that one job compares. If none of their cells is cached, this takes some milliseconds.
 constexpr size_t kComparedAtOnce = 64;
 
 }  // namespace
@@ -75,7 +75,8 @@ bool FieldSwitch::compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldE
   } catch (const std::bad_alloc&) {
     change_ = nullptr;
     const std::lock_guard lock(mutex_);
-    // If another field was requested since, it is used instead, unless the world returns to an earlier field.
+    // Memory ran out, so the comparison restarts later with the same field, unless a newer field was requested. If the
+    // world was returning to an earlier field, it still does so before it uses any requested field.
     std::shared_ptr<const WorldField>& again = going_back_ ? back_ : next_;
     if (again == nullptr) again = to_;
     comparing_ = open_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Which surfaces of a world its engine has.
+// Keeps track of the surfaces that the engine has received.
 
 #include <memory>
 #include <unordered_map>
@@ -8,20 +8,20 @@
 
 namespace sgm {
 
-/// The surfaces that were passed to the engine and not removed since, by chunk. Not thread-safe.
+/// By chunk, the surfaces that were delivered to the engine and not removed since. Not thread-safe.
 class HandedSurfaces {
  public:
   void add(const DrawnChunk& chunk) { surfaces_[chunk.key] = chunk.surface; }
-  /// False if the engine has no surface of the chunk.
+  /// Removes the surface of a chunk. Returns false if the engine has none.
   bool remove(const ChunkKey& key) { return surfaces_.erase(key) > 0; }
 
-  /// True if the engine has the chunk's current surface.
+  /// True if the engine already has the surface of this drawn chunk.
   bool has(const DrawnChunk& chunk) const {
     const auto handed = surfaces_.find(chunk.key);
     return handed != surfaces_.end() && handed->second == chunk.surface;
   }
 
-  /// Returns the total size of the step's surfaces that were not passed to the engine yet.
+  /// Returns the total size in bytes of the step's surfaces that the engine does not have yet.
   size_t bytesLeft(const FrameStep& step) const {
     size_t bytes = 0;
     for (const FrameChange& change : step.changes) {

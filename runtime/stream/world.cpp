@@ -16,9 +16,9 @@ namespace sgm {
 namespace {
 
 constexpr size_t kHashedAtOnce = 256;
-/// The maximum number of failures reported in one update, for which memory is reserved.
+/// Maximum number of failed chunks that one update reports; memory is reserved for as many events.
 constexpr ptrdiff_t kFailedAtOnce = 64;
-/// waitIdle gives up after this number of successive checks without progress.
+/// waitIdle returns an error after this number of successive checks without progress.
 constexpr int kLooksInVain = 2000;
 constexpr auto kBetweenLooks = std::chrono::milliseconds(2);
 
@@ -43,10 +43,10 @@ class TimedCall {
 
 uint64_t randomAuthor() {
   std::random_device device;
-  return (uint64_t{device()} << 32 | device()) | 1;  // never 0, which means "none"
+  return (uint64_t{device()} << 32 | device()) | 1;  // a random number that is never 0, because author 0 means "none"
 }
 
-/// Creates the threads that wait for servers. If none can be started, only nearby stores are used.
+/// Creates the threads that prefetch chunks from servers. If no thread can be started, servers are not used.
 std::unique_ptr<JobSystem> makePrefetchers(const Profiler& profiler, const WorldSettings& settings) {
   Result<std::unique_ptr<JobSystem>> prefetchers = makeThreadPool(WorldCore::kPrefetchers + 1, profiler, "sgm store");
   if (prefetchers) return std::move(*prefetchers);
@@ -156,9 +156,9 @@ void World::advance(size_t bytes, size_t colliders) {
     tellColliders(colliders);
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
-  // If the engine can draw the staged step sooner than a better one, the staged step stays. Otherwise, if meshing is
-  // faster than passing surfaces, steps would grow, and none would ever complete. But edits must be in the next frame
-  // or the one after it.
+  // If the engine can draw the step that it has begun to receive sooner than the new one, it keeps the begun step.
+  // Otherwise, if meshing is faster than delivering surfaces, steps would grow, and none would ever complete. A step
+  // with newer edits is never postponed, because edits must appear within two frames of changes.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
       staged_->to->edits == step->to->edits && handed_.bytesLeft(*staged_) <= handed_.bytesLeft(*step)) {
     step = staged_;
@@ -174,13 +174,14 @@ void World::advance(size_t bytes, size_t colliders) {
   } else {
     core_->scheduleOverdue();
   }
-  // Called even if this world's own plan waits: the elapsed time may suffice for its turn now (plan_turns.h).
+  // Called even if this world needs no plan, because enough time may have elapsed for the turn of a waiting world
+  // (plan_turns.h).
   core_->startDuePlans();
   core_->scheduleFieldSwitch();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
-  // Surfaces that were passed for an abandoned step are removed, unless this frame contains them, too.
+  // Surfaces that were delivered for an abandoned step are removed, unless the new frame contains them too.
   std::unordered_set<ChunkKey, ChunkKeyHash> drawn;
   for (const DrawnChunk& chunk : frame.drawn) drawn.insert(chunk.key);
   if (staged_ != nullptr) {
@@ -196,7 +197,7 @@ void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFra
 }
 
 bool World::handOver(const FrameStep& step) {
-  // reserved first: surfaces that count as passed must be reported
+  // memory is reserved first, because the event of a delivered surface must not be lost
   events_.reserve(events_.size() + step.changes.size() - staged_changes_);
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
@@ -226,7 +227,7 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step) {
     }
     return WorldEvent::Kind::removed;
   };
-  // All changes are emitted or none: after this reservation, nothing can fail.
+  // Memory for all events is reserved first, so that either all changes of a step are reported or none.
   events_.reserve(events_.size() + step->changes.size());
   for (const FrameChange& change : step->changes) {
     if (change.kind == FrameChange::Kind::removed) handed_.remove(change.chunk.key);
@@ -272,7 +273,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
     const uint64_t plans = core_->plans;
-    // If no work is running, a plan becomes due only by elapsed time.
+    // Limits the wait: if no job is running, a plan becomes due only when time elapses.
     const auto look_again = std::chrono::steady_clock::now() + kBetweenLooks;
     helpUntil(jobs_, lock, core_->changed, [&] {
       return core_->plans != plans || core_->settled() || std::chrono::steady_clock::now() >= look_again;
@@ -290,11 +291,11 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 }
 
 void World::cancel() {
-  std::vector<WorkItem> dropped;  // destroyed after the mutex is released
+  std::vector<WorkItem> dropped;  // declared before the lock, so that it is destroyed after the mutex is released
   const std::lock_guard lock(core_->mutex);
   core_->queue.replace(dropped, true, std::chrono::steady_clock::now());
   ++core_->generation;
-  ++core_->viewers_set;  // forces a new plan
+  ++core_->viewers_set;  // makes the next update plan again
 }
 
 Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
@@ -324,7 +325,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
       add(surface->mesh.ranges[0].hash, surface->grid);
     }
   }
-  // Processes a limited number of chunks at a time, since only the hash of each mesh is stored.
+  // Meshes kHashedAtOnce chunks at a time, to limit memory: only the hash of each mesh is kept.
   for (size_t first = 0; first < rest.size(); first += kHashedAtOnce) {
     const auto some = std::span(rest).subspan(first, std::min(kHashedAtOnce, rest.size() - first));
     const Result<std::pmr::vector<PlacedChunk>> chunks =

@@ -1,14 +1,15 @@
 #pragma once
-// A streamed world: jobs mesh it around its viewers, and an engine receives it frame by frame.
+// A streamed world: jobs mesh chunks around its viewers, and an engine receives them frame by frame.
 //
 //   engine's thread            jobs
 //   setViewers, update  --->   plan (planner.h): which chunks to mesh, and the next frame
 //   edit, setField      --->   mesh (mesh_chunks.h): each job meshes a request or a device batch, urgent ones first
 //   poll events         <---   write the journal of edits
 //
-// If a store is on a server, the world's own threads search it for chunks before a job takes the request
-// (work_queue.h). All sides communicate through a mailbox (world_core.h) whose mutex is held for short work only.
-// update() waits for nothing else, so the engine never waits for a job or a device.
+// If a store is on a server, threads of the world prefetch chunks from it before jobs mesh them (work_queue.h).
+//
+// Engine and jobs exchange data through a shared structure (world_core.h), whose mutex is held only briefly. update()
+// waits for nothing else, so the engine never waits for a job or a device.
 
 #include <memory>
 #include <mutex>
@@ -33,17 +34,17 @@
 
 namespace sgm {
 
-/// An event for the engine; events must be processed in order. Between two updates, either all changes of a frame
-/// arrive or none.
+/// An event for the engine; events must be processed in order. Between two updates, either all changes of a frame are
+/// delivered or none.
 struct WorldEvent {
   enum class Kind {
-    ready,     ///< upload this surface; it is not drawn yet
-    shown,     ///< draw the chunk's last ready surface from now on
-    replaced,  ///< draw the chunk's last ready surface instead of the previous one
-    seams,     ///< draw other seams of the same surface, or the same seams with other coarser neighbours
+    ready,     ///< upload this surface, but do not draw it yet
+    shown,     ///< start to draw the chunk, with its last ready surface
+    replaced,  ///< draw the chunk's last ready surface instead of its previous one
+    seams,     ///< draw other seams of the same surface; or only `coarser` (below) has changed
     /// stop drawing the chunk, and release its surface; also sent for a surface that was ready but never shown
     removed,
-    failed,            ///< the chunk cannot be made: the coarser chunk stays
+    failed,            ///< the chunk cannot be made: a coarser chunk stays in its place
     collider,          ///< use this collider instead of the chunk's previous one
     collider_removed,  ///< the chunk no longer has a collider
   };
@@ -51,7 +52,8 @@ struct WorldEvent {
   ChunkKey key;
   std::shared_ptr<const ChunkSurface> surface;  ///< the surface to upload; set only for `ready`
   uint8_t seams = 0;                            ///< mask of the drawn seams: bit (1 << Face)
-  Neighbourhood coarser = 0;                    ///< same as DrawnChunk::coarser
+  Neighbourhood coarser = 0;                    ///< blocks around the chunk that belong to coarser chunks
+                                                ///< (DrawnChunk::coarser)
   /// number of the frame that contains the change; 0 for ready and failed
   uint64_t frame = 0;
   std::optional<Error> error;                  ///< the reason; set only for `failed`
@@ -60,36 +62,38 @@ struct WorldEvent {
 
 struct WorldStats {
   PlannerStats planner;
-  size_t queued = 0, in_work = 0;  ///< number of requests that wait, and that are being meshed
-  size_t stale = 0;                ///< number of these that were planned for previous viewers
+  size_t queued = 0, in_work = 0;  ///< numbers of requests that wait, and that are in progress
+  size_t stale = 0;                ///< number of waiting or running requests that were planned for previous viewers
   uint64_t frame = 0;              ///< number of the drawn frame
   uint64_t plans = 0;
-  uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of the current and of the drawn state
-  FieldSwitch::Turn fields;             ///< numbers of setField() calls (FieldSwitch::Turn)
+  uint64_t edits = 0, edits_drawn = 0;  ///< numbers (WorldState::number) of the current and of the drawn state
+  FieldSwitch::Turn fields;             ///< numbers of the setField() calls: the last one, and the one whose field is
+                                        ///< drawn
   DiskCacheStats cache;
   BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
-  bool idle = false;  ///< true if all that the viewers need is drawn
+  bool idle = false;  ///< true if everything that the viewers need is drawn
 };
 
 class WorldCore;
 
 inline constexpr size_t kMaxViewers = 256;
 
-/// Thread-safe, except that calls of update, poll and waitIdle must not run concurrently.
+/// A world that is streamed to one engine. Thread-safe, except that calls of update, poll and waitIdle must not run
+/// concurrently.
 class World {
  public:
   /// Creates a world, and reads the journal if the settings name one. backend, jobs and memory must outlive the world;
-  /// surfaces may outlive the world, but not memory. turns: shared by all worlds on these jobs; null: this is the only
-  /// world. Errors: invalid_argument; limit (mesh_bytes is too small, or the distances are too large: the message gives
-  /// values that work); those of WorldEdits::open.
+  /// memory must also outlive the surfaces, which may outlive the world. turns: shared by all worlds on these jobs;
+  /// null: this is the only world. Errors: invalid_argument; limit (mesh_bytes is too small, or the distances are too
+  /// large: the message suggests values); those of WorldEdits::open.
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
                                                std::pmr::memory_resource* memory,
                                                std::shared_ptr<PlanTurns> turns = nullptr);
-  /// Waits for jobs that have begun, and up to about a second for a pending request to a server. Jobs that the job
-  /// system runs later do nothing.
+  /// Waits for running jobs, and up to about a second for a pending request to a server. Jobs that the job system
+  /// starts later do nothing.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -98,37 +102,39 @@ class World {
   /// Errors: those of checkViewer; limit (more than kMaxViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
-  /// Takes over finished work, and starts new work: emits events for at most `bytes` of new surfaces and max_colliders
-  /// (settings) colliders. A larger surface is passed as the first one of an update; later updates pass less, so that
-  /// any successive updates pass at most their bytes plus one surface (byte_credit.h). Never waits. If events of the
-  /// previous update were not polled, returns false and only schedules a write of the journal.
+  /// Collects finished work, and starts new work. Emits events for at most `bytes` bytes of new surfaces, and for at
+  /// most max_colliders (settings) colliders. A larger surface is delivered as the first one of an update; later
+  /// updates deliver less, so that any series of updates delivers at most the sum of their bytes plus one surface
+  /// (byte_credit.h). Never waits. If events of the previous update were not all polled, returns false and only
+  /// schedules a write of the journal.
   bool update(size_t bytes);
 
-  /// Passes the next events to `take`, in order, until it returns false or no event is left. An event for which `take`
-  /// returned false or threw an exception is passed again first by the next call.
+  /// Calls `take` with the next events, in order, until it returns false or no event is left. If `take` returns false
+  /// or throws for an event, the next call starts with this event.
   void poll(const std::function<bool(const WorldEvent&)>& take);
 
-  /// Returns the frame that the last successful step of an update drew.
+  /// Returns the frame that the engine draws since the last completed step.
   std::shared_ptr<const DrawnFrame> drawn() const;
 
-  /// Updates without a byte limit until all that the viewers need is drawn; the calling thread helps with the work.
-  /// Events accumulate meanwhile, so poll before. `more` is called now and then; returning false cancels. Errors:
-  /// cancelled; limit (not enough memory).
+  /// Updates without a byte limit until everything that the viewers need is drawn; the calling thread helps with the
+  /// work. Events accumulate in the meantime, so poll all events before. `more` is called from time to time; if it
+  /// returns false, the wait is cancelled. Errors: cancelled; limit (not enough memory).
   Result<void> waitIdle(const std::function<bool()>& more = {});
 
-  /// Replaces the world's field: other parameters, an edited grammar, or other host fields. The chunks that the
-  /// difference affects (field_change.h) are meshed again and replaced in one frame; the others keep their meshes.
-  /// Without viewers the switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the
+  /// Replaces the world's field by a field with other parameters, an edited grammar, or other host fields. The chunks
+  /// that the difference affects (field_change.h) are meshed again and replaced in one frame; the others keep their
+  /// meshes. Without viewers the switch waits. If a chunk cannot be made (WorldEvent::failed), the world returns to the
   /// previous field. If fields arrive faster than they can be drawn, only the last one is used. Edits stay, with the
   /// numbers of their materials and tags. Never waits. On error nothing changes. Errors: invalid_argument (another
-  /// finest cell, or anything that create() rejects).
+  /// finest cell size, or anything that create() rejects).
   Result<void> setField(std::shared_ptr<const WorldField> field);
 
-  /// Drops all requests, and the results of those in work. The next update plans again for the current viewers.
+  /// Discards all waiting requests, and the results of those in progress. The next update plans again for the current
+  /// viewers.
   void cancel();
 
-  /// Adds a brush, undoes an edit (same as EditLog), or imports the edits of another world. At the latest the second
-  /// frame of changes afterwards shows the result. These functions never wait for a job or the disk.
+  /// Functions for edits: add a brush, undo an edit (as in EditLog), import the edits of another world. The result
+  /// appears at the latest in the second frame of changes afterwards. These functions never wait for a job or the disk.
   Result<EditId> edit(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> importEdits(std::span<const std::byte> bytes);
@@ -140,14 +146,14 @@ class World {
   /// Blocks until all edits so far are on disk. Errors: io.
   Result<void> flushEdits();
 
-  /// Returns the field from which chunks are meshed now. A newer field may be about to replace it.
+  /// Returns the field from which chunks are meshed now. A newer field may be waiting to replace it.
   std::shared_ptr<const WorldField> field() const;
   /// Returns the current field with the current edits, for queries at a level. The result must not outlive the world's
   /// memory resource.
   QueryField queryField(int level = 0) const;
 
-  /// Returns the hash of the set of bodies (hashParts) of those chunks of a level that meet lo <= p < hi. Meshes chunks
-  /// that are not drawn. Errors: those of chunksOfRegion and meshChunks.
+  /// Returns the hash of the set of chunk bodies (hashParts) of a level that intersect the region lo <= p < hi. Meshes
+  /// chunks that are not drawn. Errors: those of chunksOfRegion and meshChunks.
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
@@ -164,25 +170,26 @@ class World {
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes, size_t colliders);
-  /// Emits the next changes of colliders as events. Precondition: the core's mutex is held.
+  /// Emits the pending changes of colliders as events, with at most `most` new colliders. Precondition: the caller
+  /// holds the core's mutex.
   void tellColliders(size_t most);
-  /// Emits removal of surfaces that were passed for the staged step, but are not part of the new frame; then stages
-  /// `step`.
+  /// Abandons the staged step, if any: emits removal of surfaces that were delivered for it and are not part of
+  /// `frame`. Then stages `step` instead.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
-  /// Passes surfaces of the step to the engine while the byte credit allows. Returns true if all have been passed.
+  /// Delivers surfaces of the step to the engine, as far as the byte credit allows. Returns true if all were delivered.
   bool handOver(const FrameStep& step);
-  /// Passes surfaces of a step and, once all were passed, its changes; then returns true.
+  /// Delivers surfaces of a step. When all were delivered, emits the changes of the step, and returns true.
   bool stage(const std::shared_ptr<const FrameStep>& step);
 
   std::unique_ptr<WorldCore> core_;
   JobSystem& jobs_;
-  // The following members are used on the engine's side and guarded by front_.
+  // Guards the members below, which are used on the engine's thread.
   mutable std::mutex front_;
   std::vector<WorldEvent> events_;
   size_t polled_ = 0;
   ByteCredit credit_;
   std::shared_ptr<const FrameStep> staged_;
-  size_t staged_changes_ = 0;  ///< number of changes of staged_ whose surfaces have been passed to the engine
+  size_t staged_changes_ = 0;  ///< number of changes of staged_ whose surfaces were already delivered
   HandedSurfaces handed_;
 };
 

@@ -32,8 +32,8 @@ Result<void> checkLod(const LodSettings& lod) {
                                                 " needs too many chunks of level 0: lower it, or use larger cells"};
 }
 
-/// Checks the host fields. The disk cache and stores distinguish fields by identity, so they require one of each host
-/// field.
+/// Checks the host fields. With a disk cache, stores or a journal, each host field needs an identity, because data on
+/// disk is identified by it.
 Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
   if (settings.journal.empty() && settings.cache.empty() && settings.baked == nullptr) return {};
   for (const HostField& host : field.settings().hosts) {

@@ -1,5 +1,5 @@
 #pragma once
-// Checks whether a world can be streamed with its settings.
+// Checks whether the settings of a world allow to stream it.
 
 #include <cstddef>
 
@@ -9,12 +9,12 @@
 
 namespace sgm {
 
-/// Checks a new world. threads: number of threads that mesh it. Errors: invalid_argument; limit (mesh_bytes is too
-/// small, or the distances are too large: the message gives values that work).
+/// Checks the settings of a new world. threads: number of threads that mesh it. Errors: invalid_argument; limit
+/// (mesh_bytes is too small, or the distances are too large: the message suggests values).
 Result<void> checkWorld(const WorldField& field, const WorldSettings& settings, size_t threads);
 
-/// Checks whether a field may replace a world's current one. Errors: invalid_argument (another finest cell, or host
-/// fields that checkWorld() rejects); unsupported (a field without a grammar).
+/// Checks whether a field may replace the current field of a world. Errors: invalid_argument (another finest cell size,
+/// or host fields that checkWorld() rejects); unsupported (a field without a grammar).
 Result<void> checkSuccessor(const WorldField& next, const WorldField& current, const WorldSettings& settings);
 
 }  // namespace sgm

@@ -10,10 +10,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2;
-/// A plan makes the colliders for this many updates.
+/// A planning job makes at most as many colliders as this number of updates can deliver.
 constexpr size_t kUpdatesOfColliders = 4;
-/// The interval between writes of the journal: so that, including the time of the disk, at most a second's edits are
-/// lost.
+/// The interval between writes of the journal. It is so short that, including the time of the disk, a crash loses at
+/// most the edits of the last second.
 constexpr auto kBetweenFlushes = 250ms;
 
 PlannerSettings plannerSettings(const WorldSettings& settings) {
@@ -70,7 +70,7 @@ void WorldCore::stop() noexcept {
     helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
   }
   surfaces_->close();
-  flush_failed_ = false;  // this is the last write: report a failure again
+  flush_failed_ = false;  // this is the last write, so a failure is reported even if an earlier one was
   flushOnce();
 }
 
@@ -79,7 +79,7 @@ void WorldCore::warn(const char* message) const noexcept {
   try {
     settings.on_warning(message);
   } catch (const std::bad_alloc&) {
-    // A job must not throw; the message is dropped if there is no memory for it.
+    // A job must not throw, so the warning is lost if there is no memory for it.
   }
 }
 
@@ -149,7 +149,8 @@ void WorldCore::flushOnce() {
     first = !flushed && !flush_failed_;
     flush_failed_ = !flushed;
   }
-  // The write is repeated after the next edits, and at the end of the world; a repeated failure is not reported.
+  // Only the first of successive failures is reported. The write is repeated after the next edits, and when the world
+  // is destroyed.
   if (!first) return;
   const Error& why = flushed.error();
   warn(why.code == Code::out_of_memory ? "out of memory while writing the edit journal" : why.message.c_str());
@@ -163,7 +164,7 @@ void WorldCore::scheduleFieldSwitch() {
     progress = {edits_drawn, planner_stats.edits_failed, !viewers.empty(), applied > 0, idle_};
   }
   if (!fields.begin(progress) || submit(run<&WorldCore::compareOnce>, kComparePriority)) return;
-  fields.giveUp();  // the next update tries again
+  fields.giveUp();  // the job could not be submitted; the next update tries again
 }
 
 void WorldCore::compareOnce() {
@@ -174,7 +175,9 @@ void WorldCore::compareOnce() {
     at_once = isResubmitting();
     frame = drawn;
   }
-  if (at_once) return fields.giveUp();  // the job system runs jobs inside submit(); the next update continues
+  if (at_once)
+    return fields.giveUp();  // the job system runs jobs inside submit(), so the work is left to the next
+                             // update
   try {
     const ProfileScope scope(profiler, zone::kDerive);
     if (fields.compare(frame, edits, jobs)) return resubmit([this] { scheduleFieldSwitch(); });
@@ -206,7 +209,7 @@ void WorldCore::beginPlan(const std::shared_ptr<void>& owner) noexcept {
   if (!core.submit(run<&WorldCore::planOnce>, kPlanPriority)) {
     core.turns_->endPlan(core.turn_, 0);
     const std::lock_guard lock(core.mutex);
-    core.planning_ = false;  // the next update tries again
+    core.planning_ = false;  // the job could not be submitted; the next update tries again
   }
   gate.leave();
 }
@@ -236,15 +239,15 @@ bool WorldCore::planIsDue() const {
   const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
                     planning_with_.applied != applied || !finished_.empty() ||
                     (!colliders_done_ && collider_changes.empty());
-  // There is nothing to draw if memory is exhausted, or if the plan was made between two states of edits of which one
-  // changed nothing.
+  // No step is offered, or the offered step does not start from the drawn frame. This happens if memory is exhausted,
+  // or if one of two states of edits changed nothing.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || news;
 }
 
 void WorldCore::resetPlanner() {
-  std::vector<WorkItem> dropped;  // destroyed after the mutex is released
+  std::vector<WorkItem> dropped;  // declared before the lock, so that it is destroyed after the mutex is released
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   queue.replace(dropped, true, Clock::now());
@@ -258,7 +261,8 @@ bool WorldCore::makePlan() {
     const ProfileScope scope(profiler, zone::kPlan);
     if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
     Plan plan = planner_.plan(planInput());
-    // The engine may take a step that was offered before a restart; the planner no longer knows that frame.
+    // The engine may have taken a step that was offered before the planner restarted; the planner does not know its
+    // frame, so it restarts again.
     if (planner_.applied().number != planning_with_.applied) {
       resetPlanner();
       return false;
@@ -267,7 +271,7 @@ bool WorldCore::makePlan() {
     publish(std::move(plan));
     return true;
   } catch (const std::bad_alloc&) {
-    // The planner's data is inconsistent now. It restarts from the drawn frame at the next update.
+    // After std::bad_alloc the planner's data is inconsistent. It restarts from the drawn frame at the next update.
     reportOutOfMemory();
     resetPlanner();
     return false;
@@ -292,7 +296,8 @@ void WorldCore::planOnce() {
     }
     seconds += secondsSince(begun_at);
   }
-  turns_->endPlan(turn_, seconds);  // called before another plan may be requested
+  turns_->endPlan(turn_, seconds);  // called before another plan may be requested, which requires that this one has
+                                    // ended
   bool again;
   {
     const std::lock_guard lock(mutex);
@@ -308,11 +313,11 @@ void WorldCore::makeColliders() {
   std::vector<Viewer> around;
   {
     const std::lock_guard lock(mutex);
-    if (!collider_changes.empty()) return;  // earlier changes were not reported yet
+    if (!collider_changes.empty()) return;  // earlier changes are not delivered yet
     frame = drawn;
     around = viewers;
   }
-  // Without viewers, colliders do not change.
+  // The memory that is left limits the number of new colliders. Without viewers, colliders do not change.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
   const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
   const size_t most = std::min(room, kUpdatesOfColliders * settings.max_colliders);
@@ -328,12 +333,13 @@ void WorldCore::makeColliders() {
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
   const std::lock_guard lock(mutex);
-  // From now on, a job may request another restart.
+  // Resets the flag: from now on, a job may request another restart.
   return std::exchange(planner_lost_, false) ? drawn : nullptr;
 }
 
 void WorldCore::publish(Plan&& plan) {
-  // The queue is long, and the engine may wait for the mutex: most of the begun requests are removed without it.
+  // The queue is long, and the engine may wait for the mutex: so most of the requests that have begun in the meantime
+  // are removed before the mutex is locked.
   std::vector<ChunkKey> begun;
   {
     const std::lock_guard lock(mutex);
@@ -348,7 +354,7 @@ void WorldCore::publish(Plan&& plan) {
   const std::lock_guard lock(mutex);
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
-  // The previous queue is swapped into the plan, and destroyed without the mutex.
+  // swap() moves the previous queue into `plan`, so that it is destroyed after the mutex is released.
   queue.replace(plan.queue, mayPrefetch(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);

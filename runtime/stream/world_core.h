@@ -1,11 +1,13 @@
 #pragma once
-// The part of a streamed world that the world shares with its jobs (world.h): a mailbox behind one mutex, a planning
-// job, and meshing jobs. If chunks may come from a server, threads of the world (lookers) fetch them, so that no job
-// waits for a server.
+// The part of a streamed world that its jobs share with the engine's thread (world.h): data behind one mutex, a
+// planning job, and meshing jobs. If chunks may come from a server, prefetching threads of the world load them, so that
+// no job waits for a server.
 //
-// Jobs may start late, so they own only a gate, which closes when the world is destroyed. No job takes longer than one
-// plan, one chunk or one device batch, so that the engine's own jobs are not delayed. world_core.cpp contains planning
-// and occasional work, world_meshing.cpp meshing and prefetching.
+// A job system may run a job late, after the world is destroyed. So jobs own only a gate, which is closed when the
+// world is destroyed. No job takes longer than one plan, one chunk or one device batch, so that the engine's own jobs
+// are not delayed.
+//
+// world_core.cpp contains planning and occasional work, world_meshing.cpp meshing and prefetching.
 
 #include <algorithm>
 #include <array>
@@ -32,8 +34,9 @@
 
 namespace sgm {
 
-/// Returns the maximum size of a chunk in bytes: every cell is cut in the worst way, and there are six seams. Texture
-/// coordinates double it, as do sharp features in every second cell; a chunk with more features fails.
+/// Returns the maximum size of a chunk's surface in bytes, if all cells have the largest number of triangles and there
+/// are six seams. Texture coordinates double it, as do sharp features in every second cell; a chunk with more features
+/// fails.
 inline size_t largestChunk(const WorldSettings& settings) {
   return size_t{5} << (20 + (settings.texture ? 1 : 0) + (settings.sharp ? 1 : 0));
 }
@@ -42,8 +45,8 @@ class WorldCore {
  public:
   static constexpr unsigned kPrefetchers = 4;
 
-  /// lookers: threads that may wait for a server; null: all stores are nearby. turns: shared by all worlds on these
-  /// jobs.
+  /// prefetchers: threads that may wait for a server; null: all stores are on this machine. turns: shared by all worlds
+  /// on these jobs.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
             std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> prefetchers,
             std::pmr::memory_resource* memory);
@@ -51,191 +54,200 @@ class WorldCore {
   WorldCore(const WorldCore&) = delete;
   WorldCore& operator=(const WorldCore&) = delete;
 
-  /// Schedules planning at the world's turn (plan_turns.h). If a plan is running, another one follows.
+  /// Requests a plan, which begins when it is the world's turn (plan_turns.h). If a plan is already running, another
+  /// one follows.
   void schedulePlanner();
-  /// True if a plan would have new input.
+  /// True if there is new input for a plan.
   bool planIsDue() const;
-  /// Begins plans of any world whose turn has come.
+  /// Begins the plans of all worlds whose turn has come.
   void startDuePlans() { turns_->startDue(); }
-  /// Schedules a write of the journal, unless the last one was less than kBetweenFlushes ago.
+  /// Submits a job that writes the journal, unless the last write was less than kBetweenFlushes ago.
   void scheduleJournal();
-  /// Schedules the switch to the next requested field, if its turn has come.
+  /// Submits a job for the switch to the next requested field, if its turn has come.
   void scheduleFieldSwitch();
-  /// Schedules meshing of requests that have waited too long for their prefetch.
+  /// Submits meshing jobs for requests that have waited too long for their prefetch.
   void scheduleOverdue();
-  /// Waits for running jobs, after which no job accesses the core. Writes the journal. Call once, before destruction.
+  /// Closes the gate, and waits for running jobs; afterwards no job accesses the core. Then writes the journal. Call it
+  /// once, before destruction.
   void stop() noexcept;
 
-  /// True if all that the current viewers need is drawn, including edits. Precondition: the mutex is held.
+  /// True if everything that the current viewers need is drawn, including edits. Precondition: the caller holds the
+  /// mutex.
   bool settled() const;
-  /// True if a plan or a chunk is being made. Precondition: the mutex is held.
+  /// True if a plan or a chunk is in progress. Precondition: the caller holds the mutex.
   bool atWork() const { return planning_ || mesh_jobs > 0 || isLooking(); }
-  /// True if all planned requests are being prefetched or wait for a prefetch. Precondition: the mutex is held.
+  /// True if all planned requests are being prefetched or wait for a prefetch. Precondition: the caller holds the
+  /// mutex.
   bool isLooking() const;
 
-  const Profiler profiler;  ///< the profiler of the world's first field
+  const Profiler profiler;  ///< profiler of the world's first field
   Backend& backend;
   JobSystem& jobs;
   const WorldSettings settings;
   WorldEdits edits;
   FieldSwitch fields;
-  std::unique_ptr<DiskCache> cache;  ///< null: no cache; set before the first job starts
+  std::unique_ptr<DiskCache> cache;  ///< disk cache, set before the first job starts; null: none
 
-  mutable std::mutex mutex;  ///< guards the following members; held for short work only
+  mutable std::mutex mutex;  ///< guards the members below; held only briefly
   std::condition_variable changed;
   std::vector<Viewer> viewers;
-  uint64_t viewers_set = 0;  ///< number of changes of the viewers
+  uint64_t viewers_set = 0;  ///< number of times that the viewers were set
   WorkQueue queue;
   std::vector<FailedChunk> failed;
-  std::vector<ColliderChange> collider_changes;  ///< in the order in which they must be reported
+  std::vector<ColliderChange> collider_changes;  ///< pending collider changes, in the order in which they must be
+                                                 ///< delivered
   std::shared_ptr<const FrameStep> step;
-  std::array<uint64_t, 2> in_hand{};  ///< same as PlanInput::in_hand
+  std::array<uint64_t, 2> in_hand{};  ///< numbers of frames that the engine may still draw (PlanInput::in_hand)
   uint64_t applied = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame with the number `applied`
-  uint64_t edits_drawn = 0;                 ///< number of the state that `drawn` shows
-  /// number of the current generation of requests; results of earlier generations are dropped
+  uint64_t edits_drawn = 0;                 ///< number of the world state that `drawn` shows
+  /// number that identifies the current queue of requests; cancel() increases it, and results with an older number are
+  /// dropped
   uint64_t generation = 0;
   uint64_t plans = 0;
-  size_t mesh_jobs = 0;           ///< number of mesh jobs submitted or running
-  bool is_out_of_memory = false;  ///< true if memory ran out, and no chunk could be made since
+  size_t mesh_jobs = 0;           ///< number of mesh jobs that are submitted or running
+  bool is_out_of_memory = false;  ///< true if memory ran out, and no chunk was meshed since
   PlannerStats planner_stats;
-  MadeMeasures made;  ///< measures of finished work, if the settings request them
+  MadeMeasures made;  ///< sums of the measures of finished work, if the settings request them
   WorldTimes times;
   size_t collider_bytes = 0;
 
   struct Work {
     size_t queued = 0, in_work = 0;
-    size_t stale = 0;  ///< number of these that were planned for previous viewers
+    size_t stale = 0;  ///< number of queued and running requests that were planned for previous viewers
   };
-  /// Returns the amount of work. Precondition: the mutex is held.
+  /// Returns the current amount of work. Precondition: the caller holds the mutex.
   Work work() const;
-  /// Adds the time until now to times.clock_seconds and times.job_seconds. Precondition: the mutex is held.
+  /// Adds the time until now to times.clock_seconds and times.job_seconds. Precondition: the caller holds the mutex.
   void countWork();
   const SurfacePool& surfaces() const { return *surfaces_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Short enough that a std::string needs no allocation for it.
+  /// An error message that is short enough for a std::string without allocation.
   static constexpr const char* kOutOfMemory = "out of memory";
 
-  /// The maximum number of mesh jobs. A device that meshes batches needs few: one job prepares its chunks, one finishes
-  /// them.
+  /// Maximum number of mesh jobs. A device that meshes batches needs only a few, so that one job prepares a batch while
+  /// another finishes one.
   size_t maxMeshJobs() const {
     const size_t most = std::max(1u, jobs.concurrency() - 1);
     return backend.batch() > 1 ? std::min<size_t>(most, 3) : most;
   }
-  /// Returns the bytes of the limit that are neither used nor reserved by jobs.
+  /// Returns the number of bytes below mesh_bytes that are neither used nor reserved by jobs.
   size_t room() const {
     const size_t used = surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + reserved_;
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
-  /// True if more requests may be prefetched: not while too little memory is free for one chunk, regardless of
-  /// reservations.
+  /// True if more requests may be prefetched: there must be memory for one chunk, regardless of the bytes that jobs
+  /// have reserved.
   bool mayPrefetch() const {
     return !is_out_of_memory && settings.mesh_bytes >= surfaces_->bytes() + planner_stats.record_bytes +
                                                            collider_bytes + largestChunk(settings);
   }
-  /// True if jobs could mesh requests that have waited too long for their prefetch.
+  /// True if there are requests that have waited too long for their prefetch, and jobs may mesh them now.
   bool isOverdue() const;
 
-  /// The object that jobs own instead of the core.
+  /// The object that jobs own instead of the core. It tells whether the core still exists.
   struct JobGate {
     explicit JobGate(WorldCore& core_in) : core(core_in) {}
-    /// Delays the end of the core until leave(). Returns false if the core has ended.
+    /// Keeps the core alive until leave() is called. Returns false if the core is already closed.
     bool enter() noexcept;
     void leave() noexcept;
 
     WorldCore& core;
-    std::mutex mutex;  ///< guards the following members
+    std::mutex mutex;  ///< guards the members below
     std::condition_variable ended;
-    bool closed = false;  ///< true if the core has ended or is about to
-    size_t running = 0;   ///< number of running jobs
+    bool closed = false;  ///< true if the core is destroyed or is being destroyed
+    size_t running = 0;   ///< number of running jobs of the core
   };
 
-  /// Submits a job. Returns false if memory runs out.
+  /// Submits a job. Returns false if there is no memory for it.
   bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
   bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
-  /// Called when it is the world's turn to plan. owner: the world's gate.
+  /// Submits the planning job; called when it is the world's turn to plan. owner: the world's gate.
   static void beginPlan(const std::shared_ptr<void>& owner) noexcept;
-  /// Precondition: the mutex is held.
+  /// Sets the number of mesh jobs. Precondition: the caller holds the mutex.
   void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
   void scheduleMeshing();
-  /// Starts lookers if fewer are running than there are requests to prefetch.
+  /// Starts prefetching threads, if fewer are running than there are requests to prefetch.
   void schedulePrefetch();
   PlanInput planInput();
   void publish(Plan&& plan);
   void resetPlanner();
-  /// Returns the frame from which the planner must restart; null if it need not.
+  /// Returns the frame from which the planner must restart; null if no restart is needed.
   std::shared_ptr<const DrawnFrame> frameToRestartFrom();
-  /// Makes and publishes a plan. Returns false if memory ran out.
+  /// Makes a plan and publishes it. Returns false if the planner must restart, for example because memory ran out.
   bool makePlan();
   void planOnce();
   void makeColliders();
-  /// The work of a looker: prefetches requests as long as there are any.
+  /// The loop of a prefetching thread: prefetches requests as long as there are any.
   void prefetch();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
   void meshAgain();
-  /// Ends a mesh job that submits no successor.
+  /// Ends a mesh job that does not submit another one.
   void endMeshJob();
-  /// Calls `job`, which submits another job of the same kind. Some job systems run a submitted job at once, inside the
-  /// call: then isResubmitting() is true in it and it does nothing, so that no call does more than one job's work. Does
-  /// nothing if memory runs out.
+  /// Calls `job`, which submits another job of the same kind. Some job systems run a submitted job immediately, inside
+  /// submit(); then isResubmitting() is true in that job and it does nothing, so that the nesting depth stays limited.
+  /// Does nothing if memory runs out.
   template <class Submit>
   void resubmit(const Submit& job);
-  /// True if this thread is inside resubmit(). Precondition: the mutex is held.
+  /// True if this thread is inside resubmit(). Precondition: the caller holds the mutex.
   bool isResubmitting() const;
-  /// Takes as many items of the queue as one job meshes, at most `batch`; the vector has capacity for them.
-  /// Precondition: the mutex is held.
+  /// Moves as many requests from the queue to `items` as one job meshes, at most `batch`; the vector must have this
+  /// capacity. Precondition: the caller holds the mutex.
   void takeItems(size_t batch, std::vector<WorkItem>& items);
   void surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const;
-  /// Meshes the items, and returns their measures.
+  /// Meshes the requests into `done`, and returns their measures.
   MadeMeasures meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                          std::span<FinishedChunk> done) const;
   void flushOnce();
   void compareOnce();
-  /// Reports that memory ran out. The next update tries again, with a single job at first.
+  /// Warns that memory ran out. The next update tries again, at first with a single job.
   void reportOutOfMemory() noexcept;
-  /// Sends a warning. Thread-safe, takes no lock.
+  /// Passes a warning to the settings' callback. Thread-safe, takes no lock.
   void warn(const char* message) const noexcept;
 
-  /// The entry point of jobs; does nothing if the gate is closed.
+  /// The function that the job system calls for a job; does nothing if the gate is closed.
   template <void (WorldCore::*work)()>
   static void run(void* argument) noexcept;
 
   std::pmr::memory_resource* memory_;
-  const std::unique_ptr<JobSystem> prefetchers_;  ///< null: no store is on a server
+  const std::unique_ptr<JobSystem> prefetchers_;  ///< threads that prefetch from servers; null: no store is on a server
   const std::shared_ptr<JobGate> gate_;
   const std::shared_ptr<PlanTurns> turns_;
   PlanTurns::Member turn_;
   std::shared_ptr<SurfacePool> surfaces_;
-  const std::unique_ptr<MeasuringPool> measuring_;  ///< null: measures are not requested
-  Planner planner_;                                 ///< used by the planning job only, of which at most one runs
-  Colliders colliders_;                             ///< also used by the planning job only
+  const std::unique_ptr<MeasuringPool> measuring_;  ///< buffers for measuring; null: measures are not requested
+  Planner planner_;                                 ///< used only by the planning job, of which at most one runs
+  Colliders colliders_;                             ///< used only by the planning job
 
-  // The following members are guarded by the mutex.
-  bool out_of_memory_reported_ = false;  ///< true if low memory was reported since the world was last at rest
-  bool passed_over_ = false;             ///< true if memory ran out for a chunk since the last plan
-  bool planner_lost_ = false;            ///< true if memory ran out during planning
+  // The members below are guarded by the mutex.
+  bool out_of_memory_reported_ = false;  ///< true if low memory was already reported since the world was last idle
+  bool passed_over_ = false;             ///< true if memory ran out for a chunk since the last plan; less urgent chunks
+                                         ///< may still succeed
+  bool planner_lost_ = false;            ///< true if the planner must restart, for example because memory ran out
+                                         ///< during planning
   struct Seen {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
-  Seen planning_with_, planned_with_;  ///< input of the plan in progress, and of the published plan
-  WorldState queue_edits_;             ///< the state under which the queue must be meshed
+  Seen planning_with_, planned_with_;  ///< input of the last plan that was begun, and of the published plan
+  WorldState queue_edits_;             ///< the world state from which the queue must be meshed
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
-  /// number of requests in work when the plan for the current viewers was published, minus those that have ended since
+  /// number of unfinished requests that had already begun when the plan for the current viewers was published
   size_t meshing_before_ = 0;
-  size_t meshing_ = 0;       ///< number of requests in work
-  size_t meshing_jobs_ = 0;  ///< number of jobs that mesh these requests
-  /// countWork() is called before each change of meshing_jobs_
+  size_t meshing_ = 0;       ///< number of requests that are being meshed
+  size_t meshing_jobs_ = 0;  ///< number of jobs that are meshing
+  /// time of the last countWork(), which is called before each change of meshing_jobs_
   Clock::time_point counted_at_ = Clock::now();
-  std::array<size_t, WorkItem::kRanks> meshing_of_rank_{};  ///< number of requests in work, by WorkItem::Rank
-  /// the maximum number of bytes that the requests in work may need
+  std::array<size_t, WorkItem::kRanks> meshing_of_rank_{};  ///< number of requests that are being meshed, by
+                                                            ///< WorkItem::Rank
+  /// maximum number of bytes that the requests in progress may need
   size_t reserved_ = 0;
-  size_t look_jobs_ = 0;                     ///< number of lookers that run or are about to
-  std::vector<std::thread::id> submitting_;  ///< threads that are inside resubmit()
+  size_t look_jobs_ = 0;                     ///< number of prefetching jobs that are submitted or running
+  std::vector<std::thread::id> submitting_;  ///< ids of threads that are inside resubmit()
   /// true if a plan waits for its turn, is submitted or is running
   bool planning_ = false;
   bool plan_again_ = false;

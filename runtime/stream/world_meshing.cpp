@@ -1,4 +1,4 @@
-// The jobs that mesh a world's planned chunks, and the lookers: threads that prefetch chunks from a server.
+// The jobs that mesh the planned chunks of a world, and the threads that prefetch chunks from a server.
 
 #include <algorithm>
 
@@ -10,7 +10,8 @@ namespace sgm {
 
 namespace {
 
-/// After this number of finished requests a plan is made, even if more requests are waiting and no update is called.
+/// After this number of finished requests a plan is made, even if more requests are waiting and the engine does not
+/// call update.
 constexpr size_t kFinishedToPlan = 64;
 constexpr int kMeshPriority = 1, kLookPriority = 1;
 static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finished too late would never be released");
@@ -18,7 +19,7 @@ static_assert(kMeshPriority <= kSharePriority, "parts of chunks that were finish
 }  // namespace
 
 bool WorldCore::isLooking() const {
-  // Without free memory, the requests wait for memory, not for a prefetch.
+  // Requires free memory, because otherwise the requests wait for memory, not for a prefetch.
   return prefetchers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
@@ -28,12 +29,12 @@ bool WorldCore::isOverdue() const {
 }
 
 void WorldCore::scheduleMeshing() {
-  // The number is limited, because some job systems run a job at once, inside submit().
+  // The number of iterations is limited, because some job systems run a job immediately, inside submit().
   for (size_t more = maxMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
       const size_t most = is_out_of_memory ? 1 : maxMeshJobs();
-      // After a failed allocation, the other prefetched chunks are not tried one after the other.
+      // After memory ran out for one chunk, the other prefetched chunks are not tried until the next plan.
       if (prefetchers_ != nullptr && passed_over_) return;
       if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
@@ -61,13 +62,14 @@ void WorldCore::schedulePrefetch() {
     }
     if (submit(*prefetchers_, run<&WorldCore::prefetch>, kLookPriority)) continue;
     const std::lock_guard lock(mutex);
-    --look_jobs_;  // the prefetch failed to start; jobs mesh the requests after kPatience
+    --look_jobs_;  // no prefetching job could be submitted; jobs mesh the requests after kPatience
     return;
   }
 }
 
 void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
-  // A device needs many chunks at a time; but each idle job should get some, and there must be memory for them.
+  // A device is efficient only with many chunks per batch; but each idle job should get some, and memory must suffice
+  // for all of them.
   const size_t idle = std::max<size_t>(1, maxMeshJobs() - std::min(maxMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
   const Clock::time_point now = Clock::now();
@@ -77,7 +79,7 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
        at = queue.nextReady(*at, now)) {
     const WorkItem& next = queue[*at];
-    // Urgent requests do not wait for less urgent ones in the same batch.
+    // A batch has requests of one rank only, so that urgent requests do not wait for less urgent ones.
     if (!items.empty() && next.rank != items.front().rank) break;
     try {
       begun_.push_back(next.request.key);
@@ -142,7 +144,7 @@ void WorldCore::prefetch() {
     try {
       look = std::make_shared<Look>();
     } catch (const std::bad_alloc&) {
-      // Without lookers, jobs mesh the requests after kPatience.
+      // Out of memory: this prefetching job ends, and jobs mesh the requests after kPatience.
     }
     std::optional<ChunkRequest> request;
     WorldState under;
@@ -159,7 +161,7 @@ void WorldCore::prefetch() {
     try {
       found = mesherOf(under).find(*request, under.brushes.get());
     } catch (const std::bad_alloc&) {
-      // The prefetch ran out of memory: the chunk is meshed instead.
+      // Out of memory: nothing was found, so the chunk will be meshed.
     }
     {
       const std::lock_guard lock(mutex);
@@ -215,7 +217,8 @@ void WorldCore::meshOnce() {
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
-    // Inside resubmit() nothing is taken: otherwise one call could mesh the whole queue, one job within the other.
+    // Inside resubmit() the job takes nothing: otherwise the whole queue could be meshed in one call, by jobs nested in
+    // each other.
     if (!isResubmitting()) takeItems(batch, items);
     under = queue_edits_;
     of_generation = generation;
@@ -228,7 +231,7 @@ void WorldCore::meshOnce() {
     done.back().before = item.before;
     done.back().edits = under.number;
   }
-  // Cancels the rest of a batch that is no longer wanted.
+  // Progress callback that cancels the rest of a batch when its results are no longer needed.
   const auto wanted = [&](uint64_t, uint64_t) {
     const std::lock_guard lock(mutex);
     return !stopped_ && generation == of_generation;
@@ -263,17 +266,18 @@ void WorldCore::meshOnce() {
       try {
         finished_.push_back(std::move(chunk));
       } catch (const std::bad_alloc&) {
-        // Without the result, the planner (also a new one, since it would learn that the chunk was begun) would wait
-        // for this chunk forever. So it restarts.
+        // The result is lost, but the planner would wait for this chunk forever, even after a restart that still sees
+        // it in begun_. So it is removed from begun_, and the planner restarts.
         planner_lost_ = out_of_memory = true;
         std::erase(begun_, key);
       }
     }
-    // A plan is made as soon as the last edited chunk, or the last one needed to stand on, is finished, so that these
-    // are drawn soon.
+    // A plan is made as soon as the last request of a rank is finished (for example the last edited chunk), so that
+    // these chunks are drawn soon.
     const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.mostUrgent().rank > rank);
     plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
-    // Memory may suffice for less urgent chunks, so meshing goes on; but after a second failure it stops.
+    // After memory ran out once, meshing continues, because less urgent chunks may need less; after the second time it
+    // stops until the next plan.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Durations of a world's work as histograms: averages would hide the peaks that players notice.
+// Histograms of the durations of a world's operations; averages would hide the peaks that players notice.
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace sgm {
 
-/// A histogram of durations in seconds. counts[i] has the durations above 2^(i - 17) and up to 2^(i - 16); the first
-/// bucket also has shorter ones, the last bucket also longer ones.
+/// A histogram of durations in seconds. counts[i] counts durations above 2^(i - 17) and up to 2^(i - 16); the first
+/// element also counts shorter durations, the last one also longer ones.
 struct TimeHistogram {
   static constexpr int kBuckets = 21, kFirstExponent = -16;
 
@@ -27,14 +27,14 @@ struct TimeHistogram {
 };
 
 struct WorldTimes {
-  /// durations of calls, including the time that one waits for the other
+  /// durations of calls of update and poll, including the time that one waits for the other
   TimeHistogram update, poll;
-  /// time to mesh a body, by level; the chunks of a batch have equal shares of its time
+  /// time to mesh a body, by level; the time of a batch is divided equally among its chunks
   std::array<TimeHistogram, kMaxLevel + 1> mesh;
-  /// time to read a body from the disk or a server; equal shares as above
+  /// time to read a body from the disk or a server; the time of a batch is divided equally among its chunks
   TimeHistogram read;
   double clock_seconds = 0;  ///< seconds during which at least one job meshed or read chunks
-  double job_seconds = 0;    ///< seconds that jobs spent on this, summed over jobs
+  double job_seconds = 0;    ///< seconds that jobs spent on meshing or reading chunks, summed over all jobs
 };
 
 }  // namespace sgm

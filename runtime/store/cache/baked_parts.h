@@ -1,5 +1,5 @@
 #pragma once
-// The interface of sources of baked chunk parts, independent of where these are stored.
+// The interface of sources of baked chunk parts, independent of where the parts are stored.
 
 #include <functional>
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace sgm {
 
-/// Counts by this process, since the source was opened.
+/// Statistics of this process, since the source was opened.
 struct BakedStats {
-  uint64_t hits = 0, misses = 0;  ///< each call of get() counts as one of the two
-  uint64_t damaged = 0;           ///< misses because the stored data was invalid
+  uint64_t hits = 0, misses = 0;  ///< each call of get() counts as either a hit or a miss
+  uint64_t damaged = 0;           ///< number of misses because the stored data was invalid
   uint64_t errors = 0;            ///< number of files that could not be read or were invalid
   uint64_t bytes = 0;             ///< compressed bytes read for hits
 };
@@ -22,15 +22,16 @@ struct BakedPart {
   bool is_far = false;  ///< true: the part came from a server, so that it is worth storing in a disk cache
 };
 
-/// The keys under which stores may have the parts of a world.
+/// The keys under which stores may contain the parts of a world.
 struct BakedWorld {
   DiskKey key;
-  /// Gives the key of worlds baked by version 0.2, which may take milliseconds; called only for stores that have
-  /// nothing under `key`. Null: none.
+  /// Returns the key that version 0.2 of the library gave to this world, which may take milliseconds. It is called only
+  /// for stores that have no data under `key`. Null if there is no such key.
   std::function<DiskKey()> former_key{};
 };
 
-/// Where get() searches: only on this machine (near), which takes the time of a disk access, or also on servers (far).
+/// Which stores get() searches. near: folders on this machine, which takes the time of a disk access; far: also
+/// servers.
 enum class Reach : uint8_t { near, far };
 
 /// A read-only source of baked parts. Thread-safe.
@@ -38,24 +39,25 @@ class BakedParts {
  public:
   virtual ~BakedParts() = default;
 
-  /// Returns the key that identifies a world. inputs: its bakedWorldInputs (chunk_part.h).
+  /// Returns the key that identifies a world. inputs: the result of bakedWorldInputs (chunk_part.h) for the world.
   virtual DiskKey worldOf(std::span<const std::byte> inputs) const = 0;
 
-  /// Returns a baked part: the output of encodeChunkPart for that world without edits, in `memory`. A body of level 0
-  /// has its anchors and voids; a seam leads to the next coarser level. Verified by a hash of all bytes. nullopt if the
-  /// part is missing, unreadable or invalid. Throws std::bad_alloc.
+  /// Returns a baked part, encoded by encodeChunkPart for the world without edits; its bytes are allocated from
+  /// `memory`. A body of level 0 includes anchors and void components; a seam connects the chunk to the next coarser
+  /// level. All bytes are verified by a hash. nullopt if the part is missing, unreadable or invalid. Throws
+  /// std::bad_alloc.
   virtual std::optional<BakedPart> get(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
-  /// Call this if the result of get() with this reach was invalid. Counts a damaged miss instead of the hit; get() will
-  /// not return that part again.
+  /// The caller reports that the part which get() returned for these arguments is invalid. The hit is then counted as a
+  /// damaged miss instead, and get() does not return the part again.
   virtual void reject(const BakedWorld& world, const ChunkKey& chunk, int part, Reach reach) = 0;
 
-  /// True if some parts may be on servers: then searches take time, so a disk cache should be searched first. Never
+  /// True if some parts may be on servers. Then get() may be slow, so a disk cache should be searched first. Never
   /// changes.
   virtual bool isFar() const = 0;
 
-  /// Ends all waits for servers: from now on, calls may miss parts that exist.
+  /// Ends all waits for servers. Later calls of get() may miss parts that only a server has.
   virtual void stop() noexcept = 0;
 
   virtual BakedStats stats() const = 0;

@@ -14,9 +14,10 @@
 namespace sgm {
 namespace {
 
-// The minimum share of a set: thousands of chunks, so that random keys fill all sets evenly; listing them takes 10 ms.
+// The minimum size limit of a set (a group of the cache's subfolders), in bytes. This is enough for thousands of
+// chunks, so that random keys fill all sets evenly. Listing the files of such a set takes 10 ms.
 constexpr uint64_t kLeastShare = uint64_t{16} << 20;
-constexpr uint64_t kSlack = 8;  // 1 / kSlack of a set's share is freed by a listing, or written between two listings
+constexpr uint64_t kSlack = 8;  // an eviction frees at least this fraction (1 / kSlack) of a set's size limit
 
 class FileCache final : public DiskCache {
  public:
@@ -34,7 +35,7 @@ class FileCache final : public DiskCache {
     const int error = folder_.read(key, file);
     if (error == 0) {
       if (auto content = unpackDiskEntry(key, file, memory)) {
-        folder_.touch(key);  // this fails in a read-only folder, which is no problem
+        folder_.touch(key);  // updates the time of last use; may fail in a read-only folder, which is harmless
         count(&DiskCacheStats::hits);
         return content;
       }
@@ -83,18 +84,19 @@ class FileCache final : public DiskCache {
   }
 
  private:
-  /// A group of shards (folders) and their share of the limit.
+  /// A group of shards (subfolders), which has its own part of the cache's size limit.
   struct Set {
     std::mutex mutex;
-    uint64_t bytes = 0;    ///< size of the entries at the last listing, plus those stored since
-    uint64_t writing = 0;  ///< size of the entries that are being written
-    uint64_t allowed = 0;  ///< bytes that may be written before the next listing
+    uint64_t bytes = 0;    ///< total size of the set's entries: those found by the last listing, and those written
+                           ///< since
+    uint64_t writing = 0;  ///< total size of the entries that are being written
+    uint64_t allowed = 0;  ///< number of bytes that may be written before the folders are listed again
   };
 
   size_t setSize() const { return DiskFolder::kShards / sets_; }
   Set& setOf(const DiskKey& key) { return all_sets_[DiskFolder::shardOf(key) / setSize()]; }
 
-  /// Reserves bytes of a set while an entry is written. Returns false if the set has no space for it.
+  /// Reserves bytes of a set while an entry is written. Converts to false if the set has no space for the entry.
   class Room {
    public:
     Room(FileCache& cache, Set& set, uint64_t bytes) : cache_(cache), set_(set), bytes_(bytes) {
@@ -115,7 +117,7 @@ class FileCache final : public DiskCache {
     }
     explicit operator bool() const { return held_; }
 
-    /// Counts the reserved bytes as stored, after the entry was written.
+    /// Counts the reserved bytes as used, once the entry is written.
     void fill() {
       const std::lock_guard lock(set_.mutex);
       cache_.setBytes(set_, set_.bytes + bytes_);
@@ -130,7 +132,8 @@ class FileCache final : public DiskCache {
     bool held_ = false, filled_ = false;
   };
 
-  /// Lists the entries of a set. If `bytes` more bytes would exceed its share, removes the least recently used entries.
+  /// Lists the entries of a set. If `bytes` further bytes would exceed its size limit, removes the least recently used
+  /// entries. Then sets how many bytes may be written until the next listing.
   void makeRoom(Set& set, uint64_t bytes) {
     std::pmr::vector<DiskFile> files(memory_);
     uint64_t total = set.writing;
@@ -166,10 +169,10 @@ class FileCache final : public DiskCache {
     ++(stats_.*what);
   }
 
-  /// Returns the error, except for a missing file: it was never stored, or another process has removed it.
+  /// Ignores the error that a file does not exist: it was never stored, or another process has removed it.
   static int unlessGone(int error) { return error == ENOENT ? 0 : error; }
 
-  /// Returns true if `error` is an error. Counts errors, and reports the first one.
+  /// Returns true if `error` is not 0. Counts the error, and logs it if it is the first one.
   bool failed(const char* what, int error) {
     if (error == 0) return false;
     bool first = false;
@@ -188,8 +191,9 @@ class FileCache final : public DiskCache {
   const Log log_;
   std::pmr::memory_resource* const memory_;
   const uint64_t sets_, share_;
-  std::array<Set, DiskFolder::kShards> all_sets_;  ///< only the first sets_ elements are used
-  mutable std::mutex mutex_;                       ///< guards stats_; always locked last
+  std::array<Set, DiskFolder::kShards> all_sets_;  ///< sets; only the first sets_ elements are used
+  mutable std::mutex mutex_;                       ///< guards stats_; may be locked while a set's mutex is locked, but
+                                                   ///< not the other way round
   DiskCacheStats stats_;
 };
 
@@ -202,7 +206,7 @@ Result<std::unique_ptr<DiskCache>> DiskCache::open(const std::filesystem::path& 
   }
   if (folder.empty()) return Error{Code::invalid_argument, "a disk cache needs a folder"};
   std::error_code why;
-  // An absolute path, because the process may change its current folder later.
+  // The path is made absolute, because the process may later change its working directory.
   const std::filesystem::path place = std::filesystem::absolute(folder, why);
   if (!why) std::filesystem::create_directories(place, why);
   if (!why && !std::filesystem::is_directory(place, why) && !why)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kPart = ".part";
 constexpr size_t kDigits = 32;
-// a file that was not finished after this time is abandoned: no process takes this long for an entry
+// A ".part" file that is older than this is abandoned: no process takes this long to write an entry.
 constexpr time_t kLeftAfterSeconds = 60;
 
 bool isLeft(const platform::FileStatus& part) {
@@ -31,8 +31,8 @@ int send(int file, std::span<const std::byte> bytes) {
   return 0;
 }
 
-/// Returns the key of an entry from its file name without suffix; nullopt if fileName() cannot have made the name, for
-/// example if it contains upper-case digits or a sign.
+/// Parses the file name of an entry without its suffix. nullopt if the name is not one that fileName() produces, for
+/// example because of upper-case digits, or if it belongs to another shard.
 std::optional<DiskKey> keyOfName(std::string_view name, size_t shard) {
   if (name.size() != kDigits || name.find_first_not_of("0123456789abcdef") != name.npos) return std::nullopt;
   DiskKey key;
@@ -80,14 +80,14 @@ int DiskFolder::write(const DiskKey& key, std::span<const std::byte> file) const
     opened = create();
   }
   if (opened < 0 && errno == EEXIST) {
-    // EEXIST: another process is writing the entry, or has just finished it.
+    // The temporary file exists: another process is writing the entry, or was killed while writing it.
     if (platform::statusAt(part, there, false) != 0 || !isLeft(there) || platform::removeFile(part) != 0) return EEXIST;
     opened = create();
   }
   if (opened < 0) return errno;
-  // This process has the temporary file now, so no other process writes the entry.
+  // This process has created the temporary file, so no other process can write the entry now.
   int error = platform::statusAt(name, there, false) == 0 ? EEXIST : send(opened, file);
-  // Some file systems report only when a file is closed that they are full.
+  // Some file systems report only at closing a file that the disk is full.
   if (platform::closeFile(opened) != 0 && error == 0) error = errno;
   if (error == 0 && platform::replaceFile(part, name) != 0) error = errno;
   if (error != 0) platform::removeFile(part);

@@ -5,7 +5,7 @@
 
 namespace sgm {
 
-/// An entry's file in a listing.
+/// A file of the disk cache, as found by listing a folder.
 struct DiskFile {
   int64_t used = 0;  ///< time of the last use, in nanoseconds of the file system's clock
   DiskKey key;
@@ -13,13 +13,14 @@ struct DiskFile {
   friend auto operator<=>(const DiskFile&, const DiskFile&) = default;
 };
 
-/// Entries are files such as FOLDER/3f/3f...: the key in 32 hexadecimal digits. While an entry is being written, its
-/// name ends in ".part"; if the writing process is killed, another process that finds the file after a minute removes
-/// it. Stateless; thread-safe, also between processes. Functions return 0 on success, otherwise errno.
+/// Reads, writes and lists the files of entries. The file of an entry is FOLDER/3f/3f...: its key in 32 hexadecimal
+/// digits. While an entry is being written, its file has the suffix ".part"; if the writing process is killed, another
+/// process that finds this file after a minute removes it. Stateless; thread-safe, also between processes. Functions
+/// return 0 on success, otherwise errno.
 class DiskFolder {
  public:
   static constexpr size_t kShards = 256;
-  static constexpr int kUntrusted = -1;  ///< not an errno: write() cannot have made the file
+  static constexpr int kUntrusted = -1;  ///< an error that is not an errno: the file is not one that write() has made
 
   static size_t shardOf(const DiskKey& key) { return static_cast<size_t>(key.high >> 56); }
 
@@ -27,17 +28,17 @@ class DiskFolder {
 
   const std::string& name() const { return folder_; }
 
-  /// Reads an entry's file. ENOENT: there is no such entry. kUntrusted: it is not a regular file, or too large for an
-  /// entry. Throws std::bad_alloc.
+  /// Reads an entry's file. Returns ENOENT if there is no such entry; kUntrusted if the path is not a regular file, or
+  /// the file is too large for an entry. Throws std::bad_alloc.
   int read(const DiskKey& key, std::pmr::vector<std::byte>& file) const;
-  /// Writes an entry's file. EEXIST: the entry exists already, or another process is writing it.
+  /// Writes an entry's file. Returns EEXIST if the entry exists already, or another process is writing it.
   int write(const DiskKey& key, std::span<const std::byte> file) const;
   int remove(const DiskKey& key) const;
-  /// Marks the entry as the most recently used one.
+  /// Marks an entry as the most recently used one, by setting its file's modification time.
   int touch(const DiskKey& key) const;
 
-  /// Appends the entries of a shard (a folder) to `files`, adds the bytes of entries that are being written to
-  /// `unfinished`, and removes abandoned ones. Throws std::bad_alloc.
+  /// Lists a shard (a subfolder): appends its entries to `files`, and adds the sizes of entries that are being written
+  /// to `unfinished`. Removes temporary files that were abandoned. Throws std::bad_alloc.
   int list(size_t shard, std::pmr::vector<DiskFile>& files, uint64_t& unfinished) const;
 
  private:

@@ -23,10 +23,11 @@ namespace {
 constexpr uint64_t kJournalMagic = 0x53544944454D4753;  // "SGMEDITS"
 constexpr uint32_t kJournalVersion = 1;
 constexpr size_t kHeadBytes = 40;
-constexpr size_t kRecordHead = 12;  // length of the content (u32), checksum of the content (u64)
+constexpr size_t kRecordHead = 12;  // size of a record's header in bytes: length of the content (u32), checksum of the
+                                    // content (u64)
 constexpr size_t kMaxRecordBytes = kRecordHead + kMaxEditBytes;
 constexpr uint64_t kMaxJournalBytes = uint64_t{1} << 30;
-constexpr size_t kLeastCompacted = 256;  // operations: a file with fewer is not rewritten
+constexpr size_t kLeastCompacted = 256;  // minimum number of operations at which a journal file is compacted
 constexpr int kMaxTries = 100;
 
 using Bytes = std::vector<std::byte>;
@@ -50,7 +51,8 @@ Bytes headOf(const WorldIdentity& world) {
   return bytes;
 }
 
-/// Checks that the bytes begin a journal of this world. Precondition: there are at least kHeadBytes bytes.
+/// Checks that the bytes start with the header of this world's journal. Precondition: there are at least kHeadBytes
+/// bytes.
 Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, const WorldIdentity& world,
                        const FormerGrammar& former) {
   ByteReader in(bytes);
@@ -64,7 +66,8 @@ Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, c
   const auto grammar = in.get<uint64_t>(), seed = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksum(bytes.first(kHeadBytes - 8))) return bad("its header is damaged");
   const auto isOtherGrammar = [&] { return grammar != world.grammar && (!former || grammar != former()); };
-  // The grammar's hash is compared last, because it includes the seed and the cell.
+  // The grammar's hash also covers the seed and the cell size, so it is compared last: a message that names the seed or
+  // the cell size is more precise.
   const char* differs = seed != world.seed      ? "seed"
                         : of.cell != world.cell ? "finest cell"
                         : isOtherGrammar()      ? "grammar, other parameters or other host fields"
@@ -82,7 +85,8 @@ void putRecord(const EditOperation& operation, Bytes& bytes) {
   bytes.insert(bytes.end(), payload.begin(), payload.end());
 }
 
-/// Decodes the first operation of these bytes; returns it with its size; nullopt if it is incomplete or damaged.
+/// Decodes the first operation of these bytes, and returns it with its size in bytes. nullopt if the operation is
+/// incomplete or damaged.
 std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto length = in.get<uint32_t>();
@@ -96,8 +100,8 @@ std::optional<std::pair<EditOperation, size_t>> getRecord(std::span<const std::b
   return std::pair(*operation, kRecordHead + length);
 }
 
-/// Opens and locks the file. Repeats until the locked file still has this name: another process may be about to replace
-/// it.
+/// Opens and locks the file. Repeats this until the locked file is the one at this path, because another process may
+/// replace the file in between.
 Result<File> openLocked(const fs::path& path) {
   for (int i = 0; i < kMaxTries; ++i) {
     File file(platform::openFile(path, platform::kRead | platform::kWrite | platform::kCreate));
@@ -132,7 +136,8 @@ struct Written {
   int error = 0;     ///< errno if writing failed, otherwise 0
 };
 
-/// Writes the bytes, and blocks until they are on disk. If that fails, as many bytes as possible are.
+/// Writes the bytes at offset `at`, and blocks until they are on disk. If an error occurs, the result counts the bytes
+/// that are on disk nevertheless.
 Written writeDurably(int file, std::span<const std::byte> bytes, uint64_t at) {
   Written done;
   while (done.bytes < bytes.size() && done.error == 0) {
@@ -145,12 +150,12 @@ Written writeDurably(int file, std::span<const std::byte> bytes, uint64_t at) {
   return {0, done.error != 0 ? done.error : errno};
 }
 
-/// The complete records at the beginning of some bytes, and their total size.
+/// The complete records at the start of a byte range: their number and total size.
 struct WholeRecords {
   size_t count = 0, bytes = 0;
 };
 
-/// Precondition: the bytes are valid records; the last one may be incomplete.
+/// Counts complete records. Precondition: the bytes are valid records; only the last one may be incomplete.
 WholeRecords wholeRecords(std::span<const std::byte> bytes) {
   WholeRecords whole;
   while (bytes.size() - whole.bytes >= kRecordHead) {
@@ -167,7 +172,7 @@ Result<void> writeWhole(const fs::path& path, std::span<const std::byte> bytes) 
   if (!writer) return writer.error();
   writer->write(bytes.data(), bytes.size());
   if (Result<void> done = writer->commit(); !done) return done;
-  platform::syncFolder(path.parent_path());  // without this, a power failure may lose the new name
+  platform::syncFolder(path.parent_path());  // without this, the file's new name may be lost in a power failure
   return {};
 }
 
@@ -200,10 +205,10 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
   OpenedJournal opened;
   const Bytes head = headOf(world);
   if (bytes->size() < kHeadBytes && std::equal(bytes->begin(), bytes->end(), head.begin())) {
-    // The file is new, or a process was killed before it had written the head.
+    // The file is new, or a process was killed before it had written the whole header.
     if (const Written written = writeDurably(file->number(), head, 0); written.error != 0)
       return ioError(path, written.error);
-    platform::syncFolder(path.parent_path());  // without this, a power failure may lose the new name
+    platform::syncFolder(path.parent_path());  // without this, the file's new name may be lost in a power failure
     *bytes = head;
   }
   if (bytes->size() < kHeadBytes) return journalError(Code::bad_input, path, "it is not an edit journal");
@@ -216,7 +221,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
     whole += record->second;
   }
   const size_t rest = all.size() - whole;
-  const bool damaged = rest > kMaxRecordBytes;  // more bytes than one incompletely written operation has
+  const bool damaged = rest > kMaxRecordBytes;  // an incompletely written last operation would be shorter
   if (damaged) {
     Result<fs::path> aside = setAside(path, all);
     if (!aside) return aside.error();
@@ -255,7 +260,7 @@ EditJournal::~EditJournal() {
   try {
     (void)flush();
   } catch (const std::bad_alloc&) {
-    // Errors cannot be reported here, but everything that was flushed before is on disk.
+    // A destructor cannot report errors, but everything that was flushed before is on disk.
   }
   platform::closeFile(file_);
 }
@@ -266,7 +271,7 @@ void EditJournal::append(std::span<const EditOperation> operations) {
   try {
     for (const EditOperation& operation : operations) putRecord(operation, waiting_);
   } catch (const std::bad_alloc&) {
-    waiting_.resize(before);  // an incomplete record would damage all following ones
+    waiting_.resize(before);  // removes an incomplete record, which would make all following records unreadable
     throw;
   }
 }
@@ -280,7 +285,7 @@ Result<void> EditJournal::flush() {
   }
   if (unwritten_.empty()) return {};
   const Written written = writeDurably(file_, unwritten_, size_);
-  // The next attempt overwrites the rest of a record that was written incompletely.
+  // Only complete records count as written, so that the next attempt overwrites an incomplete record.
   const size_t kept = wholeRecords(std::span(unwritten_).first(written.bytes)).bytes;
   size_ += kept;
   unwritten_.erase(unwritten_.begin(), unwritten_.begin() + static_cast<std::ptrdiff_t>(kept));

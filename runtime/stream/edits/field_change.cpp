@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-/// The maximum number of changed groups stored per cell; if there are more, one box around all of them is stored.
+/// The maximum number of changed shape groups that are stored per cell. If there are more, their bounds are joined.
 constexpr size_t kMaxChangesOfCell = 64;
 
 bool sameDomain(const Program& a, const Program& b) {
@@ -21,7 +21,7 @@ bool sameCells(const Program& of_a, const Layer& a, const Program& of_b, const L
   return of_a.text(a.name) == of_b.text(b.name) && a.cell == b.cell && (a.cell_expr == kNoId) == (b.cell_expr == kNoId);
 }
 
-/// A host field without an identity is always treated as changed.
+/// True if two host fields are equal. A host field without an identity never equals another.
 bool sameHost(const HostField& a, const HostField& b) {
   return a.identity != 0 && a.identity == b.identity && a.bounds == b.bounds && a.cut == b.cut && a.label == b.label &&
          a.smooth == b.smooth && a.steepness == b.steepness;
@@ -38,7 +38,7 @@ ChangedShape joined(const std::vector<ChangedShape>& changes) {
   return all;
 }
 
-/// True if a change is visible in the body or the seams of a chunk; the seams read the next coarser level.
+/// True if a change can affect the body or the seams of a chunk. Seams also sample the next coarser level.
 bool touchesChunk(const ChangedShape& change, const ChunkGrid& grid, const IntBox& box) {
   if (change.anchor) return grid.level == 0 && change.box.meets(box);
   return grid.cell <= change.coarsest_cell && int64_t{2} * grid.cell >= change.finest_cell &&
@@ -53,7 +53,7 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
   pairLayers();
   const auto keepOthers = [this](std::span<const HostField> of, std::span<const HostField> other) {
     for (size_t i = 0; i < of.size(); ++i) {
-      // The order of host fields matters, because later ones lie on top.
+      // Host fields are compared in order, because the order matters: later ones lie on top of earlier ones.
       if (i >= other.size() || !sameHost(of[i], other[i])) hosts_.push_back(of[i]);
     }
   };
@@ -64,7 +64,7 @@ FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_
 void FieldChange::pairLayers() {
   const Program &before = *from_->settings().program, &after = *to_->settings().program;
   everything_ = !sameDomain(before, after);
-  // index of the first layer that may still have a partner: pairs must have the same order in both fields
+  // Index of the first layer of `after` that may still be paired: pairs must have the same order in both fields.
   uint32_t next = 0;
   for (uint32_t i = 0; i < before.layers.size(); ++i) {
     const auto same = [&](const Layer& layer) { return sameCells(before, before.layers[i], after, layer); };
@@ -95,7 +95,7 @@ bool FieldChange::showsOtherwise(const LayerPair& pair, int32_t cell_edge) const
   if (!pair.before || !pair.after) return false;
   const Layer& before = from_->settings().program->layers[*pair.before];
   const Layer& after = to_->settings().program->layers[*pair.after];
-  // The seams of the chunk read the next coarser level.
+  // The next coarser level is compared too, because the seams of the chunk sample it.
   return before.shows(cell_edge) != after.shows(cell_edge) || before.shows(2 * cell_edge) != after.shows(2 * cell_edge);
 }
 
@@ -117,12 +117,12 @@ bool FieldChange::touches(const ChunkKey& key) const {
       const std::shared_ptr<const Changes> changes = changesIn(i, cell);
       touched = touched || std::any_of(changes->begin(), changes->end(),
                                        [&](const ChangedShape& change) { return touchesChunk(change, *grid, box); });
-      // Any error ends the walk.
+      // The error only ends the iteration over cells, once a change is found.
       if (touched) return Error{Code::cancelled, ""};
       return {};
     };
-    // The cells of each field are searched by that field's declared reach, since an edited grammar may have another
-    // one.
+    // The cells of each field are searched separately, because a layer's reach (how far its shapes may extend beyond
+    // their cell) may differ between the fields if the grammar was edited.
     if (pair.before && !from_->cellsAround(*pair.before, around, look)) return true;
     if (pair.after && !to_->cellsAround(*pair.after, around, look)) return true;
   }
@@ -135,7 +135,7 @@ std::shared_ptr<const FieldChange::Changes> FieldChange::changesIn(uint32_t pair
     const std::lock_guard lock(mutex_);
     if (const auto found = known_.find(at); found != known_.end()) return found->second;
   }
-  // If two threads compare the same cell concurrently, both get the same result.
+  // Two threads may compare the same cell concurrently; both get the same result.
   Changes changes = compare(layers_[pair], cell);
   if (changes.size() > kMaxChangesOfCell) changes.assign(1, joined(changes));
   auto found = std::make_shared<const Changes>(std::move(changes));
@@ -150,17 +150,17 @@ FieldChange::Changes FieldChange::compare(const LayerPair& pair, Int3 cell) cons
                              std::shared_ptr<const DerivedCell>& held) {
     if (!layer) return true;
     Result<std::shared_ptr<const DerivedCell>> derived = field.cell(*layer, cell);
-    // The result must not depend on the available memory, so lack of memory is passed on.
+    // Out of memory is passed on, because the result must not depend on the available memory.
     if (!derived && derived.error().code == Code::out_of_memory) throw std::bad_alloc();
     if (!derived) return false;
     held = std::move(*derived);
     content.chunk = &held->chunk;
     return true;
   };
-  // If the cell cannot be derived, all chunks that it may reach fail as a whole, before or after the change.
+  // If a cell cannot be derived, all chunks that it can reach fail, so all of them count as changed.
   const Changes all{{IntBox::everything()}};
   if (!derive(*to_, pair.after, after, now)) return all;
-  // Skips the comparison: a cell that has read nothing that differs would be derived alike.
+  // If the derivation of the cell has read no parameter that differs, the old cell is equal and need not be derived.
   if (pair.before && now != nullptr && to_->derivesAlike(*from_, now->chunk.parameters)) return {};
   if (!derive(*from_, pair.before, before, old)) return all;
   return changedShapes(before, after);

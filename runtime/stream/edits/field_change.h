@@ -1,9 +1,8 @@
 #pragma once
-// Finds the chunks that must be meshed again when another field (other parameters, or an edited grammar) replaces a
-// world's own.
-//
-// Cells of both fields are derived and compared group by group, except cells that have read no differing parameter. A
-// chunk within the bounds of a differing group is meshed again; other chunks keep their meshes.
+// Finds the chunks that must be meshed again when another field (other parameters, or an edited grammar) replaces the
+// field of a world. The cells of both fields are derived, and their shapes compared group by group; a cell whose
+// derivation has read no differing parameter is skipped. A chunk within the bounds of a differing group is meshed
+// again; other chunks keep their meshes.
 
 #include <cstdint>
 #include <map>
@@ -18,30 +17,31 @@
 
 namespace sgm {
 
-/// The difference between two fields. Thread-safe: a pure function of the fields, with cached results.
+/// The difference between two fields. Immutable, except for cached results. Thread-safe.
 class FieldChange {
  public:
-  /// Compares two fields with the same finest cell. `to` copies those derived cells of `from` that do not differ
-  /// (WorldField::adopt). sharp: true if chunks have sharp features.
+  /// Compares two fields that have the same finest cell size. `to` copies the derived cells of `from` that do not
+  /// differ (WorldField::adopt). sharp: true if chunks have sharp features.
   FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in, bool sharp = false);
 
   const std::shared_ptr<const WorldField>& to() const { return to_; }
 
-  /// Returns true if the chunk's mesh, seams or anchors may differ. Derives the cells around the chunk that are not
-  /// cached, which takes time. A cell that cannot be derived counts as changed.
+  /// Returns true if the chunk's mesh, seams or anchors may differ between the fields. Derives cells around the chunk
+  /// that are not cached, which takes time. A cell that cannot be derived counts as changed.
   bool touches(const ChunkKey& chunk) const;
 
  private:
   using Changes = std::vector<ChangedShape>;
-  /// A pair of layers with the same name and cells, one of each field; or a layer that only one field has.
+  /// A layer of each field, with the same name and cells; or a layer that only one field has (the other index is
+  /// nullopt).
   struct LayerPair {
     std::optional<uint32_t> before, after;
   };
 
   void pairLayers();
   bool shows(const LayerPair& pair, int32_t cell_edge) const;
-  /// True if only one layer of the pair is visible, by its `detail`, at a level that affects chunks with cells of this
-  /// edge (in units).
+  /// True if the two layers of the pair differ in visibility (`detail`), at a level that affects chunks whose cells
+  /// have this edge in units.
   bool showsOtherwise(const LayerPair& pair, int32_t cell_edge) const;
   std::shared_ptr<const Changes> changesIn(uint32_t pair, Int3 cell) const;
   Changes compare(const LayerPair& pair, Int3 cell) const;
@@ -49,10 +49,10 @@ class FieldChange {
   const std::shared_ptr<const WorldField> from_;
   const std::shared_ptr<const WorldField> to_;
   const bool sharp_;
-  bool everything_ = false;  ///< true if every chunk changes, because the domain or the order of layers differs
+  bool everything_ = false;  ///< true if every chunk changes, because the domains or the orders of layers differ
   std::vector<LayerPair> layers_;
   std::vector<HostField> hosts_;  ///< host fields that only one of the two fields has
-  mutable std::mutex mutex_;      ///< guards the following members
+  mutable std::mutex mutex_;      ///< guards the members below
   mutable std::map<std::pair<uint32_t, Int3>, std::shared_ptr<const Changes>> known_;
 };
 

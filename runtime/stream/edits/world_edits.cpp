@@ -6,7 +6,8 @@ namespace sgm {
 
 namespace {
 
-/// Above this number, changes that were not read are merged: a world without viewers may be edited without end.
+/// Maximum number of unread changes. If there are more, they are merged, because a world without viewers may be edited
+/// endlessly without reading them.
 constexpr size_t kMaxChanges = 4096;
 
 }  // namespace
@@ -30,7 +31,7 @@ Result<std::string> WorldEdits::open(const std::filesystem::path& path, const Wo
   return std::move(opened->message);
 }
 
-// Reserves memory before an edit is made, so that reporting the edit cannot fail.
+// Reserves memory for `more` changes before an edit is made, so that recording them cannot fail afterwards.
 void WorldEdits::makeRoom(size_t more) {
   if (changes_.size() + more > kMaxChanges) {
     WorldChange all;
@@ -69,7 +70,7 @@ Result<void> WorldEdits::merge(const Merge& from) {
       changed(*boxes);
     }
   } catch (const std::bad_alloc&) {
-    // Some operations may have been merged before the error, and it is unknown which: everything counts as changed.
+    // Some operations may already have been merged, and it is unknown which, so the whole world counts as changed.
     changed({&everything, 1});
     throw;
   }
@@ -141,7 +142,8 @@ std::vector<WorldChange> WorldEdits::changedSince(uint64_t number) const {
 }
 
 void WorldEdits::forget(uint64_t number) {
-  std::vector<WorldChange> forgotten;  // destroyed after the mutex is released, because a change of field is large
+  std::vector<WorldChange> forgotten;  // declared before the lock, so that its large content is destroyed after the
+                                       // mutex is released
   const std::lock_guard lock(mutex_);
   const auto kept = std::stable_partition(changes_.begin(), changes_.end(),
                                           [number](const WorldChange& change) { return change.number <= number; });

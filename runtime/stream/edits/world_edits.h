@@ -1,6 +1,6 @@
 #pragma once
-// The changes of a streamed world: its brushes, and replacements of its field. Also stores which changes are not yet
-// drawn, and writes the journal of the brushes.
+// All changes of a streamed world: its brushes (edits), and replacements of its field. Tracks the changes that are not
+// drawn yet, and writes the brushes to the journal.
 
 #include <atomic>
 #include <filesystem>
@@ -16,42 +16,42 @@
 
 namespace sgm {
 
-/// The state of a world at one moment. All chunks of a frame are meshed under the same state, so that they fit
+/// An immutable snapshot of a world's content. All chunks of a frame are meshed from the same state, so that they fit
 /// together.
 struct WorldState {
   /// number of changes that led to this state; equal numbers mean equal states
   uint64_t number = 0;
-  std::shared_ptr<const WorldField> field{};      ///< the field below the brushes
-  std::shared_ptr<const EditSnapshot> brushes{};  ///< null: no brushes
+  std::shared_ptr<const WorldField> field{};      ///< the field to which the brushes are applied
+  std::shared_ptr<const EditSnapshot> brushes{};  ///< the applied brushes; null: none
 };
 
-/// A change of the world's state.
+/// A change of a world's content, by a brush or by a new field.
 struct WorldChange {
   uint64_t number = 0;  ///< number of the state after the change
   IntBox box{};         ///< for a brush: the changed region, in units
-  /// for a new field: the difference from the previous one; box is unused then
+  /// for a new field: its difference from the previous field; box is unused in this case
   std::shared_ptr<const FieldChange> field{};
 };
 
-/// Thread-safe. Only open() and flush() wait for the disk.
+/// The current state of a world, and the changes that led to it. Thread-safe. Only open() and flush() wait for the
+/// disk.
 class WorldEdits {
  public:
-  /// memory: same as for EditLog.
+  /// memory: passed to EditLog.
   WorldEdits(std::shared_ptr<const WorldField> field, const EditSettings& settings, std::pmr::memory_resource* memory);
 
-  /// Adds the operations of a journal, and uses it for writing from now on. Returns a message for the log
-  /// (OpenedJournal::message). Call once, before all other functions. former: see EditJournal::open. Errors: those of
-  /// EditJournal::open and EditLog::merge.
+  /// Loads the operations of a journal, and writes further operations to it. Returns a message for the log
+  /// (OpenedJournal::message). Call it once, before all other functions. former: see EditJournal::open. Errors: those
+  /// of EditJournal::open and EditLog::merge.
   Result<std::string> open(const std::filesystem::path& path, const WorldIdentity& world,
                            const FormerGrammar& former = {});
 
-  /// These functions do the same as those of EditLog.
+  /// These functions forward to EditLog, and record the changes.
   Result<EditId> add(const Brush& brush);
   Result<EditId> undo(EditId id);
   Result<void> import(std::span<const std::byte> bytes);
-  /// Replaces the field below the brushes by FieldChange::to(); returns the number of the new state. From now on,
-  /// brushes may have the materials and tags of that field's grammar. Precondition: the change starts from
-  /// state().field.
+  /// Replaces the field by `change->to()`; returns the number of the new state. From now on, brushes may use the
+  /// materials and tags of that field's grammar. Precondition: the change starts from state().field.
   uint64_t setField(std::shared_ptr<const FieldChange> change);
   std::vector<std::byte> exportBytes(uint64_t since) const;
   uint64_t size() const;
@@ -60,14 +60,15 @@ class WorldEdits {
   /// Returns the number of the current state. Never waits.
   uint64_t number() const { return number_.load(std::memory_order_acquire); }
   WorldState state() const;
-  /// Returns the changes that lead from the state with this number to state().
+  /// Returns the changes between the state with this number and state().
   std::vector<WorldChange> changedSince(uint64_t number) const;
-  /// Drops the changes up to this state. changedSince() must not be called with an earlier number afterwards.
+  /// Discards the changes up to the state with this number. changedSince() must not be called with an earlier number
+  /// afterwards.
   void forget(uint64_t number);
 
-  /// True if there are operations that flush() has not tried to write.
+  /// True if there are operations that flush() has not yet tried to write.
   bool unwritten() const { return unwritten_.load(std::memory_order_acquire); }
-  /// Blocks until all operations so far are on disk. Errors: same as EditJournal::flush. After an error or
+  /// Blocks until all operations so far are on disk. Errors: those of EditJournal::flush. After an error or
   /// std::bad_alloc, unwritten() is true again.
   Result<void> flush();
 
@@ -77,13 +78,13 @@ class WorldEdits {
   template <class Merge>
   Result<void> merge(const Merge& from);
 
-  mutable std::mutex mutex_;  ///< guards the following members
+  mutable std::mutex mutex_;  ///< guards the members below
   EditLog log_;
   std::shared_ptr<const WorldField> field_;
   std::vector<WorldChange> changes_;
   uint64_t journalled_ = 0;  ///< number of operations that were passed to the journal
 
-  std::unique_ptr<EditJournal> journal_;  ///< null: no journal; set once by open()
+  std::unique_ptr<EditJournal> journal_;  ///< the journal file; null: none. Set once by open()
   std::atomic<uint64_t> number_{0};
   std::atomic<bool> unwritten_{false};
 };

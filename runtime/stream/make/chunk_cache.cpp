@@ -147,7 +147,7 @@ Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartI
   return still;
 }
 
-/// An order that is being processed.
+/// A MeshOrder that is being processed.
 struct InWork {
   ChunkRequest request, rest;  ///< request: all parts; rest: the parts that were not found and must be meshed
   const ChunkSurface* before;
@@ -212,8 +212,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
-    // For a request of seams only it is unknown whether the chunk was sampled; if it is already drawn, it most likely
-    // was.
+    // A request for seams only does not tell whether the chunk was sampled when its body was meshed; if the chunk
+    // already has a surface, it most likely was.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
     if (work.inputs && mesher.cache != nullptr)
       keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);

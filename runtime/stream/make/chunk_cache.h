@@ -1,7 +1,7 @@
 #pragma once
-// Makes one chunk of a world. Its parts come from baked stores or, if these lack them, from the disk cache; if a store
-// is on a server, the disk cache is searched first. Missing parts are meshed and stored in the cache (chunk_part.h):
-// parts with triangles, and also parts without triangles if the chunk had to be sampled.
+// Meshes a chunk of a world, or loads its stored parts. Parts (body and seams) are searched in baked stores and then in
+// the disk cache; if a store is on a server, the disk cache is searched first. Missing parts are meshed and stored in
+// the cache (chunk_part.h): parts with triangles, and also parts without triangles if the chunk had to be sampled.
 
 #include <optional>
 #include <span>
@@ -18,46 +18,51 @@ namespace sgm {
 
 /// The result of a request for a chunk.
 struct MeshedChunk {
-  ChunkSurface surface;                 ///< may have no triangles
-  std::optional<VoidComponents> voids;  ///< voids of the chunk, if signs were requested
-  MadeMeasures measured;                ///< measures of the requested parts; without the time for meshing
-  uint32_t rounded = 0;                 ///< ChunkMesh::rounded; 0 if the body was not meshed by this request
+  ChunkSurface surface;                 ///< the mesh of the chunk; may have no triangles
+  std::optional<VoidComponents> voids;  ///< void components of the chunk, if the request wants signs
+  MadeMeasures measured;                ///< measures of the requested parts, without the time for meshing
+  uint32_t rounded = 0;                 ///< number of cells that keep rounded edges (ChunkMesh::rounded); 0 if this
+                                        ///< request has not meshed the body
   bool from_disk = false;               ///< true if all requested parts came from the cache or stores
 };
 
 struct MeshOrder {
   ChunkRequest request;
-  const ChunkSurface* before = nullptr;  ///< an earlier surface of the chunk; same as for surfaceOf()
-  /// result of find(): its parts are moved from, except parts that edits have changed since, which are ignored. Null:
-  /// the cache and nearby stores are searched
+  const ChunkSurface* before = nullptr;  ///< an earlier surface of the chunk, which the result extends (surfaceOf());
+                                         ///< null: none
+  /// prefetched parts, a result of find(); moved from. Parts that edits have changed since the prefetch are ignored.
+  /// Null: the cache and stores on this machine are searched
   FoundParts* found = nullptr;
 };
 
-/// Meshes the chunks of one world. Borrows everything that it refers to; thread-safe if those objects are.
+/// Meshes the chunks of one world. Does not own the objects that it refers to; thread-safe if those objects are.
 struct ChunkMesher {
   const WorldField& world;
   Backend& backend;
   JobSystem& jobs;
-  std::pmr::memory_resource* memory;   ///< memory of results
-  DiskCache* cache = nullptr;          ///< null: no disk cache
-  BakedParts* baked = nullptr;         ///< null: no baked stores
-  bool resident = false;               ///< also puts results on the backend's device, while it has free memory
-  bool sharp = false;                  ///< true: chunks have sharp features
-  MeasuringPool* measuring = nullptr;  ///< if set, ChunkSurface::measures is computed; `before` must have measures, too
+  std::pmr::memory_resource* memory;   ///< memory resource for results
+  DiskCache* cache = nullptr;          ///< disk cache; null: none
+  BakedParts* baked = nullptr;         ///< baked stores; null: none
+  bool resident = false;               ///< true: results are also stored on the backend's device, while it has free
+                                       ///< memory
+  bool sharp = false;                  ///< true: surfaces have sharp features
+  MeasuringPool* measuring = nullptr;  ///< if set, ChunkSurface::measures is computed; then `before` must have measures
+                                       ///< too
 
-  /// Searches the stored parts of a request in the cache and in stores, also on servers, for which it may wait. nullopt
-  /// if requests of this kind are not stored. Throws std::bad_alloc.
+  /// Loads the stored parts of a request from the cache and from stores, including stores on servers, for which it may
+  /// wait. nullopt if the parts of such requests are not stored. Throws std::bad_alloc.
   std::optional<FoundParts> find(const ChunkRequest& request, const EditSnapshot* edits) const;
 
-  /// Returns the surface that surfaceOf() makes of the result of meshChunks(): equal in every byte, wherever its parts
-  /// come from. Signs and anchors are returned only with the body. Cells are not derived for cached parts, so that
-  /// their notes may never be reported. Results of an inexact backend are not stored. May wait for the disk, but never
-  /// for a server. After an error nothing is stored. Errors: those of meshChunks. Throws std::bad_alloc.
+  /// Returns the surface of a chunk, equal in every byte to surfaceOf() the result of meshChunks(), wherever its parts
+  /// come from. Signs and anchors are returned only together with the body. Cells are not derived for stored parts, so
+  /// warnings about these cells may never be logged. Results of an inexact backend are not stored. May wait for the
+  /// disk, but never for a server. After an error nothing is stored. Errors: those of meshChunks. Throws
+  /// std::bad_alloc.
   Result<MeshedChunk> mesh(const ChunkRequest& request, const ChunkSurface* before,
                            const EditSnapshot* edits = nullptr) const;
-  /// Meshes many requests, with the same results as one by one. The backend gets all of them together; the job system
-  /// does the rest of the work. progress: as in meshChunks(), but called for groups of requests, starting from 0 in
-  /// each.
+  /// Processes several orders, with the same results as one by one. The backend meshes all of them together; the job
+  /// system does the remaining work. progress: as in meshChunks(), but if an error splits the orders into groups, it
+  /// restarts from 0 for each.
   std::vector<Result<MeshedChunk>> mesh(std::span<const MeshOrder> orders, const EditSnapshot* edits,
                                         const Progress& progress = {}) const;
 };

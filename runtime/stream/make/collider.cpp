@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kKeptFarther = 1.25;
 
-/// True if the triangle has an area. Twice the area vector, in 1/256 of a cell, is exact in 64 bits.
+/// True if the triangle's area is not 0. Twice the area vector, in (1/256 cell)^2, is computed exactly in 64 bits.
 bool hasArea(const Vertex& a, const Vertex& b, const Vertex& c) {
   const int64_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int64_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -30,7 +30,8 @@ uint64_t hashOf(const Collider& collider) {
   return hash.value();
 }
 
-/// Returns a hash of the input of a collider. If it has not changed, the chunk is not processed again.
+/// Returns a hash of the drawn parts from which a chunk's collider is made. If it is unchanged, the collider need not
+/// be made again.
 uint64_t hashOfParts(const DrawnChunk& chunk) {
   uint64_t hash = 0;
   for (size_t part = 0; part < chunk.surface->mesh.ranges.size(); ++part) {
@@ -41,7 +42,7 @@ uint64_t hashOfParts(const DrawnChunk& chunk) {
   return hash;
 }
 
-/// A set of chunks that finds whether another chunk overlaps one of them, at any level.
+/// A set of chunks that can tell whether another chunk, of any level, overlaps one of them.
 class Overlaps {
  public:
   explicit Overlaps(int top) : top_(top) {}
@@ -61,7 +62,7 @@ class Overlaps {
 
  private:
   int top_;
-  ChunkSet chunks_, around_;  ///< the chunks; and the chunks with all of their ancestors
+  ChunkSet chunks_, around_;  ///< chunks_: the chunks; around_: the chunks and all of their ancestors
 };
 
 }  // namespace
@@ -131,7 +132,8 @@ bool Colliders::update(const DrawnFrame& frame, const ViewerIndex& viewers, size
     given->second = {wanted.parts, made->hash, made->bytes()};
     if (!same) changes.push_back({chunk.key, std::move(made)});
   }
-  // Old colliders are kept until their replacements at another level exist, so that no body falls through the ground.
+  // Old colliders are kept until their replacements at another level exist, so that objects do not fall through the
+  // ground.
   Overlaps late(frame.tree.top());
   for (const Wanted& wanted : std::span(missing).subspan(count)) late.add(wanted.chunk->key);
   for (const auto& [key, given] : given_) {

@@ -1,5 +1,5 @@
 #pragma once
-// Colliders for a physics engine, made from the drawn parts of chunks; and the selection of chunks that have one.
+// Makes colliders for a physics engine from the drawn parts of chunks, and selects the chunks that need one.
 
 #include <map>
 #include <memory>
@@ -12,12 +12,12 @@
 
 namespace sgm {
 
-/// The triangles of a chunk's body and its drawn seams, with shared vertices. Immutable.
+/// A triangle mesh for collisions: a chunk's body and its drawn seams, with shared vertices. Immutable.
 struct Collider {
   ChunkKey key;
   ChunkGrid grid;
-  std::pmr::vector<float> positions;     ///< three per vertex, in metres from the grid's origin
-  std::pmr::vector<uint32_t> indices;    ///< three per triangle; without degenerate triangles
+  std::pmr::vector<float> positions;     ///< three per vertex, in metres, relative to the origin of the chunk
+  std::pmr::vector<uint32_t> indices;    ///< three per triangle; triangles without area are omitted
   std::pmr::vector<uint16_t> materials;  ///< one per triangle: the material of its first vertex
   uint64_t hash = 0;                     ///< hash of the three arrays: equal colliders of a chunk have equal hashes
 
@@ -28,33 +28,35 @@ struct Collider {
   }
 };
 
-/// Makes a collider. seams: the seams to include, bit (1 << Face); the surface must have them. Throws std::bad_alloc.
+/// Makes a collider from the body and seams of a chunk. seams: bit (1 << Face); the surface must have these seams.
+/// Throws std::bad_alloc.
 Collider colliderOf(const ChunkSurface& surface, uint8_t seams, std::pmr::memory_resource* memory);
 
 struct ColliderChange {
   ChunkKey key;
-  std::shared_ptr<const Collider> collider;  ///< null: the chunk no longer has a collider
+  std::shared_ptr<const Collider> collider;  ///< the new collider; null: the chunk no longer has one
 };
 
-/// Selects the drawn chunks that have a collider: those within a distance of a viewer, of any level. Not thread-safe.
+/// Keeps colliders for the drawn chunks within a distance of a viewer, at whatever level they are drawn. Not
+/// thread-safe.
 class Colliders {
  public:
-  /// distance: from a viewer, in units; 0: no chunk has a collider.
+  /// distance: maximum distance from a viewer in units; 0: no chunk has a collider.
   explicit Colliders(double distance) : distance_(distance) {}
 
-  /// Appends the next changes of colliders, with at most `most` new ones, nearest first. Returns true if no further
-  /// changes are left. If a new collider would equal the old one, there is no change. Chunks keep their collider until
-  /// they are a quarter of the distance farther away; chunks that are no longer drawn keep it until all of their
-  /// replacements have one. Throws std::bad_alloc without having changed anything.
+  /// Appends the next changes of colliders to `changes`, with at most `most` new colliders, nearest first. Returns true
+  /// if there are no further changes. A new collider that equals the old one is not a change. A chunk keeps its
+  /// collider until it is a quarter of the distance farther away; a chunk that is no longer drawn keeps its collider
+  /// until all of its replacements have one. If it throws std::bad_alloc, nothing is changed.
   bool update(const DrawnFrame& frame, const ViewerIndex& viewers, size_t most, std::pmr::memory_resource* memory,
               std::vector<ColliderChange>& changes);
 
-  size_t bytes() const { return bytes_; }  ///< total size of the current colliders
+  size_t bytes() const { return bytes_; }  ///< total size of the current colliders in bytes
 
  private:
   struct Given {
-    uint64_t parts = 0;  ///< combined hash of the chunk's drawn parts
-    uint64_t hash = 0;   ///< hash of the collider
+    uint64_t parts = 0;  ///< hash of the chunk's drawn parts
+    uint64_t hash = 0;   ///< hash of the resulting collider
     size_t bytes = 0;
   };
 

@@ -10,7 +10,7 @@ std::shared_ptr<const ChunkSurface> SurfacePool::add(ChunkSurface&& surface) {
   size_t peak = peak_bytes_.load(std::memory_order_relaxed);
   while (live > peak && !peak_bytes_.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
   }
-  // If allocating the control block fails, shared_ptr calls the deleter, so the node is not leaked.
+  // If the allocation of the control block throws, shared_ptr calls the deleter, so the node is not leaked.
   const std::shared_ptr<Node> owner(
       node, [pool = shared_from_this()](Node* unowned) { pool->letGo(unowned); }, allocator);
   return {owner, &owner->surface};

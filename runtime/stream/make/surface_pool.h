@@ -1,8 +1,8 @@
 #pragma once
-// Counts the bytes of existing surfaces, and frees surfaces outside of the engine's thread.
+// Counts the bytes of existing surfaces, and frees surfaces on jobs instead of the engine's thread.
 //
-// An engine releases a mesh at some point of its frame, where freeing hundreds of arrays would take noticeable time. So
-// the last owner only puts the surface on a list, and the world's jobs free the surfaces on the list.
+// An engine may release many meshes in one frame, and freeing hundreds of arrays would take noticeable time. So
+// releasing the last reference only adds the surface to a list, which the world's jobs empty.
 
 #include <atomic>
 #include <memory>
@@ -12,21 +12,22 @@
 
 namespace sgm {
 
-/// Thread-safe. Exists as long as its last surface.
+/// Owner of surfaces; destroyed together with its last surface. Thread-safe.
 class SurfacePool : public std::enable_shared_from_this<SurfacePool> {
  public:
   explicit SurfacePool(std::pmr::memory_resource* memory) : memory_(memory) {}
   ~SurfacePool() { collect(); }
 
-  /// Takes ownership of a surface. Throws std::bad_alloc.
+  /// Takes ownership of a surface, and returns a reference to it. Throws std::bad_alloc.
   std::shared_ptr<const ChunkSurface> add(ChunkSurface&& surface);
 
-  /// Frees the surfaces that have no owner any more. Returns their number.
+  /// Frees the surfaces without references, and returns their number.
   size_t collect();
-  /// Announces that collect() will not be called any more: from now on, the last owner frees a surface itself.
+  /// Call this when collect() will not be called any more: from now on, releasing the last reference frees a surface
+  /// immediately.
   void close();
 
-  /// total size of all surfaces that are not freed yet
+  /// total size in bytes of all surfaces that are not freed yet
   size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
   size_t peakBytes() const { return peak_bytes_.load(std::memory_order_relaxed); }
 

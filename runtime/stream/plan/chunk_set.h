@@ -1,6 +1,6 @@
 #pragma once
-// A hash set of chunk keys for the octree's split nodes. A plan searches it some hundred thousand times, for which
-// std::unordered_set took two thirds of the plan's time.
+// A hash set of chunk keys, for the split nodes of an octree. A plan looks up some hundred thousand keys; with
+// std::unordered_set, lookups took two thirds of the plan's time.
 
 #include <algorithm>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// Open addressing with linear probing, at most half full.
+/// A hash set with open addressing and linear probing. At most half of its slots are used.
 class ChunkSet {
  public:
   bool contains(const ChunkKey& key) const {
@@ -37,7 +37,7 @@ class ChunkSet {
     if (!contains(key)) return false;
     size_t hole = home(key);
     while (keys_[hole] != key) hole = next(hole);
-    // Moves back entries that were displaced past the hole, so that no search for them ends at the hole.
+    // Moves later entries of the probe sequence into the free slot, so that lookups do not end there too early.
     for (size_t i = next(hole); keys_[i].level != kFree; i = next(i)) {
       const size_t from_home = (i - home(keys_[i])) & (keys_.size() - 1);
       const size_t from_hole = (i - hole) & (keys_.size() - 1);
@@ -53,7 +53,7 @@ class ChunkSet {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
 
-  /// Returns all keys in any order; no result may depend on it.
+  /// Returns all keys in unspecified order; no result of a plan may depend on this order.
   std::vector<ChunkKey> unordered() const {
     std::vector<ChunkKey> found;
     found.reserve(size_);
@@ -85,7 +85,7 @@ class ChunkSet {
     }
   }
 
-  std::vector<ChunkKey> keys_;  ///< the size is a power of two
+  std::vector<ChunkKey> keys_;  ///< slots of the hash table; their number is a power of two
   size_t size_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The chunks that a world has meshed or is about to mesh. Used by the planner only; not thread-safe.
+// The chunks that a world has meshed or plans to mesh. Used only by the planner; not thread-safe.
 
 #include <memory>
 #include <optional>
@@ -11,20 +11,22 @@
 namespace sgm {
 
 struct KnownChunk {
-  std::shared_ptr<const ChunkSurface> surface;  ///< null if not meshed yet, or without triangles
-  std::unique_ptr<const VoidComponents> voids;  ///< voids of a level-0 chunk whose body is meshed; otherwise null
+  std::shared_ptr<const ChunkSurface> surface;  ///< surface of the chunk; null if it is not meshed yet, or has no
+                                                ///< triangles
+  std::unique_ptr<const VoidComponents> voids;  ///< void components of a level-0 chunk whose body is meshed; otherwise
+                                                ///< null
   bool body = false;                            ///< true if the body is meshed, with or without triangles
   uint8_t seams = 0;                            ///< mask of the meshed seams, with or without triangles
-  bool in_work = false;                         ///< true while a request for the chunk is being meshed
-  /// true if the last request failed; the chunk is not requested again until edits change it
+  bool in_work = false;                         ///< true while a request for the chunk is in progress
+  /// true if the last request failed; then the chunk is not requested again until an edit changes it
   bool failed = false;
   bool ever_drawn = false;
-  uint64_t edited = 0;  ///< number of the last state (WorldState::number) that changed the chunk
-  uint64_t wanted = 0;  ///< number of the last plan that used the chunk
+  uint64_t edited = 0;  ///< number of the last world state (WorldState::number) in which the chunk changed
+  uint64_t wanted = 0;  ///< number of the last plan that needed the chunk
   uint64_t queued = 0;  ///< number of the last plan that requested the chunk
-  size_t queue_at = 0;  ///< index of the request in that plan's queue
+  size_t queue_at = 0;  ///< index of the request in the queue of that plan
 
-  /// Returns the memory of the chunk, including its entry in the store.
+  /// Returns the memory of the chunk in bytes, including its entry in the store.
   size_t bytes() const {
     constexpr size_t kPlace = sizeof(ChunkKey) + 3 * sizeof(void*);
     return kPlace + sizeof *this + (surface != nullptr ? surface->bytes() : 0) +
@@ -44,15 +46,16 @@ class ChunkStore {
     if (is_new) record->second.edited = edits_;
     return record->second;
   }
-  /// Sets the state in which new records count as last edited: what they contained before they were removed is unknown.
+  /// Sets the state number at which new records count as last edited: an earlier record of the same chunk may have been
+  /// removed, so the state of its content is unknown.
   void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
-  /// Removes records that were not used by any plan from number `since` on, least recently used first, until `bytes`
+  /// Removes records that no plan from number `since` on has needed, least recently needed first, until `bytes` bytes
   /// are freed and at most `most` records are left, or no such record is left. Returns what was removed.
   struct Freed {
     size_t bytes = 0;
-    uint64_t never_drawn = 0;  ///< number of removed chunks with a body that was never drawn
+    uint64_t never_drawn = 0;  ///< number of removed chunks whose body was meshed but never drawn
   };
   Freed freeUnused(uint64_t since, size_t bytes, size_t most);
   void clear() { records_.clear(); }
@@ -64,7 +67,8 @@ class ChunkStore {
 
  private:
   uint64_t edits_ = 0;
-  std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< unordered: no result may depend on the order
+  std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< the records; unordered, so no result may depend
+                                                                    ///< on their order
 };
 
 }  // namespace sgm

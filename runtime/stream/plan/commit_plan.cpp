@@ -6,9 +6,10 @@ namespace sgm {
 
 namespace {
 
-/// Builds the tree from everything that is ready; then undoes the changes that break a rule or lack a seam. An undone
-/// change is not made again: committed nodes are restored and stay, uncommitted nodes are removed and do not return. So
-/// the loop ends, at the latest with the committed tree, which breaks no rule.
+/// First builds a tree from everything that is ready. Then undoes changes that violate a rule of the octree or lack a
+/// seam, until there are none. An undone change is not made again: nodes of the committed tree are restored and stay,
+/// other nodes are removed and do not return. So the loop ends, at the latest with the committed tree, which satisfies
+/// all rules.
 class StepSearch {
  public:
   StepSearch(const Octree& committed, const Octree& target, const Readiness& ready)
@@ -38,7 +39,7 @@ class StepSearch {
   bool isVirtual(const ChunkKey& node) const { return node.level > target_.top(); }
   bool canBeLeaf(const ChunkKey& node) const { return isVirtual(node) || ready_.body(node); }
 
-  /// True if the target's part in this node can be drawn, if necessary with ready coarser chunks as stand-ins.
+  /// True if the target tree can be drawn in this node now, if necessary with coarser chunks in place of unready ones.
   bool canPlace(const ChunkKey& node) const {
     if (committed_.isSplit(node) || canBeLeaf(node)) return true;
     return target_.isSplit(node) && canPlaceChildren(node);
@@ -51,8 +52,8 @@ class StepSearch {
     return true;
   }
 
-  /// Adds the target's part in this node to the plan. Precondition: canPlace(node), and all ancestors are split in the
-  /// plan.
+  /// Adds the part of the target tree in this node to the plan. Precondition: canPlace(node), and all ancestors are
+  /// split in the plan.
   void place(const ChunkKey& node) {
     Octree& tree = plan_.tree;
     if (target_.isSplit(node) && canPlaceChildren(node)) {
@@ -60,13 +61,13 @@ class StepSearch {
       for (int i = 0; node.level > 1 && i < 8; ++i) place(childOf(node, i));
       return;
     }
-    // If a leaf of the target is not ready, the drawn chunks stay. If a split of the target is incomplete, the drawn
-    // chunks stay as well, or a coarser chunk stands in.
+    // If a leaf of the target is not ready, the drawn chunks stay. If a node that the target splits is not completely
+    // ready, the drawn chunks stay as well, or a coarser chunk is drawn in its place.
     const bool keeps = target_.isSplit(node) ? committed_.isSplit(node) : !canBeLeaf(node);
     if (!keeps) tree.merge(node);
   }
 
-  /// Restores the committed content of the highest ancestor of this node that the plan has merged.
+  /// Restores the committed tree in the highest ancestor of this node that the plan has merged.
   void restore(ChunkKey node) {
     while (!isVirtual(node) && !plan_.tree.isSplit(parentOf(node))) node = parentOf(node);
     restoreBelow(node);
@@ -78,7 +79,7 @@ class StepSearch {
     for (int i = 0; node.level > 1 && i < 8; ++i) restoreBelow(childOf(node, i));
   }
 
-  /// Undoes a split that is not committed: the nearest ancestor that can be drawn becomes a leaf.
+  /// Undoes a split that the committed tree does not have: the nearest ancestor that can be drawn becomes a leaf.
   void coarsen(ChunkKey node) {
     while (!canBeLeaf(node)) node = parentOf(node);
     plan_.tree.merge(node);
@@ -116,7 +117,8 @@ class StepSearch {
       plan_.missing.push_back({leaf, missing});
       if (!committed_.isLeaf(leaf)) {
         undone = true;
-        // This leaf is not in the committed tree: it was created by a split above it, or by a merge of drawn chunks.
+        // This leaf is not a leaf of the committed tree: it results from a split above it, or from a merge of drawn
+        // chunks.
         if (committed_.isSplit(leaf)) {
           restore(leaf);
         } else {
@@ -124,7 +126,7 @@ class StepSearch {
         }
         continue;
       }
-      // This leaf is in the committed tree: the missing seam is due to a merge across one of its faces.
+      // This leaf is also a leaf of the committed tree, so a merge across one of its faces requires the missing seam.
       for (int face = 0; face < 6; ++face) {
         if (!(missing >> face & 1)) continue;
         ChunkKey neighbour = leaf;

@@ -1,5 +1,5 @@
 #pragma once
-// A committed frame (everything that is drawn at one time), and the changes between two frames.
+// A committed frame (all chunks that are drawn at one time), and the changes between two frames.
 
 #include <cstdint>
 #include <functional>
@@ -16,25 +16,26 @@ struct DrawnChunk {
   ChunkKey key;
   std::shared_ptr<const ChunkSurface> surface;
   uint8_t seams = 0;          ///< mask of the drawn seams: bit (1 << Face)
-  Neighbourhood coarser = 0;  ///< if a seam is drawn: the blocks of coarser chunks around it; otherwise 0
+  Neighbourhood coarser = 0;  ///< if a seam is drawn: the blocks around the chunk that belong to coarser chunks;
+                              ///< otherwise 0
 };
 
-/// Immutable. The union of its bodies and drawn seams is a closed surface.
+/// All chunks that are drawn at one time. Together, their bodies and drawn seams are a closed surface. Immutable.
 struct DrawnFrame {
   uint64_t number = 0;
-  uint64_t edits = 0;  ///< number of the state (WorldState) that the frame shows
+  uint64_t edits = 0;  ///< number of the world state (WorldState) that the frame shows
   Octree tree;
-  std::vector<DrawnChunk> drawn;  ///< sorted by key
+  std::vector<DrawnChunk> drawn;  ///< drawn chunks, sorted by key
 
   explicit DrawnFrame(Octree tree_in) : tree(std::move(tree_in)) {}
-  /// Returns the surface of a chunk; null if the chunk is not drawn or is empty.
+  /// Returns the surface of a chunk; null if the chunk is not drawn, or has no surface.
   std::shared_ptr<const ChunkSurface> find(const ChunkKey& key) const;
 };
 
-/// Returns the surface of a leaf with at least these seams; null if the leaf is empty.
+/// Returns the surface of a leaf, with at least these seams; null if the leaf has no surface.
 using SurfaceOfLeaf = std::function<std::shared_ptr<const ChunkSurface>(const ChunkKey&, uint8_t seams)>;
 
-/// Returns the frame that draws a tree.
+/// Returns the frame in which the leaves of an octree are drawn.
 DrawnFrame drawFrame(const Octree& tree, const SurfaceOfLeaf& surface);
 
 struct FrameChange {
@@ -48,12 +49,12 @@ struct FrameChange {
   DrawnChunk chunk;
 };
 
-/// Returns the changes from one frame to another, sorted by key. Applied together they keep the surface closed; a
-/// subset of them does not.
+/// Returns the changes from one frame to another, sorted by key. All of them must be applied together: applying only
+/// some would open the surface.
 std::vector<FrameChange> changesBetween(const DrawnFrame& from, const DrawnFrame& to);
 
-/// Returns the sums over the measures of a frame's surfaces, in the frame's order: the same bits regardless of where
-/// the surfaces came from.
+/// Adds up the measures of a frame's surfaces in the frame's order, so that the sums are bit-identical wherever the
+/// surfaces came from.
 measure::SurfaceSums measuresOf(const DrawnFrame& frame);
 
 }  // namespace sgm

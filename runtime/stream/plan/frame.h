@@ -1,5 +1,6 @@
 #pragma once
-// Lists the meshes of an octree: the body of each leaf, and its seams towards coarser leaves and outer virtual nodes.
+// Lists the meshes that draw an octree: the body of each leaf, and its seams towards coarser leaves and outer virtual
+// nodes.
 
 #include <vector>
 
@@ -8,8 +9,8 @@
 
 namespace sgm {
 
-/// Returns one request for each leaf, in the order of Octree::leaves(), with exactly the seams that are drawn. Together
-/// the meshes form a closed surface: outer faces are closed against the domain's own state (octree.h).
+/// Returns one request per leaf, in the order of Octree::leaves(), with exactly the seams that are drawn. Together the
+/// meshes form a closed surface: outer faces are closed against the domain's own state (solid or void; octree.h).
 std::vector<ChunkRequest> frameRequests(const Octree& tree);
 
 }  // namespace sgm

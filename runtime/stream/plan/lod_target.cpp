@@ -14,11 +14,12 @@ double edgeOf(int level, int32_t finest_cell) {
   return static_cast<double>(int64_t{kChunkCells} * finest_cell << level);
 }
 
-/// Splits the nodes that viewers need split. A node is tested only against the viewers near enough to need detail in
-/// it. They are searched once for each virtual node, and filtered from level to level.
+/// Splits the nodes that viewers need in finer detail. A node is tested only against viewers that are near enough to
+/// matter. These viewers are searched for each virtual node (the roots of the octree), and their list is filtered again
+/// at each finer level.
 class TargetBuilder {
  public:
-  /// near: the distance within which all levels are split; 0: each level has its own distance.
+  /// near: distance in units within which all levels are split; 0: each level has its own distance.
   TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, double near,
                 const ChunkSet* finest)
       : tree_(tree), viewers_(viewers), settings_(settings), near_(near), finest_(finest) {}
@@ -43,15 +44,15 @@ class TargetBuilder {
   };
 
   static int32_t placeOf(double p) {
-    // The clamp keeps the result within the world, which has at most 2^26 chunks on an axis.
+    // The result is clamped to the world, which has at most 2^26 chunks along an axis.
     return static_cast<int32_t>(std::clamp(std::floor(p), -67108864.0, 67108863.0));
   }
 
-  /// Finds the virtual nodes in which the viewer may need a split.
+  /// Appends the virtual nodes (roots of the octree) in which a viewer may need a split. number: index of the viewer.
   void listNear(uint32_t number, std::vector<NearViewer>& near_nodes) const {
     const LodViewer& viewer = viewers_[number];
     const double edge = edgeOf(settings_.top + 1, settings_.finest_cell);
-    // Nodes of lower levels may be needed at a larger distance than the virtual node itself.
+    // Nodes of the next finer level may have to be split at a larger distance than the virtual node (root) itself.
     const double far = std::max(splitDistance(settings_.top + 1), splitDistance(settings_.top)) * viewer.reach;
     std::array<int32_t, 3> first{}, last{};
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -77,7 +78,7 @@ class TargetBuilder {
     return distanceToChunk(of.position, node, settings_.finest_cell) < within * of.reach;
   }
 
-  /// True if one of the viewers in askers_, from index `first` on, needs the node split.
+  /// True if a viewer in askers_, from index `first` on, needs the node to be split.
   bool wanted(const ChunkKey& node, size_t first) const {
     if (node.level == 1 && finest_ != nullptr && !finest_->contains(node)) return false;
     const double within = splitDistance(node.level);
@@ -105,7 +106,8 @@ class TargetBuilder {
   const LodSettings& settings_;
   double near_;
   const ChunkSet* finest_;
-  std::vector<uint32_t> askers_;  ///< viewers of the current node, stacked after those of its ancestors
+  std::vector<uint32_t> askers_;  ///< stack of viewer indices: those of the current node lie above those of its
+                                  ///< ancestors
 };
 
 /// Builds the octree of lodTarget() (near = 0), or of nearTarget() with near as its distance.
@@ -116,7 +118,7 @@ Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings,
   return tree;
 }
 
-/// Returns an upper bound of the number of cubes with this edge that a ball meets.
+/// Returns an upper bound of the number of grid cubes with this edge that intersect a ball.
 double cubesInBall(double radius, double edge) {
   constexpr double kHalfDiagonal = 0.8660254;
   return 4.0 / 3.0 * 3.141592653589793 * std::pow(radius / edge + kHalfDiagonal, 3);

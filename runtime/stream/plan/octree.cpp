@@ -27,8 +27,8 @@ void appendLeaves(const Octree& tree, const ChunkKey& node, std::vector<ChunkKey
 
 Octree::Octree(int top, int32_t finest_cell) : top_(top), finest_cell_(finest_cell) {
   const int64_t edge = int64_t{kChunkCells} * finest_cell << (top + 1);
-  // The lowest coordinate of the world is a multiple of every power of two, but not of every edge; the division rounds
-  // towards 0, into the world.
+  // The world's lowest coordinate need not be a multiple of the edge. Division rounds towards 0, so the first virtual
+  // node lies inside the world.
   first_virtual_ = static_cast<int32_t>(std::numeric_limits<int32_t>::min() / edge);
   last_virtual_ = static_cast<int32_t>(std::numeric_limits<int32_t>::max() / edge - 1);
 }
@@ -100,7 +100,7 @@ void refineToRules(Octree& tree) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const ChunkKey& node : tree.splitNodes()) {
-      if (!tree.isSplit(node)) continue;  // an earlier step of this loop has merged the node
+      if (!tree.isSplit(node)) continue;  // already merged by an earlier iteration of this loop
       broken.clear();
       findBrokenRules(tree, node, broken);
       for (const BrokenRule& rule : broken) {

@@ -6,7 +6,7 @@ namespace sgm {
 
 namespace {
 
-/// Seconds: an upper bound of the rounding error that remains after the same values are added and subtracted.
+/// In seconds: an upper bound of the rounding error that remains after equal values are added and subtracted.
 constexpr double kRounding = 1e-9;
 
 }  // namespace
@@ -25,7 +25,7 @@ void PlanTurns::leave(Member& member) noexcept {
     if (member.plans_) expected_ -= member.expected_;
     --members_;
   }
-  // Another world may be waiting for the workers that became free.
+  // Another world may be waiting for the workers that have become free.
   startDue();
 }
 
@@ -47,7 +47,7 @@ void PlanTurns::startDue(Clock::time_point now) {
     next.is_free_ = busy_ < workers;
     ++busy_;
     expected_ += next.expected_;
-    // Copies are used, because the member may leave once the mutex is released.
+    // Copied, because the member may be removed once the mutex is unlocked.
     const std::shared_ptr<void> owner = next.owner;
     const auto begin = next.begin;
     lock.unlock();
@@ -61,7 +61,8 @@ void PlanTurns::pass(Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - passed_until_).count();
   if (seconds <= 0) return;
   passed_until_ = now;
-  // The credit also covers plans that have begun but are not run: no world waits for a plan that a job system delays.
+  // Elapsed time raises the credit at most to the expected cost of the running plans. The limit must include this cost:
+  // otherwise a plan that a job system delays would block the plans of other worlds.
   credit_ = std::min(std::max(expected_, credit_), credit_ + kTrickle * seconds);
 }
 
@@ -72,7 +73,7 @@ void PlanTurns::endPlan(Member& member, double seconds) noexcept {
   expected_ -= member.expected_;
   if (seconds <= 0) return;
   member.expected_ = seconds;
-  // A plan that ran on an idle worker reduces the credit to at most its own cost as debt, whatever the credit was.
+  // A plan that began because a worker was idle can make the credit negative by at most the plan's own cost.
   credit_ = member.is_free_ ? std::min(credit_, std::max(credit_ - seconds, -seconds)) : credit_ - seconds;
 }
 

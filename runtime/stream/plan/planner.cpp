@@ -8,26 +8,27 @@ namespace sgm {
 
 namespace {
 
-/// The share of the memory limit that surfaces may take before unused ones are dropped.
+/// The share of the memory limit above which surfaces that are not needed are removed.
 constexpr double kKeptShare = 0.6;
-/// Shares of the memory limit. If used surfaces take more than the first, detail is lowered; if they take less than the
-/// second, it is raised again. Their ratio exceeds the effect of one change, so that detail does not oscillate.
+/// Shares of the memory limit. If needed surfaces take more than kFullShare, detail is lowered; if they take less than
+/// kFreeShare, it is raised again. Their ratio exceeds the effect of one change, so that detail does not oscillate.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
-/// If drawn surfaces take more than this share, edits wait, since there is no memory for the old and the new version of
-/// chunks.
+/// If drawn surfaces take more than this share of the memory limit, edits are postponed, because memory does not
+/// suffice for both the old and the new version of chunks.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
-/// The smallest factor on the requested distances; it is lowered if a plan would have too many chunks.
+/// The minimum factor on the requested distances. The factor is lowered if a plan would have too many chunks.
 constexpr double kLeastReach = 1e-6;
-/// The share of the finest distance in which chunks count as near, if there are no colliders.
+/// The share of LodSettings::finest_distance within which chunks count as near a viewer, if there are no colliders.
 constexpr double kNearShare = 2.0 / 3;
-/// The number of plans between two counts of the wanted chunks, while memory is not scarce.
+/// The number of plans between two counts of the needed chunks, while there is enough memory.
 constexpr uint64_t kPlansToTally = 16;
-/// If more nodes than this are needed to stand on (half a second of work or more), a coarse picture of everything is
-/// meshed first. Its cells have level kPictureLevel, so that it has a 64th of the chunks.
+/// If the octree of the chunks that viewers need to stand on has more nodes than this (half a second of work or more),
+/// a coarse version of the whole view is meshed first. Its finest cells have level kPictureLevel, so that it has a 64th
+/// of the chunks.
 constexpr size_t kCrowd = 1024;
 constexpr int kPictureLevel = 3;
-/// Records are kept for twice as many chunks as are wanted, plus this number.
+/// The maximum number of records is twice the number of needed chunks plus this number.
 constexpr size_t kKeptBeside = 1024;
 /// The minimum number of plans between two changes of detail.
 constexpr uint64_t kPlansToSettle = 20;
@@ -103,7 +104,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
     KnownChunk& record = store_.at(leaf);
     if (edits_drawn_ == edits_.number) {
       record = knownOfDrawn(leaf);
-    } else {  // it is unknown which chunks are out of date, so all are marked
+    } else {  // marks all chunks as outdated, because it is unknown which ones are
       record.edited = edits_.number;
       record.ever_drawn = true;
     }
@@ -119,7 +120,7 @@ KnownChunk Planner::knownOfDrawn(const ChunkKey& leaf) const {
 }
 
 void Planner::learnApplied(uint64_t number) {
-  // The engine may take a step while a better one is being planned to replace it.
+  // The engine may have taken an earlier step that was offered, while a better one was planned to replace it.
   const auto taken =
       std::find_if(offered_.begin(), offered_.end(), [number](const auto& frame) { return frame->number == number; });
   if (taken == offered_.end()) return;
@@ -128,7 +129,7 @@ void Planner::learnApplied(uint64_t number) {
   offered_.clear();
   step_ = nullptr;
   changed_ = true;
-  // If the engine took the step late, some records of its chunks may have been dropped.
+  // If the engine took the step late, records of its chunks may have been removed in the meantime; they are restored.
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
     KnownChunk& record = store_.at(leaf);
     record.ever_drawn = true;
@@ -157,14 +158,16 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
       continue;
     }
     if (chunk.error) {
-      // Memory may become available, but any other error would recur, so the chunk counts as failed.
+      // The chunk is requested again if memory ran out or the request was cancelled. Any other error would recur, so
+      // the chunk counts as failed.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
       record.failed = true;
       ++stats_.failed;
       plan.failed.push_back({chunk.request.key, std::move(*chunk.error)});
       continue;
     }
-    // After a restart, two results may arrive for a chunk; the later one does not extend the earlier one.
+    // After a restart of the planner, two results may arrive for a chunk. The second one does not extend the current
+    // surface, so it is dropped.
     if (chunk.request.body ? record.body : record.surface != chunk.before) continue;
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
@@ -219,8 +222,8 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
     places.push_back(viewer.position);
     reach = std::max(reach, viewer.reach);
   }
-  // The radius is larger than the distance, because nodes are split as a whole: some chunks lie farther away than the
-  // node.
+  // The radius is larger than the finest distance, because nodes are split as a whole: some chunks of a node are
+  // farther away than the node's nearest point.
   const double radius = lod.finest_distance * reach + 2.0 * kChunkCells * lod.finest_cell;
   const VoidLookup voids = [this](const ChunkKey& key) -> const VoidComponents* {
     const KnownChunk* record = store_.find(key);
@@ -254,7 +257,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   const bool moves = tree && *tree != applied_->tree;
   if (!tree || (!moves && edits_drawn_ == edits_.number)) return nullptr;
   auto frame = std::make_shared<DrawnFrame>(drawFrame(*tree, [this](const ChunkKey& key, uint8_t seams) {
-    // Keeps the engine's surface if it contains everything that is drawn.
+    // The engine's current surface is reused if its content is unchanged and it has all drawn seams.
     std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
     const KnownChunk& record = *store_.find(key);
     const bool same = drawn != nullptr && (record.edited <= edits_drawn_ ||
@@ -265,7 +268,7 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   step->from = applied_->number;
   step->changes = changesBetween(*applied_, *frame);
   if (!moves && step->changes.empty()) {
-    edits_drawn_ = edits_.number;  // the edits changed nothing that is drawn
+    edits_drawn_ = edits_.number;  // the edits have changed nothing that is visible
     return nullptr;
   }
   frame->number = ++frames_;
@@ -298,7 +301,7 @@ void Planner::requestCoarse(std::vector<WorkItem>& queue) {
   for (const OctreeNode& node : target_nodes_) {
     if (node.key.level < kPictureLevel || drawn.isSplit(node.key) || drawn.isLeaf(node.key)) continue;
     any = true;
-    // Includes the seams towards the chunks that are drawn around it now.
+    // The request includes seams towards the chunks that are currently drawn around the node.
     request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::coarse, queue);
   }
   if (!any) return;
@@ -311,7 +314,7 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   if (near_nodes_.size() > kCrowd) requestCoarse(queue);
   for (const OctreeNode& node : near_nodes_) {
     if (node.split || drawn.isSplit(node.key)) continue;
-    // Standing in for finer chunks is only useful if the drawn chunk is coarser still.
+    // A chunk in place of finer ones is useful only if an even coarser chunk is drawn there now.
     const bool stands_in = target_.isSplit(node.key);
     if (!stands_in || !drawn.isLeaf(parentOf(node.key))) request(node.key, node.faces, Rank::near, queue);
   }
@@ -319,8 +322,8 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
     if (!node.split) {
       request(node.key, node.faces, Rank::other, queue);
     } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
-      // The tree changes from the drawn one to the target in steps. If a node will be split but is not even drawn as a
-      // whole, it stands in until everything in it is ready.
+      // The drawn tree changes to the target in steps. If the target splits a node that is not drawn yet, the node's
+      // own chunk is meshed too, and drawn until everything inside the node is ready.
       request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::other, queue);
     }
   }

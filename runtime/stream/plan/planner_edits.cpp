@@ -1,4 +1,5 @@
-// How a plan adopts edits, and how it returns to an earlier state.
+// The part of the planner that adopts changes of the world, and returns to an earlier state if a change cannot be
+// drawn.
 
 #include <algorithm>
 
@@ -8,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-/// Twice the share of memory that drawn chunks may take when postponed edits are first tried again.
+/// Twice the share of memory that drawn chunks may take when postponed edits are tried for the first time.
 constexpr double kFirstRoom = 0.5;
 
 }  // namespace
@@ -17,12 +18,13 @@ void Planner::takeUpEdits(PlanInput& input) {
   const bool fails = !outdated_.empty() && std::all_of(outdated_.begin(), outdated_.end(),
                                                        [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
   if (fails) {
-    // The world continues with the drawn state. The next edit, such as an undo, may remove the failure.
+    // The drawn state remains. The next edit, for example an undo, may remove the cause of the failure.
     edits_failed_ = edits_.number;
     giveEditsBack();
   }
   if (edits_drawn_ != edits_.number) return;
-  // The first frame includes edits once, so that they appear soon; edits in every plan would delay that frame forever.
+  // Before the first frame, edits are adopted once, so that they appear soon; adopting edits in every plan would delay
+  // the first frame forever.
   const bool is_first = applied_->tree.empty() && awaited_;
   if (is_first && edited_first_) return;
   if (input.edits.number == edits_.number) postponed_ = false;
@@ -63,8 +65,8 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
                          });
     if (!touched) return;
     if (record.body) ++stats_.outdated;
-    // The old voids stay until the new ones exist. A chunk with unknown voids leads nowhere (reachability.h), so
-    // otherwise the chunks behind it would lose the finest level for a while.
+    // record.voids stays until new voids are known. A chunk with unknown voids ends the search for reachable chunks
+    // (reachability.h), so otherwise the chunks behind it would lose level 0 for a while.
     record.surface = nullptr;
     record.body = record.failed = false;
     record.seams = 0;

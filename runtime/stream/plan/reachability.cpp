@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kUnreached = std::numeric_limits<uint32_t>::max();
 
-/// A flood fill from one viewer over the cube of chunks around its ball.
+/// A flood fill through voids from one viewer, over the cube of chunks around the ball of the search.
 class VoidFlood {
  public:
   VoidFlood(const std::array<double, 3>& viewer, double radius, int32_t finest_cell, const VoidLookup& voids)
@@ -54,18 +54,17 @@ class VoidFlood {
  private:
   struct Chunk {
     const VoidComponents* voids = nullptr;
-    uint64_t entered = 0;  ///< bit i is set if voids[i] was reached
+    uint64_t entered = 0;  ///< bit i is set if the search has entered the void voids[i]
     uint32_t steps = kUnreached;
     bool asked = false, inside = false;
   };
   struct Void {
     Int3 at;
     int number = 0;
-    uint32_t steps = 0;  ///< number of steps to this void; another void of the same chunk may be nearer
+    uint32_t steps = 0;  ///< number of steps to this void; another void of the same chunk may need fewer
   };
 
-  /// Returns the chunk coordinate of a position. The last chunk of the world is cut off by the world's end; it is
-  /// omitted, as is everything beyond.
+  /// Returns the chunk coordinate of a position, clamped to the chunks that lie completely inside the world.
   int32_t placeOf(double units) const {
     const double first = -std::floor(2147483648.0 / static_cast<double>(edge_));
     const double last = std::floor(2147483647.0 / static_cast<double>(edge_)) - 1;
@@ -73,7 +72,7 @@ class VoidFlood {
   }
   ChunkKey keyAt(Int3 at) const { return {0, {first_.x + at.x, first_.y + at.y, first_.z + at.z}}; }
 
-  /// Returns the chunk at these coordinates; null outside of the ball.
+  /// Returns the chunk at these coordinates; null if it is outside the ball.
   Chunk* chunkAt(Int3 place) {
     const Int3 at{place.x - first_.x, place.y - first_.y, place.z - first_.z};
     if (std::min({at.x, at.y, at.z}) < 0 || at.x >= size_.x || at.y >= size_.y || at.z >= size_.z) return nullptr;
@@ -139,7 +138,7 @@ class VoidFlood {
   const int64_t edge_;
   const VoidLookup& voids_;
   Int3 first_, size_, home_;
-  std::vector<Chunk> chunks_;  ///< z varies fastest, as in the order of keys
+  std::vector<Chunk> chunks_;  ///< chunks of the cube, in the order of their keys: z varies fastest
   std::vector<Void> open_;     ///< queue of the breadth-first search
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 // Finds the chunks around a viewer that can be reached through the void, and the number of steps to each. Chunks that
-// are near but behind rock need not be meshed first.
+// are near but behind rock are less urgent.
 
 #include <array>
 #include <functional>
@@ -16,28 +16,27 @@ namespace sgm {
 
 struct ReachedChunk {
   ChunkKey key;
-  uint32_t steps = 0;  ///< number of faces between chunks on the shortest path through the void from the nearest viewer
+  uint32_t steps = 0;  ///< number of chunk faces on the shortest path through the void from the nearest viewer
   friend auto operator<=>(const ReachedChunk&, const ReachedChunk&) = default;
 };
 
-/// Returns the voids of a level-0 chunk; null if they are unknown. Called at most once per chunk and viewer.
+/// Returns the void components of a level-0 chunk; null if they are unknown. Called at most once per chunk and viewer.
 using VoidLookup = std::function<const VoidComponents*(const ChunkKey&)>;
 
-/// Returns the level-0 chunks that lie within `radius` units of a viewer and can be reached from it through the void of
-/// the chunks within that radius, sorted by key. They include everything that is visible from the viewer within the
-/// radius, since a straight line of sight leaves neither the void nor the ball.
+/// Returns the level-0 chunks within `radius` units of a viewer that can be reached from the viewer through the void of
+/// chunks within that radius, sorted by key. They include everything that is visible from the viewer within the radius,
+/// since a straight line of sight leaves neither the void nor the ball.
 ///
-/// A chunk with unknown voids is reached from its neighbours, but leads nowhere until its voids are known. A known
-/// chunk is also reached if a reached void only touches it: the surface between them is drawn from both sides. If a
-/// viewer has only rock around it (voidsAround in mesh/void_components.h), all rock counts as void for it, so that no
-/// viewer is blind.
-///
-/// viewers: positions in units, finite. finest_cell: edge of a level-0 cell in units. Chunks that leave the world are
-/// omitted. A pure function. Work grows with the cube of radius / (32 * finest_cell) for each viewer.
+/// A chunk with unknown voids counts as reached from its neighbours, but the search does not continue through it. A
+/// known chunk is also reached if a reached void only touches it, because the surface between them is visible. If a
+/// viewer has only rock around it (voidsAround in mesh/void_components.h), rock counts as void for this viewer, so that
+/// it still gets chunks. viewers: positions in units, finite. finest_cell: edge of a level-0 cell in units. Chunks that
+/// extend beyond the world are omitted. A pure function. Its work grows with the cube of radius / (32 * finest_cell)
+/// for each viewer.
 std::vector<ReachedChunk> reachedChunks(std::span<const std::array<double, 3>> viewers, double radius,
                                         int32_t finest_cell, const VoidLookup& voids);
 
-/// Returns the number of steps to a chunk in a result of reachedChunks(); nullopt if it is not reached.
+/// Looks up the number of steps to a chunk in a result of reachedChunks(); nullopt if the chunk is not reached.
 std::optional<uint32_t> stepsTo(std::span<const ReachedChunk> reached, const ChunkKey& key);
 
 }  // namespace sgm

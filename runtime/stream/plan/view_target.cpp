@@ -9,7 +9,8 @@
 namespace sgm {
 namespace {
 
-constexpr double kOutOfSight = 4;  ///< factor on cell_angle for nodes outside of the picture
+constexpr double kOutOfSight = 4;  ///< factor on the maximum apparent cell size (cell_angle) for nodes outside of the
+                                   ///< picture
 
 class ViewTree {
  public:
@@ -45,7 +46,7 @@ class ViewTree {
     return true;
   }
 
-  /// True if the cone from the camera to the picture's corners meets the ball around the node.
+  /// True if the cone from the camera through the picture's corners intersects the bounding sphere of the node.
   bool inSight(const ChunkKey& node) const {
     const auto edge = static_cast<double>(edgeOf(node.level));
     double along = 0, square = 0, length = 0;

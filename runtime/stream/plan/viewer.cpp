@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kFastest = 10000.0 * kUnitsPerMetre;
 constexpr int kStepsOfChunk = 8;
-/// The factor by which a chunk straight behind a viewer is less urgent than one straight ahead.
+/// Factor on the urgency value of a chunk straight behind a viewer, compared with a chunk straight ahead (larger is
+/// less urgent).
 constexpr double kBehind = 3;
 
 bool finite(const Vector3& v) {
@@ -31,7 +32,7 @@ Vector3 ahead(const Viewer& viewer) {
   return p;
 }
 
-/// Returns the distance from the chunk's box to the path from `from` to `to`, sampled at three positions.
+/// Returns the distance from the chunk's box to the viewer's path, sampled at three positions between `from` and `to`.
 double distanceToWay(const Vector3& from, const Vector3& to, const ChunkKey& key, int32_t finest_cell) {
   double least = distanceToChunk(from, key, finest_cell);
   if (from == to) return least;
@@ -90,7 +91,7 @@ double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& se
   const Vector3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
                         (key.at.z + 0.5) * edge - viewer.position[2]};
   const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
-  // Near the viewer no chunk counts as behind, because the viewer may turn.
+  // Near the viewer, chunks behind it are not postponed, because the viewer may turn.
   if (lengths == 0 || away <= all_around) return waits;
   return waits * (1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2);
 }

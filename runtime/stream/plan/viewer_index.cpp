@@ -11,7 +11,7 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kMaxInLeaf = 4;
-/// Maximum depth of the hierarchy; halving kMaxViewers viewers needs less.
+/// Maximum depth of the hierarchy; kMaxViewers viewers need less.
 constexpr size_t kDeepest = 32;
 
 double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>& high, const ChunkKey& key,
@@ -26,7 +26,7 @@ double boxDistance(const std::array<double, 3>& low, const std::array<double, 3>
   return std::sqrt(squares);
 }
 
-/// A factor that keeps lower bounds valid despite rounding errors.
+/// Factor on lower bounds, which keeps them valid despite rounding errors.
 constexpr double kCareful = 1 - 1e-9;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// A spatial index of viewers. It finds a chunk's urgency and distance without a test of all viewers.
+// A spatial index of viewers, which finds a chunk's urgency and distance without testing all viewers.
 
 #include <array>
 #include <cstdint>
@@ -10,26 +10,28 @@
 
 namespace sgm {
 
-/// Immutable: a hierarchy of boxes around the viewers' paths during kLookAhead.
+/// A bounding-box hierarchy over the paths of viewers during kLookAhead. Immutable.
 class ViewerIndex {
  public:
   ViewerIndex(std::span<const Viewer> viewers, const LodSettings& settings, double all_around = 0);
 
   bool empty() const { return seen_.empty(); }
-  /// Returns the smallest urgencyFor() of all viewers; infinite without viewers.
+  /// Returns the minimum of urgencyFor() over all viewers; infinite without viewers.
   double urgency(const ChunkKey& key) const;
   /// Returns the distance in units from the chunk's box to the nearest viewer; infinite without viewers.
   double distance(const ChunkKey& key) const;
 
  private:
   struct Node {
-    std::array<double, 3> low, high;  ///< bounds of the viewers' paths
-    double reach;                     ///< the largest reach of the node's viewers
-    uint32_t first, count;            ///< range of the node's viewers
-    uint32_t second_child;            ///< index; the first child follows its parent; 0: the node is a leaf
+    std::array<double, 3> low, high;  ///< bounding box of the viewers' paths
+    double reach;                     ///< largest LodViewer::reach (factor on distances) of the viewers in the node
+    uint32_t first, count;            ///< range of the viewers in the node
+    uint32_t second_child;            ///< index of the second child; the first child directly follows its parent. 0:
+                                      ///< the node is a leaf
   };
   uint32_t build(uint32_t first, uint32_t count);
-  /// Returns the smallest `value` of any viewer. bound(node): returns a lower bound for the viewers in the node.
+  /// Returns the minimum of value(viewer) over all viewers. bound(node): a lower bound of the values in a node, which
+  /// allows to skip the node.
   template <class Bound, class Value>
   double least(const Bound& bound, const Value& value) const;
 

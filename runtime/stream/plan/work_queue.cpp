@@ -7,7 +7,7 @@ namespace sgm {
 
 bool WorkQueue::isReady(size_t at, Clock::time_point now) const {
   const WorkItem& item = items_[at];
-  // Edited chunks are not prefetched, because they must be drawn as soon as possible.
+  // Edited chunks do not wait for a prefetch, because they must be drawn as soon as possible.
   if (prefetchers_ == 0 || item.rank == WorkItem::Rank::edited) return true;
   if (item.look != nullptr && item.look->has_ended) return true;
   if (item.look == nullptr && isStalled(now)) return true;
@@ -53,7 +53,7 @@ WorkItem WorkQueue::remove(size_t at, Clock::time_point now) {
   WorkItem item = std::move(items_[at]);
   if (item.look != nullptr && !item.look->has_ended) item.look = nullptr;
   items_.erase(items_.begin() + static_cast<ptrdiff_t>(at));
-  // The removal makes room for one more request among those to prefetch.
+  // After the removal, one more request is among the kSight most urgent ones, so its waiting time starts.
   if (was_in_sight && items_.size() >= kSight) items_[items_.size() - kSight].in_sight_since = now;
   return item;
 }
